@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any, assert_never
+from typing import Literal, TypedDict, assert_never
 
 from gazelle.description.model import (
     Joint,
@@ -34,15 +34,48 @@ from gazelle.description.model.shape import (
 )
 from gazelle.geometry import IDENTITY_POSE, Pose
 from gazelle.sensors.picture_overlays import equivalent_box
+from gazelle.sensors.scene_types import (
+    BodyValue,
+    HeightmapFile,
+    InertialValue,
+    JointValue,
+    LightValue,
+    MaterialValue,
+    MeshFile,
+    ModelValue,
+    PolylineOutlines,
+    RoundGeometry,
+    SceneValue,
+    SensorValue,
+    WorldGeometry,
+)
 
 __all__ = ["geometry_value", "light_value", "pose_value", "robot_value", "world_value"]
 
-Value = dict[str, Any]
 # Of ixx, ixy, ixz, iyy, iyz, izz.
 _MOMENTS = (0, 3, 5)
+_ROUND: dict[type[Cylinder | Capsule | Cone], Literal["cylinder", "capsule", "cone"]] = {
+    Cylinder: "cylinder",
+    Capsule: "capsule",
+    Cone: "cone",
+}
 
 
-def world_value(world: World, *, version: int = 0) -> Value:
+class _ModelsValue(TypedDict):
+    models: list[ModelValue]
+    bodies: list[BodyValue[WorldGeometry]]
+    joints: list[JointValue]
+
+
+class _AxisValue(TypedDict):
+    axis: list[float]
+    lower: float | None
+    upper: float | None
+    effort: float | None
+    velocity: float | None
+
+
+def world_value(world: World, *, version: int = 0) -> SceneValue[WorldGeometry]:
     """Return the scene value of a world; bodies are in the order of the engine's link names.
 
     Args:
@@ -50,9 +83,11 @@ def world_value(world: World, *, version: int = 0) -> Value:
         version: counts changes.
     """
     lights = [light_value(light) for light in world.lights]
-    scene = world.scene
+    scene, parts = world.scene, _models_value(world.models)
     return {
-        **_models_value(world.models),
+        "models": parts["models"],
+        "bodies": parts["bodies"],
+        "joints": parts["joints"],
         "name": world.name,
         "kind": "world",
         "version": version,
@@ -67,16 +102,18 @@ def world_value(world: World, *, version: int = 0) -> Value:
     }
 
 
-def robot_value(model: Model) -> Value:
+def robot_value(model: Model) -> SceneValue[WorldGeometry]:
     """Return the scene value of one robot at joint position zero; poses are in its root link."""
     root = _root(model)
-    value = _models_value((model,))
+    parts = _models_value((model,))
     T_root_model = root.T_model_link.inverse() if root is not None else IDENTITY_POSE
-    for body, link in zip(value["bodies"], model.links, strict=True):
+    for body, link in zip(parts["bodies"], model.links, strict=True):
         body["name"] = link.name
         body["pose"] = pose_value(T_root_model @ link.T_model_link)
     return {
-        **value,
+        "models": parts["models"],
+        "bodies": parts["bodies"],
+        "joints": parts["joints"],
         "name": model.name,
         "kind": "robot",
         "version": 0,
@@ -95,7 +132,7 @@ def pose_value(pose: Pose) -> list[float]:
     return [*pose.position_m, *pose.quat_xyzw]
 
 
-def light_value(light: Light) -> Value:
+def light_value(light: Light) -> LightValue:
     """Return a light of the scene value."""
     return {
         "name": light.name,
@@ -111,7 +148,7 @@ def light_value(light: Light) -> Value:
     }
 
 
-def geometry_value(shape: Shape) -> Value:
+def geometry_value(shape: Shape) -> WorldGeometry:
     """Return a geometry; meshes and terrain carry their files."""
     match shape:
         case Box():
@@ -121,8 +158,11 @@ def geometry_value(shape: Shape) -> Value:
         case Ellipsoid():
             return {"type": "ellipsoid", "radii": list(shape.radii_m)}
         case Cylinder() | Capsule() | Cone():
-            kind = type(shape).__name__.lower()
-            return {"type": kind, "radius": shape.radius_m, "length": shape.length_m}
+            kind = _ROUND[type(shape)]
+            made: RoundGeometry = {
+                "type": kind, "radius": shape.radius_m, "length": shape.length_m,
+            }  # fmt: skip
+            return made
         case Plane():
             return {"type": "plane", "normal": list(shape.normal), "size": list(shape.size_m)}
         case MeshShape() | Heightmap() | Polyline():
@@ -131,7 +171,9 @@ def geometry_value(shape: Shape) -> Value:
             assert_never(shape)
 
 
-def _file_geometry(shape: MeshShape | Heightmap | Polyline) -> Value:
+def _file_geometry(
+    shape: MeshShape | Heightmap | Polyline,
+) -> MeshFile | HeightmapFile | PolylineOutlines:
     match shape:
         case MeshShape():
             return {
@@ -157,8 +199,8 @@ def _file_geometry(shape: MeshShape | Heightmap | Polyline) -> Value:
             assert_never(shape)
 
 
-def _models_value(models: Sequence[Model]) -> Value:
-    value: Value = {"models": [], "bodies": [], "joints": []}
+def _models_value(models: Sequence[Model]) -> _ModelsValue:
+    value: _ModelsValue = {"models": [], "bodies": [], "joints": []}
     for index, model in enumerate(models):
         first_body, first_joint = len(value["bodies"]), len(value["joints"])
         places = {link.name: first_body + place for place, link in enumerate(model.links)}
@@ -176,7 +218,7 @@ def _models_value(models: Sequence[Model]) -> Value:
     return value
 
 
-def _body(link: Link, model: Model, index: int) -> Value:
+def _body(link: Link, model: Model, index: int) -> BodyValue[WorldGeometry]:
     return {
         "name": f"{model.name}::{link.name}",
         "model": index,
@@ -210,7 +252,7 @@ def _body(link: Link, model: Model, index: int) -> Value:
     }
 
 
-def _inertial(link: Link) -> Value | None:
+def _inertial(link: Link) -> InertialValue | None:
     inertial = link.inertial
     if inertial is None:
         return None
@@ -227,7 +269,7 @@ def _inertial(link: Link) -> Value | None:
     }
 
 
-def _sensor(sensor: Sensor) -> Value:
+def _sensor(sensor: Sensor) -> SensorValue:
     return {
         "name": sensor.name,
         "type": sensor.type,
@@ -236,7 +278,7 @@ def _sensor(sensor: Sensor) -> Value:
     }
 
 
-def _material(material: Material | None) -> Value | None:
+def _material(material: Material | None) -> MaterialValue | None:
     if material is None:
         return None
     return {
@@ -251,7 +293,7 @@ def _material(material: Material | None) -> Value | None:
     }
 
 
-def _joints(model: Model, places: dict[str, int]) -> Iterable[Value]:
+def _joints(model: Model, places: dict[str, int]) -> Iterable[JointValue]:
     links = {link.name: link for link in model.links}
     for joint in model.joints:
         child = links.get(joint.child)
@@ -271,7 +313,7 @@ def _joints(model: Model, places: dict[str, int]) -> Iterable[Value]:
         }
 
 
-def _axis(joint: Joint) -> Value:
+def _axis(joint: Joint) -> _AxisValue:
     axis = joint.axis
     if axis is None:
         return {

@@ -1,34 +1,19 @@
 /** The displays of one view, its fixed frame, and how both are saved. */
+import type { RvizDisplay, RvizTool } from '../generated/messages';
 import { isObject, textOf, type Json, type JsonObject } from '../json';
 import { Display, type Stage } from './display';
 import { displayKind } from './registry';
 import { parseColour } from '../model/materials';
 import * as THREE from 'three';
 
-/** A display as `rviz.open` and layouts write it. */
-export interface DisplayValue {
-  class: string;
-  name: string;
-  enabled: boolean;
-  topic?: string;
-  properties: JsonObject;
-}
-
-/** A tool as `rviz.open` and layouts write it. */
-export interface ToolValue {
-  class: string;
-  topic: string;
-  properties: JsonObject;
-}
-
 /** The list behind the Displays panel. */
 export class DisplayList {
   readonly displays: Display[] = [];
   backgroundColour = '48; 48; 48';
   /** What a `.rviz` file says of tools. */
-  tools: readonly ToolValue[] = [];
+  tools: readonly RvizTool[] = [];
   /** Of classes that are not known yet. */
-  private waiting: readonly DisplayValue[] = [];
+  private waiting: readonly RvizDisplay[] = [];
   private readonly listeners = new Set<(what: 'list' | 'status' | 'properties', display?: Display) => void>();
 
   constructor(readonly stage: Stage) {
@@ -86,11 +71,11 @@ export class DisplayList {
   load(value: JsonObject): boolean {
     [...this.displays].forEach((display) => this.remove(display));
     if (textOf(value, 'fixed_frame')) this.setFixedFrame(textOf(value, 'fixed_frame'));
-    this.tools = (Array.isArray(value['tools']) ? value['tools'] : []).filter(isObject) as unknown as ToolValue[];
+    this.tools = (Array.isArray(value['tools']) ? value['tools'] : []).filter(isObject) as unknown as RvizTool[];
     // What a world file says of its scene stays.
     if (textOf(value, 'background') && !this.stage.view.lighting.ofWorld) this.setBackground(textOf(value, 'background'));
     const displays = Array.isArray(value['displays']) ? value['displays'] : [];
-    this.waiting = this.addAll(displays.filter(isObject) as unknown as DisplayValue[]);
+    this.waiting = this.addAll(displays.filter(isObject) as unknown as RvizDisplay[]);
     this.tell('list');
     return this.waiting.length > 0;
   }
@@ -104,7 +89,7 @@ export class DisplayList {
   }
 
   /** Add displays; returns those of classes that are not known. */
-  private addAll(values: readonly DisplayValue[]): DisplayValue[] {
+  private addAll(values: readonly RvizDisplay[]): RvizDisplay[] {
     return values.filter((given) => {
       const topic: JsonObject = given.topic ? { Topic: given.topic } : {};
       const display = this.add(given.class, { ...given.properties, ...topic }, given.name || undefined);

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { arrowGeometry, joined, shared } from '../model/geometry';
 import { matrixOf } from '../model/assembly';
-import type { JointValue, SceneValue } from '../model/scene_value';
+import type { JointValue, PageScene } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { asCallError } from '../errors';
 import type { Drawing, Drawer, Site } from './display';
@@ -69,7 +69,7 @@ class EffortDrawer implements Drawer {
     const isTopic = graph.value.topics.some((each) => each.name === topic);
     const source: JsonObject = isTopic ? { topic } : { parameter: props.text('Robot Description') };
     try {
-      const scene = (await connection.call('robot.get', { ...source, tf_prefix: prefix })) as unknown as SceneValue;
+      const scene = (await connection.call('robot.get', { ...source, tf_prefix: prefix })) as unknown as PageScene;
       const moving = scene.joints.filter((joint) => joint.type !== 'fixed');
       this.joints = new Map(moving.map((joint) => [joint.name, { joint, frame: (prefix ? `${prefix}/` : '') + scene.bodies[joint.child].link }]));
       moving.forEach((joint) => offer(flag(`Joints/${joint.name}`, true, `The effort of ${joint.name}.`)));

@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import { loadMesh } from '../model/assets';
 import { arrowGeometry, shared, unit } from '../model/geometry';
 import { material } from '../model/materials';
-import type { MeshPart } from '../model/scene_value';
+import type { MeshPartValue } from '../generated/messages';
 import { freeLabel, label } from '../scene/labels';
 import { strip, WideLines } from './lines';
 import { poseMatrix, type PoseMessage, type XYZ } from './message';
@@ -31,7 +31,7 @@ export interface MarkerMessage {
   text: string;
   mesh_resource: string;
   mesh_use_embedded_materials: boolean;
-  mesh?: MeshPart[];
+  mesh?: MeshPartValue[];
 }
 
 export const ARROW = 0, CUBE = 1, SPHERE = 2, CYLINDER = 3, LINE_STRIP = 4, LINE_LIST = 5,

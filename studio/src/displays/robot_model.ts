@@ -1,7 +1,8 @@
 /** RobotModel: a robot_description drawn at its tf frames. */
 import { asCallError } from '../errors';
 import { Assembly } from '../model/assembly';
-import type { SceneValue } from '../model/scene_value';
+import type { PageScene } from '../generated/messages';
+import type { Surface } from '../model/materials';
 import { place } from '../model/shapes';
 import type { Drawing, Drawer, Site } from './display';
 import { flag, num, text } from './properties';
@@ -27,10 +28,10 @@ export const ROBOT_MODEL: Drawing = {
 };
 
 /** RViz knows no ambient colours of Gazebo's materials. */
-function plainAmbient(value: SceneValue): SceneValue {
+function plainAmbient(value: PageScene): PageScene {
   for (const shape of value.bodies.flatMap((body) => body.visuals)) {
     const parts = shape.geometry.type === 'mesh' ? shape.geometry.parts.map((part) => part.material) : [];
-    for (const paint of [shape.material, ...parts]) delete paint?.ambient;
+    for (const paint of [shape.material, ...parts]) delete (paint as Surface | null)?.ambient;
   }
   return value;
 }
@@ -106,7 +107,7 @@ class RobotDrawer implements Drawer {
     try {
       const value = await this.site.connection.call('robot.get', { [what]: name, tf_prefix: prefix });
       if (ask !== this.asked) return;
-      this.adopt(value as unknown as SceneValue, prefix);
+      this.adopt(value as unknown as PageScene, prefix);
     } catch (problem) {
       if (ask !== this.asked) return;
       const error = asCallError(problem);
@@ -115,7 +116,7 @@ class RobotDrawer implements Drawer {
     }
   }
 
-  private adopt(value: SceneValue, prefix: string): void {
+  private adopt(value: PageScene, prefix: string): void {
     this.assembly.set(plainAmbient(value));
     const join = prefix ? `${prefix.replace(/^\/|\/$/g, '')}/` : '';
     this.frameNames = value.bodies.map((body) => join + body.link);
@@ -128,7 +129,7 @@ class RobotDrawer implements Drawer {
     this.update();
   }
 
-  private missing(value: SceneValue): void {
+  private missing(value: PageScene): void {
     const lost = value.bodies.flatMap((body) => body.visuals).map((shape) => shape.geometry);
     const first = lost.find((geometry) => geometry.type === 'missing');
     if (first?.type === 'missing') this.site.status('Meshes', 'error', `Could not load resource [${first.uri}]: ${first.reason}`);

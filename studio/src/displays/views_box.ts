@@ -4,7 +4,7 @@ import { VIEW_KINDS, type ViewKind, type ViewState } from '../scene/cameras';
 import type { Frames } from '../scene/frames';
 import type { View } from '../scene/view';
 import { matrixOf } from '../model/assembly';
-import type { Pose } from '../model/scene_value';
+import type { Pose } from '../model/pose';
 import { nameInput } from '../widgets/name_input';
 
 type Field = 'distance' | 'yaw' | 'pitch' | 'scale' | 'angle' | 'x' | 'y' | 'z';

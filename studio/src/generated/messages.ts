@@ -122,6 +122,36 @@ export interface LogLine {
   line: number;
 }
 
+/** A constant of a definition. */
+export interface TypeConstant {
+  name: string;
+  type: string;
+  value: Json;
+}
+
+/** A field of a definition. */
+export interface TypeField {
+  name: string;
+  type: string;
+  /** how many of them; `[]` for any number, null for one. */
+  array: number | string | null;
+  /** null where the definition has none. */
+  default: Json;
+  /** those of a message inside. */
+  fields?: TypeField[];
+  constants?: TypeConstant[];
+}
+
+/** A definition; the fields of a service and of an action are its parts. */
+export interface TypeValue {
+  type: string;
+  /** `msg`, `srv` or `action`. */
+  kind: string;
+  text: string;
+  fields: TypeField[];
+  constants?: TypeConstant[];
+}
+
 /** A frame of the stream `tf`, in the order of the poses. */
 export interface TfFrame {
   name: string;
@@ -147,6 +177,56 @@ export interface FrameRow {
   static: boolean;
 }
 
+/** A parameter of ROS 1. */
+export interface ParameterRow {
+  name: string;
+  value: Json;
+}
+
+/** What a node of ROS 2 says of a parameter. */
+export interface ParameterDescriptor {
+  description: string;
+  read_only: boolean;
+  constraints: string;
+  /** with `from_value`, `to_value` and `step`, or null. */
+  range: Json;
+}
+
+/** A parameter of a node of ROS 2. */
+export interface NodeParameter {
+  name: string;
+  value: Json;
+  type: string;
+  descriptor: ParameterDescriptor;
+}
+
+/** A parameter of dynamic_reconfigure. */
+export interface DynamicParameterRow {
+  name: string;
+  type: string;
+  min: Json;
+  max: Json;
+  default: Json;
+  value: Json;
+  /** an object with `enum`, or null. */
+  edit_method: Json;
+  description: string;
+}
+
+/** A group of parameters. */
+export interface DynamicGroupRow {
+  name: string;
+  id: number;
+  parent: number;
+  type: string;
+  parameters: DynamicParameterRow[];
+}
+
+/** What a node lets be changed. */
+export interface Reconfigurable {
+  groups: DynamicGroupRow[];
+}
+
 /** What the page knows of a display before it draws one. */
 export interface DisplayRow {
   name: string;
@@ -166,3 +246,447 @@ export interface AddedDisplays {
   displays: DisplayRow[];
   problems: string[];
 }
+
+export interface RvizDisplay {
+  class: string;
+  name: string;
+  enabled: boolean;
+  topic?: string;
+  properties: Record<string, Json>;
+}
+
+export interface RvizTool {
+  class: string;
+  topic: string;
+  properties: Record<string, Json>;
+}
+
+/** Where a file looks from, metres and rad; what it does not say is not there. */
+export interface RvizView {
+  kind?: string;
+  distance?: number;
+  yaw?: number;
+  pitch?: number;
+  /** pixels per metre. */
+  scale?: number;
+  angle?: number;
+  focal?: [number, number, number];
+}
+
+/** What a `.rviz` file says. */
+export interface RvizFile {
+  fixed_frame: string;
+  background: string;
+  displays: RvizDisplay[];
+  view: RvizView;
+  tools: RvizTool[];
+  panels: string[];
+  /** its parts that mean nothing here. */
+  unknown: string[];
+}
+
+/** How a surface looks; colours are r, g, b, a from 0 to 1. */
+export interface MaterialValue {
+  name?: string;
+  diffuse: number[];
+  ambient: number[];
+  specular: number[];
+  emissive: number[];
+  shininess: number;
+  /** a file where it is made, a key on the page. */
+  texture: string | null;
+  /** how often the texture repeats. */
+  texture_scale?: [number, number];
+}
+
+/** A box. */
+export interface BoxGeometry {
+  type: "box";
+  size: [number, number, number];
+}
+
+/** A ball. */
+export interface SphereGeometry {
+  type: "sphere";
+  radius: number;
+}
+
+/** What is round about z. */
+export interface RoundGeometry {
+  type: "cylinder" | "capsule" | "cone";
+  radius: number;
+  length: number;
+}
+
+/** An ellipsoid. */
+export interface EllipsoidGeometry {
+  type: "ellipsoid";
+  radii: [number, number, number];
+}
+
+/** A plane, drawn so large. */
+export interface PlaneGeometry {
+  type: "plane";
+  normal: [number, number, number];
+  size: [number, number];
+}
+
+/** A part of a mesh, which the page loads by its key. */
+export interface MeshPartValue {
+  key: string;
+  material: MaterialValue | null;
+}
+
+/** A mesh. */
+export interface MeshGeometry {
+  type: "mesh";
+  parts: MeshPartValue[];
+  scale: [number, number, number];
+}
+
+/** A mesh that cannot be read; it is drawn as a red box. */
+export interface MissingGeometry {
+  type: "missing";
+  uri: string;
+  reason: string;
+}
+
+/** A visual or a collision, at a pose in its body. */
+export interface ShapeValue<GeometryT> {
+  name: string;
+  pose: [number, number, number, number, number, number, number];
+  geometry: GeometryT;
+  material: MaterialValue | null;
+  cast_shadows: boolean;
+  /** 0 to 1. */
+  transparency: number;
+}
+
+/** Mass and inertia. */
+export interface InertialValue {
+  mass_kg: number;
+  /** of the centre of mass. */
+  pose: [number, number, number, number, number, number, number];
+  /** ixx, iyy, izz. */
+  diagonal: [number, number, number];
+  /** size of the box of equal mass and inertia; zeros where no box has them. */
+  box: [number, number, number];
+  /** where that box is. */
+  box_pose: [number, number, number, number, number, number, number];
+  /** of a link whose file gives none. */
+  estimated: boolean;
+}
+
+/** A sensor, at a pose in its body. */
+export interface SensorValue {
+  name: string;
+  type: string;
+  pose: [number, number, number, number, number, number, number];
+  rate_hz: number;
+}
+
+/** A light. */
+export interface LightValue {
+  name: string;
+  type: string;
+  pose: [number, number, number, number, number, number, number];
+  direction: [number, number, number];
+  diffuse: number[];
+  specular: number[];
+  intensity: number;
+  range_m: number;
+  cast_shadows: boolean;
+  spot_outer_angle_rad: number;
+}
+
+/** A link. */
+export interface BodyValue<GeometryT> {
+  /** `model::link` in a world. */
+  name: string;
+  /** its place among the models. */
+  model: number;
+  link: string;
+  /** in the world; of a robot in its root link. */
+  pose: [number, number, number, number, number, number, number];
+  inertial: InertialValue | null;
+  visuals: ShapeValue<GeometryT>[];
+  collisions: ShapeValue<GeometryT>[];
+  sensors: SensorValue[];
+  lights: LightValue[];
+  /** of a robot: the link's frame. */
+  frame?: string;
+}
+
+/** A joint that follows another one. */
+export interface MimicValue {
+  joint: string;
+  multiplier: number;
+  offset: number;
+}
+
+/** A joint. */
+export interface JointValue {
+  name: string;
+  type: string;
+  /** place of the body; -1 for the world. */
+  parent: number;
+  /** place of the body. */
+  child: number;
+  /** in the child. */
+  pose: [number, number, number, number, number, number, number];
+  axis: [number, number, number];
+  /** null where there is no limit. */
+  lower: number | null;
+  upper: number | null;
+  effort: number | null;
+  velocity: number | null;
+  mimic: MimicValue | null;
+}
+
+/** A model. */
+export interface ModelValue {
+  name: string;
+  static: boolean;
+  /** their places. */
+  bodies: number[];
+  /** their places. */
+  joints: number[];
+  pose: [number, number, number, number, number, number, number];
+}
+
+/** A world or a robot. */
+export interface SceneValue<GeometryT> {
+  name: string;
+  /** counts changes. */
+  version: number;
+  kind: "world" | "robot";
+  models: ModelValue[];
+  bodies: BodyValue<GeometryT>[];
+  joints: JointValue[];
+  lights: LightValue[];
+  sky: boolean;
+  ambient: number[];
+  background: number[];
+  shadows: boolean;
+  grid: boolean;
+  /** where the world file has the window's camera: it looks along +x, z up. */
+  view: [number, number, number, number, number, number, number] | null;
+  /** of a world, m/s². */
+  gravity?: number[];
+  /** of a running world: the joints that the stream `world.joints` tells of. */
+  moving?: string[];
+  /** about a robot's text: `level`, `code` and `text` of each. */
+  findings?: Record<string, Json>[];
+}
+
+/** How a world's time goes. */
+export interface WorldStats {
+  sim_s: number;
+  real_s: number;
+  /** simulated per real time; 0 while it is paused. */
+  rtf: number;
+  /** null for as fast as it goes. */
+  wanted_rtf: number | null;
+  paused: boolean;
+  /** a step of the physics. */
+  step_s: number;
+  iterations: number;
+  /** of the scene. */
+  version: number;
+}
+
+/** A joint of the stream `world.joints`; rad or m. */
+export interface WorldJoint {
+  name: string;
+  type: string;
+  position: number;
+  velocity: number;
+  effort: number;
+  /** null where there is no limit. */
+  lower: number | null;
+  upper: number | null;
+}
+
+/** A line of the inspector. */
+export interface PropertyRow {
+  /** heading that it stands below; ``collision/NAME`` for a collision's. */
+  group: string;
+  /** the SDF word. */
+  name: string;
+  /** number, bool or text; None for what is unlimited or not given. */
+  value: Json;
+  /** SI, empty for none. */
+  unit: string;
+  /** `set_property` takes it. */
+  editable: boolean;
+}
+
+/** A model of the model paths. */
+export interface ModelEntry {
+  name: string;
+  title: string;
+  description: string;
+  /** its folder. */
+  path: string;
+  /** where its picture is. */
+  thumbnail: string;
+}
+
+/** A variable of a joint, rad or m; null where there is no limit. */
+export interface MotionVariable {
+  name: string;
+  lower: number | null;
+  upper: number | null;
+}
+
+/** A joint that can move. */
+export interface MotionJoint {
+  name: string;
+  kind: string;
+  child: string;
+  variables: MotionVariable[];
+}
+
+/** A variable that follows another one. */
+export interface MotionMimic {
+  variable: string;
+  leader: string;
+  factor: number;
+  offset: number;
+}
+
+/** An end effector: the link that carries it, and links of its own. */
+export interface MotionEffector {
+  name: string;
+  link: string;
+  links: string[];
+}
+
+/** A planning group. */
+export interface MotionGroup {
+  name: string;
+  variables: string[];
+  /** joints that are planned for. */
+  active: string[];
+  links: string[];
+  tips: string[];
+  effectors: MotionEffector[];
+  /** positions of its named states. */
+  states: Record<string, Record<string, number>>;
+  is_chain: boolean;
+}
+
+/** A robot as its move_group knows it. */
+export interface MotionRobot {
+  name: string;
+  /** the planning frame. */
+  frame: string;
+  root: string;
+  velocity_scaling: number;
+  acceleration_scaling: number;
+  default_pipeline: string;
+  defaults: Record<string, number>;
+  mimics: MotionMimic[];
+  joints: MotionJoint[];
+  groups: MotionGroup[];
+  node: string;
+  /** what names of this move_group begin with: `/`. */
+  prefix: string;
+  scene: SceneValue<BoxGeometry | SphereGeometry | RoundGeometry | EllipsoidGeometry | PlaneGeometry | MeshGeometry | MissingGeometry>;
+}
+
+/** A mesh as `shape_msgs/Mesh` has it, metres. */
+export interface MotionMesh {
+  vertices: number[][];
+  triangles: number[][];
+}
+
+/** A planning scene; its objects are there at first and after every change of them. */
+export interface PlanningScene {
+  positions: Record<string, number>;
+  /** `moveit_msgs/CollisionObject` each. */
+  objects?: Json[];
+  /** `moveit_msgs/AttachedCollisionObject` each. */
+  attached?: Json[];
+}
+
+/** A topic of a bag. */
+export interface BagTopic {
+  name: string;
+  type: string;
+  count: number;
+}
+
+/** A bag that is being recorded. */
+export interface RecorderState {
+  path: string;
+  seconds: number;
+  messages: number;
+  /** messages that came faster than they were written. */
+  dropped: number;
+  bytes: number;
+  topics: string[];
+}
+
+/** A bag that is open; seconds of its stamps. */
+export interface PlayerState {
+  path: string;
+  playing: boolean;
+  rate: number;
+  begin_s: number;
+  end_s: number;
+  time_s: number;
+  topics: BagTopic[];
+  /** what could not be published. */
+  problems: string[];
+}
+
+/** What is recorded and what is played. */
+export interface BagState {
+  recorder: RecorderState | null;
+  player: PlayerState | null;
+}
+
+/** A panel that could be opened. */
+export interface PanelEntry {
+  name: string;
+  kind: "panel" | "rqt";
+  title: string;
+  group: string;
+  about: string;
+  /** why it cannot, empty when it can. */
+  problem: string;
+}
+
+/** A panel that is open. */
+export interface PanelInfo {
+  title: string;
+  file: string;
+  /** where its ES module is. */
+  module: string | null;
+}
+
+/** What happened in a panel; `value` by `what`: docs/studio_protocol.md. */
+export interface PanelEvent {
+  what: string;
+  name: string;
+  value: Json;
+}
+
+/** Everything that a panel shows. */
+export interface PanelState {
+  /** its parts: widgets, and rows and columns with `children`. */
+  layout: Record<string, Json>[];
+  /** by the widgets' names. */
+  values: Record<string, Json>;
+  /** of its plots: `[t, value…]` each. */
+  points: Record<string, Json[]>;
+}
+
+export type PageBody = BodyValue<BoxGeometry | SphereGeometry | RoundGeometry | EllipsoidGeometry | PlaneGeometry | MeshGeometry | MissingGeometry>;
+
+export type PageGeometry = BoxGeometry | SphereGeometry | RoundGeometry | EllipsoidGeometry | PlaneGeometry | MeshGeometry | MissingGeometry;
+
+export type PageScene = SceneValue<BoxGeometry | SphereGeometry | RoundGeometry | EllipsoidGeometry | PlaneGeometry | MeshGeometry | MissingGeometry>;
+
+export type PageShape = ShapeValue<BoxGeometry | SphereGeometry | RoundGeometry | EllipsoidGeometry | PlaneGeometry | MeshGeometry | MissingGeometry>;

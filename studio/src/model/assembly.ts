@@ -2,7 +2,8 @@
 import * as THREE from 'three';
 import { BodyNode } from './body';
 import { ModeSet, type Mode } from './modes';
-import type { JointValue, ModelValue, Pose, SceneValue } from './scene_value';
+import type { JointValue, ModelValue, PageScene } from '../generated/messages';
+import type { Pose } from './pose';
 import { place } from './shapes';
 
 const BARE_MODEL_M = 0.5;
@@ -15,7 +16,7 @@ export class Assembly {
   readonly root = new THREE.Group();
   readonly modes = new ModeSet();
   bodies: BodyNode[] = [];
-  value: SceneValue | null = null;
+  value: PageScene | null = null;
   /** The model that a gizmo holds: poses of the stream wait. */
   held: string | null = null;
   private keys: string[] = [];
@@ -27,7 +28,7 @@ export class Assembly {
   }
 
   /** Take a new scene value; bodies that did not change stay as they are. */
-  set(value: SceneValue | null): void {
+  set(value: PageScene | null): void {
     const old = new Map(this.bodies.map((node, index) => [this.keys[index], node]));
     this.value = value;
     this.bodies = [];
@@ -144,7 +145,7 @@ export class Assembly {
   }
 }
 
-function jointsByChild(value: SceneValue): Map<number, JointValue[]> {
+function jointsByChild(value: PageScene): Map<number, JointValue[]> {
   const found = new Map<number, JointValue[]>();
   for (const joint of value.joints) found.set(joint.child, [...(found.get(joint.child) ?? []), joint]);
   return found;

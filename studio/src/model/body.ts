@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { MODES, type Mode, type ModeSet } from './modes';
 import { overlay, type Subject } from './overlays';
-import type { BodyValue, JointValue } from './scene_value';
+import type { JointValue, PageBody } from '../generated/messages';
 import { place, ShapeNode } from './shapes';
 
 /** What a click on something hits. */
@@ -21,7 +21,7 @@ export class BodyNode {
   private grey = false;
 
   constructor(
-    readonly value: BodyValue,
+    readonly value: PageBody,
     readonly entity: Entity,
     readonly joints: JointValue[],
     readonly isStatic: boolean,

@@ -1,6 +1,7 @@
 /** Geometries of the scene value, shared between equal shapes; unit solids are scaled by their mesh. */
 import * as THREE from 'three';
-import type { GeometryValue, Vector } from './scene_value';
+import type { PageGeometry } from '../generated/messages';
+import type { Vector } from './pose';
 
 const cache = new Map<string, THREE.BufferGeometry>();
 
@@ -101,7 +102,7 @@ export function joined(parts: THREE.BufferGeometry[]): THREE.BufferGeometry {
 }
 
 /** Geometry and scale of a primitive; a mesh or a missing mesh has its own way. */
-export function primitive(value: GeometryValue): { geometry: THREE.BufferGeometry; scale: Vector } | null {
+export function primitive(value: PageGeometry): { geometry: THREE.BufferGeometry; scale: Vector } | null {
   switch (value.type) {
     case 'box':
       return { geometry: unit.box(), scale: value.size };

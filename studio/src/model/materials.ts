@@ -1,9 +1,12 @@
 /** Materials as Gazebo and RViz shade them: in display colours, Phong, without tone mapping. */
 import * as THREE from 'three';
 import { loadTexture } from './assets';
-import type { MaterialValue } from './scene_value';
+import type { MaterialValue } from '../generated/messages';
 
-const DEFAULT: MaterialValue = { diffuse: [0.7, 0.7, 0.7, 1], specular: [0.1, 0.1, 0.1, 1] };
+/** What is said of a surface: at least its colour. */
+export type Surface = Pick<MaterialValue, 'diffuse'> & Partial<MaterialValue>;
+
+const DEFAULT: Surface = { diffuse: [0.7, 0.7, 0.7, 1], specular: [0.1, 0.1, 0.1, 1] };
 const TRANSPARENT_ALPHA = 0.4;
 
 /** What a view mode does to the materials of a model. */
@@ -18,7 +21,7 @@ const made = new Map<string, THREE.MeshPhongMaterial>();
 
 /** Return the one material of these values and this look; equal shapes share it. */
 export function material(
-  value: MaterialValue | null,
+  value: Surface | null,
   transparency: number,
   look: Look,
   changed: () => void,
@@ -34,7 +37,7 @@ export function material(
 }
 
 function build(
-  value: MaterialValue,
+  value: Surface,
   transparency: number,
   look: Look,
   changed: () => void,
@@ -68,7 +71,7 @@ function build(
 }
 
 /** Gazebo's ambient colour of a material is its own; three's Phong takes the diffuse one. */
-function giveAmbient(target: THREE.MeshPhongMaterial, { ambient, diffuse }: MaterialValue): void {
+function giveAmbient(target: THREE.MeshPhongMaterial, { ambient, diffuse }: Surface): void {
   const share = [0, 1, 2].map((i) => (ambient ? Math.min(ambient[i] / Math.max(diffuse[i], 0.02), 50) : 1));
   target.onBeforeCompile = (shader) => {
     shader.uniforms.ambientShare = { value: new THREE.Vector3(share[0], share[1], share[2]) };

@@ -3,7 +3,8 @@ import * as THREE from 'three';
 import { arrowGeometry, axesGeometry, joined, shared, unit } from './geometry';
 import { flat } from './materials';
 import type { Mode } from './modes';
-import type { BodyValue, JointValue, Pose } from './scene_value';
+import type { JointValue, PageBody } from '../generated/messages';
+import type { Pose } from './pose';
 import { collisionPaint, fix, ShapeNode } from './shapes';
 
 const INERTIA = [0.6, 0.2, 0.85];
@@ -14,7 +15,7 @@ const BOX = [0.95, 0.95, 0.95];
 
 /** What an overlay is drawn from; `size` is the diagonal of the model's box in metres. */
 export interface Subject {
-  body: BodyValue;
+  body: PageBody;
   joints: JointValue[];
   isStatic: boolean;
   size: number;

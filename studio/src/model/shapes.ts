@@ -2,11 +2,12 @@
 import * as THREE from 'three';
 import { loadMesh } from './assets';
 import { primitive } from './geometry';
-import { flat, material, type Look } from './materials';
-import type { MaterialValue, Pose, ShapeValue } from './scene_value';
+import { flat, material, type Look, type Surface } from './materials';
+import type { PageShape } from '../generated/messages';
+import type { Pose } from './pose';
 
 const PLAIN: Look = { wireframe: false, transparent: false };
-const GROUND: MaterialValue = { diffuse: [0.78, 0.79, 0.8, 1], specular: [0, 0, 0, 1] };
+const GROUND: Surface = { diffuse: [0.78, 0.79, 0.8, 1], specular: [0, 0, 0, 1] };
 
 /** Write a pose into an object; it keeps it until it is set again. */
 export function place(object: THREE.Object3D, pose: ArrayLike<number>, at = 0): void {
@@ -25,7 +26,7 @@ export function fix(object: THREE.Object3D, pose: Pose, scale?: ArrayLike<number
 /** One shape: a group with a mesh, or several once a mesh file has come. */
 export class ShapeNode {
   readonly root = new THREE.Group();
-  private readonly meshes: { mesh: THREE.Mesh; value: MaterialValue | null }[] = [];
+  private readonly meshes: { mesh: THREE.Mesh; value: Surface | null }[] = [];
   private look: Look = PLAIN;
   private paint: THREE.Material | null = null;
 
@@ -34,7 +35,7 @@ export class ShapeNode {
    * @param paint one material for all, in place of the shape's own (collisions).
    */
   constructor(
-    readonly value: ShapeValue,
+    readonly value: PageShape,
     private readonly changed: () => void,
     paint: THREE.Material | null = null,
   ) {
@@ -76,13 +77,13 @@ export class ShapeNode {
     }
     const found = primitive(geometry);
     if (!found) return;
-    let own = this.value.material;
+    let own: Surface | null = this.value.material;
     if (geometry.type === 'missing') own = { diffuse: [0.9, 0.1, 0.1, 1] };
     if (geometry.type === 'plane' && !own) own = GROUND;
     this.add(found.geometry, found.scale, own);
   }
 
-  private add(geometry: THREE.BufferGeometry, scale: ArrayLike<number>, value: MaterialValue | null): void {
+  private add(geometry: THREE.BufferGeometry, scale: ArrayLike<number>, value: Surface | null): void {
     const mesh = new THREE.Mesh(geometry, this.materialOf(value));
     mesh.castShadow = this.value.cast_shadows !== false && this.value.geometry.type !== 'plane';
     mesh.receiveShadow = true;
@@ -91,7 +92,7 @@ export class ShapeNode {
     this.root.add(mesh);
   }
 
-  private materialOf(value: MaterialValue | null): THREE.Material {
+  private materialOf(value: Surface | null): THREE.Material {
     if (this.paint) return this.paint;
     const ground = this.value.geometry.type === 'plane';
     return material(value, this.value.transparency || 0, { ...this.look, ground }, this.changed);

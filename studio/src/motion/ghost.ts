@@ -1,7 +1,7 @@
 /** A robot that is not there: where it would be, in one colour. */
 import * as THREE from 'three';
 import { BodyNode } from '../model/body';
-import type { SceneValue } from '../model/scene_value';
+import type { PageScene } from '../generated/messages';
 
 type Colour = [number, number, number];
 
@@ -26,7 +26,7 @@ export class Ghost {
   readonly bodies: BodyNode[];
 
   /** @param changed is called when a mesh came. */
-  constructor(scene: SceneValue, name: string, changed: () => void) {
+  constructor(scene: PageScene, name: string, changed: () => void) {
     this.root.name = name;
     this.bodies = scene.bodies.map((body) => new BodyNode(body, { model: scene.name, link: body.link, body: body.name }, [], false, changed));
     for (const body of this.bodies) {

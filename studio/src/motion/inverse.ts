@@ -2,7 +2,8 @@
 import * as THREE from 'three';
 import { inOneLine } from '../errors';
 import { outcomeOf, poseMessage, positionsOf, robotState } from './messages';
-import { groupOf, variablesOf, type Kinematics, type MotionRobot, type Positions } from './robot';
+import type { MotionRobot } from '../generated/messages';
+import { groupOf, variablesOf, type Kinematics, type Positions } from './robot';
 import type { MotionStore } from './store';
 
 const ROUNDS = 40;

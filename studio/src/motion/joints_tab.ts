@@ -1,11 +1,12 @@
 /** The tab Joints: a slider for every joint of the group, within its limits. */
 import { h, notice, select } from '../widgets/dom';
-import { groupOf, variablesOf, type VariableValue } from './robot';
+import type { MotionVariable } from '../generated/messages';
+import { groupOf, variablesOf } from './robot';
 import type { MotionStore, Query } from './store';
 
 const STEPS = 10_000;
 
-interface Row { variable: VariableValue; slider: HTMLInputElement; number: HTMLInputElement }
+interface Row { variable: MotionVariable; slider: HTMLInputElement; number: HTMLInputElement }
 
 /** RViz's tab Joints. */
 export class JointsTab {
@@ -48,7 +49,7 @@ export class JointsTab {
     if (!this.rows.length) this.body.append(notice(robot ? 'This group has no joint that can move.' : 'No robot is known.'));
   }
 
-  private row(variable: VariableValue): Row {
+  private row(variable: MotionVariable): Row {
     const min = variable.lower ?? -Math.PI;
     const max = variable.upper ?? Math.PI;
     const slider = h('input', { type: 'range', min, max, step: (max - min) / STEPS || 0.001, 'aria-label': variable.name });

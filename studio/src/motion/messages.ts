@@ -3,7 +3,8 @@ import * as THREE from 'three';
 import { list, numbers, part, seconds } from '../displays/message';
 import type { Json, JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
-import type { MotionRobot, Positions } from './robot';
+import type { MotionRobot } from '../generated/messages';
+import type { Positions } from './robot';
 
 /** `moveit_msgs/MoveItErrorCodes`. */
 const CODES: Record<number, string> = {

@@ -1,6 +1,7 @@
 /** Objects of the planning scene as messages: made, moved, removed, held. */
 import * as THREE from 'three';
 import { list, part } from '../displays/message';
+import type { MotionMesh } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { poseMessage } from './messages';
 import { groupOf, tipOf } from './robot';
@@ -11,9 +12,6 @@ export type ShapeName = (typeof SHAPES)[number];
 
 const ADD = 0, REMOVE = 1, MOVE = 3;
 const TYPES: Record<ShapeName, number> = { Box: 1, Sphere: 2, Cylinder: 3, Cone: 4 };
-
-/** A mesh as `motion.mesh` reads it. */
-export interface MeshValue { vertices: number[][]; triangles: number[][] }
 
 const AT_ORIGIN = { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
 
@@ -27,7 +25,7 @@ export function solid(id: string, frame: string, shape: ShapeName, sizes: number
 }
 
 /** An object of a mesh. */
-export function meshObject(id: string, frame: string, mesh: MeshValue, scale: number, pose: THREE.Matrix4): JsonObject {
+export function meshObject(id: string, frame: string, mesh: MotionMesh, scale: number, pose: THREE.Matrix4): JsonObject {
   const vertices = mesh.vertices.map(([x, y, z]) => ({ x: x * scale, y: y * scale, z: z * scale }));
   const triangles = mesh.triangles.map((corners) => ({ vertex_indices: corners }));
   return { ...head(id, frame, pose), meshes: [{ vertices, triangles }], mesh_poses: [AT_ORIGIN] };

@@ -3,11 +3,12 @@ import * as THREE from 'three';
 import type { Connection } from '../connection';
 import { part, poseMatrix } from '../displays/message';
 import { inOneLine } from '../errors';
+import type { MotionMesh } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { askFile } from '../shell/dialog';
 import { button, h, notice, select, setText } from '../widgets/dom';
 import { download } from '../widgets/download';
-import { attach, changeObjects, freeName, kindOf, meshObject, moveOf, removalOf, SHAPES, solid, type MeshValue, type ShapeName } from './objects';
+import { attach, changeObjects, freeName, kindOf, meshObject, moveOf, removalOf, SHAPES, solid, type ShapeName } from './objects';
 import type { Report } from './planning';
 import { readScene, writeScene } from './scene_file';
 import type { MotionStore } from './store';
@@ -172,7 +173,7 @@ export class ObjectsTab {
     await this.tried(async () => {
       const mesh = await this.connection.call('motion.mesh', { name: file.name, base64: await base64Of(file) });
       const id = freeName(this.store, file.name.replace(/\.[^.]*$/, ''));
-      await this.make(id, meshObject(id, robot.frame, mesh as unknown as MeshValue, scale, new THREE.Matrix4()));
+      await this.make(id, meshObject(id, robot.frame, mesh as unknown as MotionMesh, scale, new THREE.Matrix4()));
     });
   }
 

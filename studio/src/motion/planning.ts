@@ -4,7 +4,8 @@ import { CallError, inOneLine } from '../errors';
 import type { GraphStore } from '../graph_store';
 import { isObject, numberOf, type Json, type JsonObject } from '../json';
 import { jointGoal, outcomeOf, pathOf, poseMessage, robotState, type Outcome } from './messages';
-import { groupOf, tipOf, type MotionRobot } from './robot';
+import type { MotionRobot } from '../generated/messages';
+import { groupOf, tipOf } from './robot';
 import type { MotionStore } from './store';
 
 /** What a person sets before planning. */

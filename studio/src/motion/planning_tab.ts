@@ -6,7 +6,8 @@ import { isObject, numberOf, textOf, type JsonObject } from '../json';
 import { button, checkbox, fillSelect, h, select } from '../widgets/dom';
 import { PathBar } from './path_bar';
 import { Planning, plannersOf, type PlanOptions, type Report } from './planning';
-import { groupOf, randomPositions, type MotionRobot, type Positions } from './robot';
+import type { MotionRobot } from '../generated/messages';
+import { groupOf, randomPositions, type Positions } from './robot';
 import type { MotionStore, Query } from './store';
 
 const CURRENT = '<current>', RANDOM = '<random>', VALID = '<random valid>', SAME_START = '<same as start>',

@@ -1,45 +1,10 @@
 /** The robot as move_group knows it, and where its links are at positions of its joints. */
 import * as THREE from 'three';
 import { matrixOf } from '../model/assembly';
-import type { JointValue, SceneValue } from '../model/scene_value';
+import type { JointValue, MotionGroup, MotionJoint, MotionRobot, MotionVariable } from '../generated/messages';
 
 /** Values by variable, rad or m. */
 export type Positions = Record<string, number>;
-
-export interface VariableValue { name: string; lower: number | null; upper: number | null }
-
-export interface MotionJoint { name: string; kind: string; child: string; variables: VariableValue[] }
-
-export interface MotionGroup {
-  name: string;
-  variables: string[];
-  active: string[];
-  links: string[];
-  tips: string[];
-  /** End effectors: the link that carries them, and links of their own. */
-  effectors: { name: string; link: string; links: string[] }[];
-  states: Record<string, Positions>;
-  is_chain: boolean;
-}
-
-/** What `motion.robot` answers. */
-export interface MotionRobot {
-  node: string;
-  /** What names of this move_group begin with: `/`. */
-  prefix: string;
-  name: string;
-  /** The planning frame. */
-  frame: string;
-  root: string;
-  velocity_scaling: number;
-  acceleration_scaling: number;
-  default_pipeline: string;
-  defaults: Positions;
-  mimics: { variable: string; leader: string; factor: number; offset: number }[];
-  joints: MotionJoint[];
-  groups: MotionGroup[];
-  scene: SceneValue;
-}
 
 const TURNING = new Set(['revolute', 'continuous']);
 
@@ -126,7 +91,7 @@ export function groupOf(robot: MotionRobot, name: string): MotionGroup | undefin
 }
 
 /** The variables of a group with their limits. */
-export function variablesOf(robot: MotionRobot, group: string): VariableValue[] {
+export function variablesOf(robot: MotionRobot, group: string): MotionVariable[] {
   const names = new Set(groupOf(robot, group)?.variables);
   return robot.joints.flatMap((joint) => joint.variables).filter((variable) => names.has(variable.name));
 }

@@ -1,13 +1,13 @@
 /** What panel and display share: the robot, where it is and shall be, its scene and its planned path. */
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
-import type { GraphValue } from '../generated/messages';
+import type { GraphValue, MotionRobot } from '../generated/messages';
 import { list } from '../displays/message';
 import { inOneLine } from '../errors';
 import { isObject, type Json, type JsonObject } from '../json';
 import { pathOf, robotState, type PlannedPath } from './messages';
 import { Player } from './player';
-import { groupOf, Kinematics, type MotionRobot, type Positions } from './robot';
+import { groupOf, Kinematics, type Positions } from './robot';
 
 export type Change = 'robot' | 'current' | 'query' | 'scene' | 'path' | 'play' | 'look';
 export type Query = 'start' | 'goal';

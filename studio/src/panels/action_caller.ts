@@ -1,9 +1,10 @@
 /** Action caller: a goal from a form, its feedback, its result, cancelling. */
 
 import type { Channel } from '../channel';
+import type { TypeField } from '../generated/messages';
 import { isObject, textOf, type Json, type JsonObject } from '../json';
 import { button, h, notice, setText, spacer, toolbar } from '../widgets/dom';
-import { MessageForm, type Field } from '../widgets/message_form';
+import { MessageForm } from '../widgets/message_form';
 import { asYaml } from '../widgets/message_rows';
 import { nameInput } from '../widgets/name_input';
 import { BasePanel } from './base';
@@ -104,7 +105,7 @@ export class ActionCaller extends BasePanel {
   }
 }
 
-function goalFields(type: Json): Field[] {
+function goalFields(type: Json): TypeField[] {
   if (!isObject(type) || !Array.isArray(type['fields'])) return [];
-  return (type['fields'] as unknown as Field[]).find((field) => field.name === 'goal')?.fields ?? [];
+  return (type['fields'] as unknown as TypeField[]).find((field) => field.name === 'goal')?.fields ?? [];
 }

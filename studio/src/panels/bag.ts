@@ -1,6 +1,7 @@
 /** Bag: recording topics, playing a bag with a timeline. */
 
-import { isObject, numberOf, textOf, textsOf, type Json, type JsonObject } from '../json';
+import type { BagState, PlayerState, RecorderState } from '../generated/messages';
+import { isObject, textOf, textsOf, type Json, type JsonObject } from '../json';
 import { button, checkbox, h, icon, notice, select, setText, spacer, toolbar } from '../widgets/dom';
 import { clock } from '../widgets/format';
 import { BasePanel } from './base';
@@ -95,44 +96,42 @@ export class Bag extends BasePanel {
   }
 
   private take(value: Json): void {
-    if (!isObject(value)) return;
-    this.showRecorder(isObject(value['recorder']) ? value['recorder'] : null);
-    this.showPlayer(isObject(value['player']) ? value['player'] : null);
+    const { recorder, player } = value as unknown as BagState;
+    this.showRecorder(recorder);
+    this.showPlayer(player);
   }
 
-  private showRecorder(state: JsonObject | null): void {
+  private showRecorder(state: RecorderState | null): void {
     this.recording = state !== null;
     this.recordButton.classList.toggle('recording', this.recording);
     setText(this.recordButton.querySelector('span') ?? this.recordButton, this.recording ? 'Stop' : 'Record');
     this.recordButton.title = this.recording ? 'Stop recording' : 'Record';
     setText(this.recordState, state
-      ? `${textOf(state, 'path')}  ${clock(numberOf(state, 'seconds'))}  ${numberOf(state, 'messages')} messages  ${(numberOf(state, 'bytes') / 1e6).toFixed(1)} MB`
+      ? `${state.path}  ${clock(state.seconds)}  ${state.messages} messages  ${(state.bytes / 1e6).toFixed(1)} MB`
       : '');
   }
 
-  private showPlayer(state: JsonObject | null): void {
+  private showPlayer(state: PlayerState | null): void {
     this.player.hidden = state === null;
     this.empty.hidden = state !== null;
     if (!state) {
       this.opened = '';
       return;
     }
-    const playing = state['playing'] === true;
+    const { playing, begin_s: begin } = state;
     if (playing !== this.playing || this.opened === '') this.playButton.replaceChildren(icon(playing ? 'pause' : 'play'));
     this.playing = playing;
     this.playButton.title = playing ? 'Pause' : 'Play';
     this.playButton.setAttribute('aria-label', this.playButton.title);
-    const begin = numberOf(state, 'begin_s');
-    setText(this.time, `${clock(numberOf(state, 'time_s') - begin)} of ${clock(numberOf(state, 'end_s') - begin)}`);
-    this.timeline.show(begin, numberOf(state, 'end_s'), numberOf(state, 'time_s'));
-    if (this.opened !== textOf(state, 'path')) this.showRows(state);
+    setText(this.time, `${clock(state.time_s - begin)} of ${clock(state.end_s - begin)}`);
+    this.timeline.show(begin, state.end_s, state.time_s);
+    if (this.opened !== state.path) this.showRows(state);
   }
 
-  private showRows(state: JsonObject): void {
-    this.opened = textOf(state, 'path');
+  private showRows(state: PlayerState): void {
+    this.opened = state.path;
     this.playPath.value = this.opened;
-    const topics = Array.isArray(state['topics']) ? state['topics'].filter(isObject) : [];
-    this.rows.replaceChildren(...topics.map((topic) => h('div', { class: 'bag-row' },
-      h('span', { class: 'ellipsis' }, textOf(topic, 'name')), h('span', { class: 'dim ellipsis' }, textOf(topic, 'type')), h('span', { class: 'number' }, String(numberOf(topic, 'count'))))));
+    this.rows.replaceChildren(...state.topics.map((topic) => h('div', { class: 'bag-row' },
+      h('span', { class: 'ellipsis' }, topic.name), h('span', { class: 'dim ellipsis' }, topic.type), h('span', { class: 'number' }, String(topic.count)))));
   }
 }

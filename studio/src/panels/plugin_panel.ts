@@ -4,6 +4,7 @@ import '../styles/plugins.css';
 import type { Channel } from '../channel';
 import { inOneLine } from '../errors';
 import type { Frame } from '../frame';
+import type { PanelEvent, PanelInfo, PanelState } from '../generated/messages';
 import { isObject, numberOf, textOf, type Json, type JsonObject } from '../json';
 import { button, h, notice, setText, spacer, toolbar } from '../widgets/dom';
 import { controlFor, type WidgetView } from '../widgets/plugin_controls';
@@ -43,7 +44,7 @@ export class PluginPanel extends BasePanel implements ViewHost {
     if (this.begun) return;
     this.begun = true;
     this.stream('plugin', { name: this.name }, {
-      onOpened: (info) => { if (isObject(info)) this.opened(info); },
+      onOpened: (info) => this.opened(info as unknown as PanelInfo),
       onData: (events) => this.take(events),
       onFailed: (problem) => this.failed(inOneLine(problem)),
     });
@@ -57,11 +58,11 @@ export class PluginPanel extends BasePanel implements ViewHost {
     return () => this.endStream(channel);
   }
 
-  private opened(info: JsonObject): void {
-    this.host.setTitle(textOf(info, 'title', this.title));
-    setText(this.file, textOf(info, 'file').split('/').pop() ?? '');
-    this.file.title = textOf(info, 'file');
-    this.drawing.source = textOf(info, 'module');
+  private opened({ title, file, module }: PanelInfo): void {
+    this.host.setTitle(title);
+    setText(this.file, file.split('/').pop() ?? '');
+    this.file.title = file;
+    this.drawing.source = module ?? '';
   }
 
   private failed(text: string): void {
@@ -70,13 +71,12 @@ export class PluginPanel extends BasePanel implements ViewHost {
   }
 
   private take(events: Json): void {
-    if (!Array.isArray(events)) return;
-    for (const event of events) if (isObject(event)) this.happen(textOf(event, 'what'), textOf(event, 'name'), event['value'] ?? null);
+    for (const { what, name, value } of events as unknown as PanelEvent[]) this.happen(what, name, value);
   }
 
   private happen(what: string, name: string, value: Json): void {
     switch (what) {
-      case 'state': return this.rebuild(isObject(value) ? value : {});
+      case 'state': return this.rebuild(value as unknown as PanelState);
       case 'set': return this.set(name, value);
       case 'add': return this.widgets.get(name)?.view.add?.([value]);
       case 'widget': return isObject(value) ? this.replace(name, value) : undefined;
@@ -86,14 +86,12 @@ export class PluginPanel extends BasePanel implements ViewHost {
     }
   }
 
-  private rebuild(state: JsonObject): void {
+  private rebuild({ layout, values, points }: PanelState): void {
     this.clear();
     this.markChanged(false);
-    const values = isObject(state['values']) ? state['values'] : {};
-    const points = isObject(state['points']) ? state['points'] : {};
-    this.body.replaceChildren(...this.parts(state['layout']));
+    this.body.replaceChildren(...this.parts(layout));
     for (const [name, value] of Object.entries(values)) this.set(name, value);
-    for (const [name, list] of Object.entries(points)) if (Array.isArray(list)) this.widgets.get(name)?.view.add?.(list);
+    for (const [name, list] of Object.entries(points)) this.widgets.get(name)?.view.add?.(list);
     void this.drawing.open();
   }
 

@@ -1,7 +1,7 @@
 /** Makes panels of the user's own known: those that the server lists, and those a layout remembers. */
 
 import type { Connection } from '../connection';
-import { isObject, textOf, type JsonObject } from '../json';
+import type { PanelEntry } from '../generated/messages';
 import { forgetPanel, PANEL_GROUPS, panelsChanged, registerFamily, registerPanel, type PanelGroup, type PanelKind } from '../panel';
 
 const OWN = 'plugin:';
@@ -18,7 +18,7 @@ export function watchPlugins(connection: Connection): void {
     const answer = await connection.call('plugin.list').catch(() => null);
     if (!Array.isArray(answer) || JSON.stringify(answer) === listed) return;
     listed = JSON.stringify(answer);
-    const kinds = answer.filter(isObject).map(kindOf);
+    const kinds = (answer as unknown as PanelEntry[]).map(kindOf);
     for (const kind of known) if (!kinds.some((each) => each.kind === kind)) forgetPanel(kind);
     kinds.forEach(registerPanel);
     known = kinds.map((each) => each.kind);
@@ -28,31 +28,33 @@ export function watchPlugins(connection: Connection): void {
   window.addEventListener('focus', () => void refresh());
 }
 
-function kindOf(entry: JsonObject): PanelKind {
-  const foreign = entry['kind'] === 'rqt';
-  const kind = (foreign ? FOREIGN : OWN) + textOf(entry, 'name');
+/** What is known of a panel; a layout remembers less than the server tells. */
+type Known = Pick<PanelEntry, 'title'> & Partial<PanelEntry>;
+
+function kindOf(entry: PanelEntry): PanelKind {
+  const foreign = entry.kind === 'rqt';
+  const kind = (foreign ? FOREIGN : OWN) + entry.name;
   return foreign ? foreignKind(kind, entry) : ownKind(kind, entry);
 }
 
-function ownKind(kind: string, entry: JsonObject): PanelKind {
+function ownKind(kind: string, entry: Known): PanelKind {
   const name = kind.slice(OWN.length);
-  const problem = textOf(entry, 'problem');
+  const problem = entry.problem ?? '';
   return {
-    kind, title: textOf(entry, 'title'), group: groupOf(entry), single: true, note: name,
-    about: problem || textOf(entry, 'about'), faded: problem !== '',
+    kind, title: entry.title, group: groupOf(entry), single: true, note: name,
+    about: problem || (entry.about ?? ''), faded: problem !== '',
     make: async (connection, host) => new (await import('./plugin_panel')).PluginPanel(name, connection, host),
   };
 }
 
-function foreignKind(kind: string, entry: JsonObject): PanelKind {
+function foreignKind(kind: string, entry: Known): PanelKind {
   const name = kind.slice(FOREIGN.length);
   return {
-    kind, title: textOf(entry, 'title'), group: 'Plugins', single: true, note: 'rqt', about: textOf(entry, 'about'), faded: true,
+    kind, title: entry.title, group: 'Plugins', single: true, note: 'rqt', about: entry.about ?? '', faded: true,
     make: async (connection, host) => new (await import('./port_panel')).PortPanel(name, connection, host),
   };
 }
 
-function groupOf(entry: JsonObject): PanelGroup {
-  const wanted = textOf(entry, 'group');
-  return PANEL_GROUPS.find((group) => group === wanted) ?? 'Plugins';
+function groupOf(entry: Known): PanelGroup {
+  return PANEL_GROUPS.find((group) => group === entry.group) ?? 'Plugins';
 }

@@ -2,10 +2,11 @@
 
 import type { Connection } from '../connection';
 import { inOneLine } from '../errors';
+import type { TypeField } from '../generated/messages';
 import { isObject, numberOf, textOf, type Json, type JsonObject } from '../json';
 import type { PanelHost } from '../panel';
 import { button, h, setText } from '../widgets/dom';
-import { MessageForm, type Field } from '../widgets/message_form';
+import { MessageForm } from '../widgets/message_form';
 import { SliderForm } from '../widgets/slider_form';
 
 /** What a layout keeps of a publisher. */
@@ -70,7 +71,7 @@ export class PublisherCard {
   private async load(body: HTMLElement): Promise<void> {
     try {
       const type = await this.connection.call('type.get', { type: this.start.type, kind: 'msg' });
-      const fields = isObject(type) && Array.isArray(type['fields']) ? (type['fields'] as unknown as Field[]) : [];
+      const fields = isObject(type) && Array.isArray(type['fields']) ? (type['fields'] as unknown as TypeField[]) : [];
       const changed = () => this.changed();
       this.form = this.easy ? new SliderForm(fields, this.start.ranges ?? {}, changed) : new MessageForm(fields, { expressions: true, changed });
       this.form.fill(this.start.texts);

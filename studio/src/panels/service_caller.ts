@@ -1,9 +1,10 @@
 /** Service Caller: a form for the request, the response as a tree. */
 
 import { inOneLine } from '../errors';
+import type { TypeField } from '../generated/messages';
 import { isObject, textOf, textsOf, type Json, type JsonObject } from '../json';
 import { button, h, notice, setText, spacer, toolbar } from '../widgets/dom';
-import { MessageForm, type Field } from '../widgets/message_form';
+import { MessageForm } from '../widgets/message_form';
 import { asYaml } from '../widgets/message_rows';
 import { nameInput } from '../widgets/name_input';
 import { BasePanel } from './base';
@@ -80,8 +81,8 @@ export class ServiceCaller extends BasePanel {
   }
 }
 
-function requestFields(type: Json): Field[] {
+function requestFields(type: Json): TypeField[] {
   if (!isObject(type) || !Array.isArray(type['fields'])) return [];
-  const request = (type['fields'] as unknown as Field[]).find((field) => field.name === 'request');
+  const request = (type['fields'] as unknown as TypeField[]).find((field) => field.name === 'request');
   return request?.fields ?? [];
 }

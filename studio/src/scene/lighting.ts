@@ -1,24 +1,27 @@
 /** Lights, shadows, background and sky, with Gazebo's values or a lamp of our own. */
 import * as THREE from 'three';
-import type { LightValue, SceneValue } from '../model/scene_value';
+import type { LightValue, PageScene } from '../generated/messages';
 
 const SHADOW_PIXELS = 2048;
 const SHADOW_REACH_M = 56;
 /** three divides by pi what an old Phong model does not. */
 const FULL = Math.PI;
 
-const STUDIO: LightValue = {
+/** What is needed of a light to draw it. */
+type Lamp = Omit<LightValue, 'intensity' | 'spot_outer_angle_rad'>;
+
+const STUDIO: Lamp = {
   name: 'key', type: 'directional', pose: [4, -3, 8, 0, 0, 0, 1], direction: [-0.5, 0.35, -0.8],
   diffuse: [0.6, 0.6, 0.6], specular: [0.15, 0.15, 0.15], range_m: 0, cast_shadows: true,
 };
-const FILL: LightValue = {
+const FILL: Lamp = {
   name: 'fill', type: 'directional', pose: [0, 0, 10, 0, 0, 0, 1], direction: [0.5, -0.5, -0.25],
   diffuse: [0.16, 0.17, 0.19], specular: [0, 0, 0], range_m: 0, cast_shadows: false,
 };
 
 /** What a view without a world's own light and background is lit with. */
 export interface Surroundings {
-  lights: LightValue[];
+  lights: Lamp[];
   ambient: number[];
   background: number[];
   sky: boolean;
@@ -31,7 +34,7 @@ export const ROOM: Surroundings = {
 };
 
 /** The surroundings a world names. */
-export function surroundings(value: SceneValue): Surroundings {
+export function surroundings(value: PageScene): Surroundings {
   const { lights, ambient, background, sky, shadows } = value;
   return { lights, ambient, background, sky, shadows };
 }
@@ -95,7 +98,7 @@ export class Lighting {
     this.dome.position.set(focal.x, focal.y, 0);
   }
 
-  private lamp(light: LightValue, shadows: boolean): THREE.Object3D[] {
+  private lamp(light: Lamp, shadows: boolean): THREE.Object3D[] {
     const [r, g, b] = light.diffuse;
     const colour = new THREE.Color(r, g, b);
     const place = new THREE.Vector3(light.pose[0], light.pose[1], light.pose[2]);

@@ -2,6 +2,7 @@
 
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
+import type { WorldStats } from '../generated/messages';
 import { isObject, type Json, type JsonObject } from '../json';
 import { button, h, icon, perFrame, setText } from '../widgets/dom';
 import { clock } from '../widgets/format';
@@ -9,8 +10,6 @@ import { openMenu } from '../widgets/menu';
 import type { Toasts } from './toasts';
 
 const LOOK_AGAIN_MS = 2000;
-
-interface Stats { sim_s: number; real_s: number; rtf: number; wanted_rtf: number | null; paused: boolean }
 
 /** The controls of the world in the top bar. */
 export class WorldControls {
@@ -21,7 +20,7 @@ export class WorldControls {
   private readonly rtf = h('output', { class: 'figure', 'aria-label': 'Real-time factor' });
   private readonly sim = h('output', { class: 'figure', 'aria-label': 'Simulation time' });
   private readonly real = h('output', { class: 'figure', 'aria-label': 'Real time' });
-  private stats: Stats | null = null;
+  private stats: WorldStats | null = null;
   private channel: Channel | null = null;
   private readonly draw = perFrame(() => this.render());
 
@@ -85,7 +84,7 @@ export class WorldControls {
   }
 
   private take(value: Json): void {
-    this.stats = isObject(value) ? (value as unknown as Stats) : null;
+    this.stats = isObject(value) ? (value as unknown as WorldStats) : null;
     this.draw();
   }
 

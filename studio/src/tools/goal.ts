@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import { aim, thinArrow } from '../displays/sensors';
 import type { JsonObject } from '../json';
 import { groundPoint } from '../scene/picking';
-import type { ToolValue } from '../displays/display_list';
+import type { RvizTool } from '../generated/messages';
 import { takeGoal } from './goal_takers';
 import { speaksRos2, stampedHeader, typeFor } from './publish';
 import type { Bench, Tool } from './tool';
@@ -48,12 +48,12 @@ export function navGoal(bench: Bench): Tool {
 }
 
 /** What a `.rviz` file says of a tool. */
-function settings(bench: Bench, name: string): ToolValue | undefined {
+function settings(bench: Bench, name: string): RvizTool | undefined {
   return bench.displays.tools.find((tool) => tool.class === name);
 }
 
 /** ROS 1's files write deviations, ROS 2's variances. */
-function variance(told: ToolValue | undefined, ros1: string, ros2: keyof typeof VARIANCES): number {
+function variance(told: RvizTool | undefined, ros1: string, ros2: keyof typeof VARIANCES): number {
   const deviation = Number(told?.properties[`${ros1} std deviation`] ?? NaN);
   const value = Number(told?.properties[`Covariance ${ros2}`] ?? NaN);
   return Number.isFinite(deviation) ? deviation * deviation : Number.isFinite(value) ? value : VARIANCES[ros2];

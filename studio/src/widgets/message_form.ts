@@ -1,16 +1,8 @@
 /** A form for a message: one line per field, made from the type's definition. */
 
+import type { TypeField } from '../generated/messages';
 import { isObject, type Json, type JsonObject } from '../json';
 import { h } from './dom';
-
-/** A field as `type.get` tells it. */
-export interface Field {
-  name: string;
-  type: string;
-  array: null | number | string;
-  fields?: Field[];
-  default?: Json;
-}
 
 export interface FormOptions {
   /** Whether numbers may be expressions over `t` and `i`. */
@@ -18,7 +10,7 @@ export interface FormOptions {
   changed: () => void;
 }
 
-interface Leaf { field: Field; path: string; input: HTMLInputElement }
+interface Leaf { field: TypeField; path: string; input: HTMLInputElement }
 
 const INTEGERS = /^(u?int(8|16|32|64)|byte|char|octet)$/;
 const FLOATS = /^(float(32|64)?|double)$/;
@@ -28,7 +20,7 @@ export class MessageForm {
   readonly element = h('div', { class: 'form', role: 'group', 'aria-label': 'Message' });
   private readonly leaves: Leaf[] = [];
 
-  constructor(fields: readonly Field[], private readonly options: FormOptions) {
+  constructor(fields: readonly TypeField[], private readonly options: FormOptions) {
     this.element.append(...fields.map((field) => this.row(field, '', 0)));
   }
 
@@ -72,7 +64,7 @@ export class MessageForm {
     return text !== '' && Number.isNaN(numberFrom(text)) ? text : null;
   }
 
-  private row(field: Field, parent: string, depth: number): HTMLElement {
+  private row(field: TypeField, parent: string, depth: number): HTMLElement {
     const path = parent ? `${parent}.${field.name}` : field.name;
     const label = h('span', { class: 'form-name', title: path }, field.name);
     const type = h('span', { class: 'form-type' }, typeText(field));
@@ -86,7 +78,7 @@ export class MessageForm {
     return h('label', { class: 'form-row' }, label, type, input);
   }
 
-  private input(field: Field, path: string): HTMLInputElement {
+  private input(field: TypeField, path: string): HTMLInputElement {
     const tick = field.type === 'bool' || field.type === 'boolean';
     const input = h('input', {
       type: tick && field.array === null ? 'checkbox' : 'text', 'aria-label': path, spellcheck: 'false', autocomplete: 'off',
@@ -99,16 +91,16 @@ export class MessageForm {
   }
 }
 
-function isNumber(field: Field): boolean {
+function isNumber(field: TypeField): boolean {
   return INTEGERS.test(field.type) || FLOATS.test(field.type);
 }
 
-function typeText(field: Field): string {
+function typeText(field: TypeField): string {
   if (field.array === null) return field.type;
   return typeof field.array === 'number' ? `${field.type}[${field.array}]` : `${field.type}[]`;
 }
 
-function defaultText(field: Field): string {
+function defaultText(field: TypeField): string {
   if (field.array !== null) return typeof field.array === 'number' && isNumber(field) ? `[${Array(field.array).fill(0).join(', ')}]` : '[]';
   if (field.default !== undefined && field.default !== null && typeof field.default !== 'object') return String(field.default);
   if (field.type === 'bool' || field.type === 'boolean') return 'false';

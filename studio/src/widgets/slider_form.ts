@@ -1,8 +1,9 @@
 /** Sliders for the numbers of a message, as Easy Message Publisher shows them. */
 
+import type { TypeField } from '../generated/messages';
 import { isObject, type Json, type JsonObject } from '../json';
 import { h } from './dom';
-import { MessageForm, type Field } from './message_form';
+import { MessageForm } from './message_form';
 
 const FLOATS = /^(float(32|64)?|double)$/;
 const INTEGERS = /^(u?int(8|16|32|64)|byte|char|octet)$/;
@@ -14,7 +15,7 @@ export class SliderForm {
   private readonly limits = new Map<string, [number, number]>();
   private readonly syncs: (() => void)[] = [];
 
-  constructor(fields: readonly Field[], ranges: Json, private readonly changed: () => void) {
+  constructor(fields: readonly TypeField[], ranges: Json, private readonly changed: () => void) {
     this.form = new MessageForm(fields, { expressions: true, changed });
     this.element.append(this.form.element);
     for (const [path, field] of numbersOf(fields)) this.addSlider(path, field, ranges);
@@ -42,7 +43,7 @@ export class SliderForm {
     for (const sync of this.syncs) sync();
   }
 
-  private addSlider(path: string, field: Field, ranges: Json): void {
+  private addSlider(path: string, field: TypeField, ranges: Json): void {
     const input = this.form.element.querySelector<HTMLInputElement>(`input[aria-label="${CSS.escape(path)}"]`);
     if (!input) return;
     const whole = INTEGERS.test(field.type);
@@ -76,7 +77,7 @@ function rangeFor(path: string, ranges: Json, whole: boolean): [number, number] 
   return whole ? [0, 100] : [-1, 1];
 }
 
-function* numbersOf(fields: readonly Field[], parent = ''): Generator<[string, Field]> {
+function* numbersOf(fields: readonly TypeField[], parent = ''): Generator<[string, TypeField]> {
   for (const field of fields) {
     const path = parent ? `${parent}.${field.name}` : field.name;
     if (field.array !== null) continue;

@@ -6,7 +6,7 @@ import { isObject, textOf, textsOf, type JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
 import type { Entity } from '../model/body';
 import { MODES, type Mode } from '../model/modes';
-import type { Pose } from '../model/scene_value';
+import type { Pose } from '../model/pose';
 import { scenePanels } from '../scene/active';
 import { groundPoint } from '../scene/picking';
 import type { ScenePanel } from '../scene/scene_panel';

@@ -2,7 +2,7 @@
 import type { Connection } from '../connection';
 import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
-import type { ModelValue, SceneValue } from '../model/scene_value';
+import type { ModelValue, PageScene } from '../generated/messages';
 import { activeScene } from '../scene/active';
 import { button, h, notice, toolbar } from '../widgets/dom';
 import { entityMenu, follow, moveTo, remove } from './actions';
@@ -65,7 +65,7 @@ export class EntitiesPanel extends BasePanel {
     this.mark();
   }
 
-  private model(scene: SceneValue, model: ModelValue, words: string): HTMLElement[] {
+  private model(scene: PageScene, model: ModelValue, words: string): HTMLElement[] {
     const links = model.bodies.map((index) => scene.bodies[index].link);
     const joints = model.joints.map((index) => scene.joints[index]);
     const hits = (name: string): boolean => name.toLowerCase().includes(words);

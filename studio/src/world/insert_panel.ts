@@ -1,6 +1,7 @@
 /** Insert: shapes, the models of the model paths with pictures, and files. */
 import type { Connection } from '../connection';
-import { isObject, textOf, type JsonObject } from '../json';
+import type { ModelEntry } from '../generated/messages';
+import type { JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
 import { activeScene } from '../scene/active';
@@ -8,14 +9,6 @@ import { sceneIcon } from '../scene/icons';
 import type { ScenePanel } from '../scene/scene_panel';
 import { button, h, notice, toolbar } from '../widgets/dom';
 import { insert, insertFile, insertPrimitive } from './actions';
-
-interface ModelEntry {
-  name: string;
-  title: string;
-  description: string;
-  path: string;
-  thumbnail: string | null;
-}
 
 /** Gazebo's Insert tab. */
 export class InsertPanel extends BasePanel {
@@ -61,7 +54,7 @@ export class InsertPanel extends BasePanel {
       this.host.fail(problem, 'Insert');
       return [];
     });
-    this.models = (Array.isArray(found) ? found.filter(isObject) : []).map((each) => each as unknown as ModelEntry);
+    this.models = found as unknown as ModelEntry[];
     this.draw();
   }
 
@@ -74,11 +67,11 @@ export class InsertPanel extends BasePanel {
 
   private card(model: ModelEntry): HTMLElement {
     const source: JsonObject = { model: model.name };
-    const picture = h('img', { class: 'model-picture', alt: '', loading: 'lazy', src: model.thumbnail ?? `/thumbnail/${encodeURIComponent(model.name)}`, draggable: 'false' });
+    const picture = h('img', { class: 'model-picture', alt: '', loading: 'lazy', src: model.thumbnail, draggable: 'false' });
     picture.addEventListener('error', () => picture.classList.add('missing'));
     const card = h('button', {
       type: 'button', class: 'model-card', draggable: 'true', title: [model.description, model.path].filter(Boolean).join('\n'), 'aria-label': `Insert ${model.name}`,
-    }, picture, h('span', { class: 'model-name' }, textOf(model as never, 'title') || model.name), h('span', { class: 'model-path' }, model.name));
+    }, picture, h('span', { class: 'model-name' }, model.title), h('span', { class: 'model-path' }, model.name));
     card.addEventListener('click', () => {
       const scene = this.scene();
       if (scene) void insert(scene, source, model.name);

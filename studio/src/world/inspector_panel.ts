@@ -1,8 +1,8 @@
 /** Properties of what is selected: pose and what the simulator lets one change. */
 import * as THREE from 'three';
 import type { Connection } from '../connection';
-import { isObject, type Json } from '../json';
-import type { LightValue } from '../model/scene_value';
+import type { Json } from '../json';
+import type { LightValue, PropertyRow } from '../generated/messages';
 import { poseOf } from '../model/assembly';
 import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
@@ -11,14 +11,6 @@ import { h, notice, setText } from '../widgets/dom';
 import { short } from '../widgets/format';
 import { lightRows } from './light_rows';
 import { worldStore, type WorldStore } from './store';
-
-interface PropertyValue {
-  group: string;
-  name: string;
-  value: Json;
-  unit: string;
-  editable: boolean;
-}
 
 const NOISE = 1e-9;
 const POSE_FIELDS = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'] as const;
@@ -57,7 +49,7 @@ export class InspectorPanel extends BasePanel {
       return [];
     });
     if (ask !== this.asked || !Array.isArray(rows)) return;
-    this.body.append(...this.groups(rows.filter(isObject) as unknown as PropertyValue[], params));
+    this.body.append(...this.groups(rows as unknown as PropertyRow[], params));
   }
 
   private showLight(name: string): void {
@@ -79,13 +71,13 @@ export class InspectorPanel extends BasePanel {
     return h('details', { class: 'property-group', open: true }, h('summary', {}, 'pose'), ...rows);
   }
 
-  private groups(values: PropertyValue[], params: Record<string, string>): HTMLElement[] {
+  private groups(values: PropertyRow[], params: Record<string, string>): HTMLElement[] {
     const names = [...new Set(values.map((value) => value.group))].filter((name) => name !== 'pose');
     return names.map((name) => h('details', { class: 'property-group', open: true }, h('summary', {}, name),
       ...values.filter((value) => value.group === name).map((value) => row(value.name, this.control(value, params), value.unit))));
   }
 
-  private control(property: PropertyValue, params: Record<string, string>): HTMLElement {
+  private control(property: PropertyRow, params: Record<string, string>): HTMLElement {
     const { name, value, editable, unit } = property;
     const set = (next: Json): void => void this.world.call('world.set_property', { ...params, name, value: next })
       .catch((problem) => {

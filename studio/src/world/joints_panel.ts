@@ -1,21 +1,12 @@
 /** Joints: Gazebo's joint control, by force, by position and by velocity with PID. */
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
-import { isObject, type Json, type JsonObject } from '../json';
+import type { WorldJoint } from '../generated/messages';
+import type { Json, JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
 import { button, fillSelect, h, notice, select, setText, toolbar } from '../widgets/dom';
 import { worldStore, type WorldStore } from './store';
-
-interface JointRow {
-  name: string;
-  type: string;
-  position: number;
-  velocity: number;
-  effort: number;
-  lower: number | null;
-  upper: number | null;
-}
 
 type Mode = 'force' | 'position' | 'velocity';
 const MODES: Record<Mode, string> = { force: 'Force', position: 'Position', velocity: 'Velocity' };
@@ -92,7 +83,7 @@ export class JointsPanel extends BasePanel {
 
   private take(value: Json): void {
     if (!Array.isArray(value)) return;
-    const joints = (value.filter(isObject) as unknown as JointRow[]).filter((joint) => joint.type !== 'fixed');
+    const joints = (value as unknown as WorldJoint[]).filter((joint) => joint.type !== 'fixed');
     const names = `${this.mode} ${joints.map((joint) => joint.name).join()}`;
     if (names !== this.names) {
       this.names = names;
@@ -108,7 +99,7 @@ export class JointsPanel extends BasePanel {
     }
   }
 
-  private joint(joint: JointRow): HTMLElement {
+  private joint(joint: WorldJoint): HTMLElement {
     const [position, velocity, effort] = [0, 1, 2].map(() => h('output', {}));
     this.rows.set(joint.name, { position, velocity, effort });
     const linear = joint.type === 'prismatic';
@@ -118,7 +109,7 @@ export class JointsPanel extends BasePanel {
       h('div', { class: 'joint-state' }, position, ` ${units[0]}`, velocity, ` ${units[1]}`, effort, ` ${units[2]}`));
   }
 
-  private controls(joint: JointRow, units: string[]): HTMLElement[] {
+  private controls(joint: WorldJoint, units: string[]): HTMLElement[] {
     if (this.mode === 'force') {
       const force = field(`${joint.name} force (${units[2]})`, 0, 0.1);
       force.addEventListener('change', () => this.command(joint.name, { force: Number(force.value) }));

@@ -1,5 +1,5 @@
 /** The properties of a light. */
-import type { LightValue } from '../model/scene_value';
+import type { LightValue } from '../generated/messages';
 import { h } from '../widgets/dom';
 
 /** Rows that change a light; `change` gets the values that are new. */

@@ -4,7 +4,7 @@ import type { Connection } from '../connection';
 import { floats } from '../frame';
 import type { Json, JsonObject } from '../json';
 import type { Entity } from '../model/body';
-import type { SceneValue } from '../model/scene_value';
+import type { PageScene } from '../generated/messages';
 
 /** What is selected: a model, or a link of one, or a light. */
 export interface Selection {
@@ -29,7 +29,7 @@ export function worldStore(connection: Connection): WorldStore {
 
 /** Streams `world.scene` and `world.poses`, open while somebody looks. */
 export class WorldStore {
-  scene: SceneValue | null = null;
+  scene: PageScene | null = null;
   poses: Float32Array = new Float32Array(0);
   selection: Selection | null = null;
   private readonly sceneListeners = new Set<Listener>();
@@ -112,7 +112,7 @@ export class WorldStore {
   private take(value: Json): void {
     // A stream of the class batch: of several scenes in one turn the last is the world.
     const newest = Array.isArray(value) ? (value[value.length - 1] ?? null) : value;
-    this.scene = newest as unknown as SceneValue | null;
+    this.scene = newest as unknown as PageScene | null;
     this.poses = new Float32Array(0);
     const { selection, scene } = this;
     if (selection && !selection.light && !scene?.models.some((model) => model.name === selection.model)) this.select(null);

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import threading
 import time
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gazelle.simulator.viewing.gz_topics import GzTopics
     from gazelle.simulator.world_server import WorldServer
 
-__all__ = ["Broadcast"]
+__all__ = ["Broadcast", "WorldStats"]
 
 _FRAME_S = 1.0 / 30.0
 # Every so many frames.
@@ -30,6 +30,26 @@ _REPEAT_EVERY = 30
 _SCENE_WAIT_S = 1.0
 
 Floats = NDArray[np.float32]
+
+
+class WorldStats(TypedDict):
+    """How a world's time goes.
+
+    Attributes:
+        rtf: simulated per real time; 0 while it is paused.
+        wanted_rtf: null for as fast as it goes.
+        step_s: a step of the physics.
+        version: of the scene.
+    """
+
+    sim_s: float
+    real_s: float
+    rtf: float
+    wanted_rtf: float | None
+    paused: bool
+    step_s: float
+    iterations: int
+    version: int
 
 
 class Broadcast:
@@ -159,7 +179,7 @@ class Broadcast:
         if for_gz is not None:
             for_gz.send_statistics(value)
 
-    def _statistics(self) -> dict[str, Any]:
+    def _statistics(self) -> WorldStats:
         server = self._server
         real_s, factor = self._pace.look(server.time_ns)
         return {
@@ -191,5 +211,5 @@ class _Pace:
         return now_s - self._start_s, factor
 
 
-def _text(value: dict[str, Any]) -> Any:
+def _text(value: Mapping[str, Any]) -> Any:
     return message_class("std_msgs/String")(data=json.dumps(value))

@@ -18,7 +18,7 @@ from gazelle.simulator.viewing.fields import flag_of, number_of
 if TYPE_CHECKING:
     from gazelle.engine import Engine
 
-__all__ = ["Row", "joint_rows", "link_rows", "model_rows", "set_property"]
+__all__ = ["PropertyRow", "joint_rows", "link_rows", "model_rows", "set_property"]
 
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _AXIS = ("lower", "upper", "effort", "velocity", "damping", "friction")
@@ -27,7 +27,7 @@ _SURFACE = {"mu1": "", "mu2": "", "kp": "N/m", "kd": "N·s/m", "restitution_coef
 _SURFACE_FIELDS = {"restitution_coefficient": "restitution"}
 
 
-class Row(NamedTuple):
+class PropertyRow(NamedTuple):
     """A line of the inspector.
 
     Attributes:
@@ -45,29 +45,29 @@ class Row(NamedTuple):
     editable: bool = False
 
 
-def model_rows(engine: Engine, model: Model) -> list[Row]:
+def model_rows(engine: Engine, model: Model) -> list[PropertyRow]:
     """Return the rows of a model as it is now."""
     linear, angular = engine.model_velocity(model.name)
     return [
-        Row("model", "name", model.name),
-        Row("model", "static", model.static, editable=True),
-        Row("model", "self_collide", model.self_collide, editable=True),
+        PropertyRow("model", "name", model.name),
+        PropertyRow("model", "static", model.static, editable=True),
+        PropertyRow("model", "self_collide", model.self_collide, editable=True),
         *_pose_rows(engine.model_pose(model.name)),
         *_vector_rows("velocity", "linear", linear, "m/s"),
         *_vector_rows("velocity", "angular", angular, "rad/s"),
-        Row("source", "file", str(model.file or "")),
-        Row("source", "format", model.source_format),
+        PropertyRow("source", "file", str(model.file or "")),
+        PropertyRow("source", "format", model.source_format),
     ]
 
 
-def link_rows(engine: Engine, model: Model, link: Link) -> list[Row]:
+def link_rows(engine: Engine, model: Model, link: Link) -> list[PropertyRow]:
     """Return the rows of a link as it is now."""
     handle = engine.link(f"{model.name}::{link.name}")
     linear, angular = handle.velocity_world()
     return [
-        Row("link", "name", link.name),
-        Row("link", "gravity", link.gravity, editable=True),
-        Row("link", "kinematic", link.kinematic),
+        PropertyRow("link", "name", link.name),
+        PropertyRow("link", "gravity", link.gravity, editable=True),
+        PropertyRow("link", "kinematic", link.kinematic),
         *(row._replace(editable=False) for row in _pose_rows(handle.T_world_link())),
         *_vector_rows("velocity", "linear", linear, "m/s"),
         *_vector_rows("velocity", "angular", angular, "rad/s"),
@@ -76,24 +76,26 @@ def link_rows(engine: Engine, model: Model, link: Link) -> list[Row]:
     ]
 
 
-def joint_rows(engine: Engine, model: Model, joint: Joint) -> list[Row]:
+def joint_rows(engine: Engine, model: Model, joint: Joint) -> list[PropertyRow]:
     """Return the rows of a joint as it is now."""
     handle = engine.joint(f"{model.name}::{joint.name}")
     angle, effort = ("m", "N") if joint.type.value == "prismatic" else ("rad", "N·m")
     units = {"lower": angle, "upper": angle, "effort": effort, "velocity": f"{angle}/s",
              "damping": f"{effort}·s/{angle}", "friction": effort}  # fmt: skip
     rows = [
-        Row("joint", "name", joint.name),
-        Row("joint", "type", joint.type.value),
-        Row("joint", "parent", joint.parent),
-        Row("joint", "child", joint.child),
-        Row("state", "position", handle.position, angle),
-        Row("state", "velocity", handle.velocity, f"{angle}/s"),
-        Row("state", "effort", handle.effort, effort),
+        PropertyRow("joint", "name", joint.name),
+        PropertyRow("joint", "type", joint.type.value),
+        PropertyRow("joint", "parent", joint.parent),
+        PropertyRow("joint", "child", joint.child),
+        PropertyRow("state", "position", handle.position, angle),
+        PropertyRow("state", "velocity", handle.velocity, f"{angle}/s"),
+        PropertyRow("state", "effort", handle.effort, effort),
     ]
     if joint.axis is not None:
         rows += [
-            Row("axis", name, _finite(getattr(joint.axis, name)), units[name], editable=True)
+            PropertyRow(
+                "axis", name, _finite(getattr(joint.axis, name)), units[name], editable=True
+            )
             for name in _AXIS
         ]
     return rows
@@ -128,38 +130,38 @@ def set_property(
     replace_model(engine, changed)
 
 
-def _pose_rows(pose: Pose) -> list[Row]:
+def _pose_rows(pose: Pose) -> list[PropertyRow]:
     values = zip(("x", "y", "z", "roll", "pitch", "yaw"), (*pose.position_m, *pose.rpy_rad),
                  strict=True)  # fmt: skip
     return [
-        Row("pose", name, value, "m" if len(name) == 1 else "rad", editable=True)
+        PropertyRow("pose", name, value, "m" if len(name) == 1 else "rad", editable=True)
         for name, value in values
     ]
 
 
-def _vector_rows(group: str, name: str, vector: Any, unit: str) -> Iterator[Row]:
+def _vector_rows(group: str, name: str, vector: Any, unit: str) -> Iterator[PropertyRow]:
     for axis, value in zip("xyz", vector.tolist(), strict=True):
-        yield Row(group, f"{name} {axis}", value, unit)
+        yield PropertyRow(group, f"{name} {axis}", value, unit)
 
 
-def _inertial_rows(link: Link) -> Iterator[Row]:
+def _inertial_rows(link: Link) -> Iterator[PropertyRow]:
     inertial = link.inertial
     if inertial is None:
-        yield Row("inertial", "mass", None, "kg", editable=False)
+        yield PropertyRow("inertial", "mass", None, "kg", editable=False)
         return
-    yield Row("inertial", "mass", inertial.mass_kg, "kg", editable=True)
+    yield PropertyRow("inertial", "mass", inertial.mass_kg, "kg", editable=True)
     for name, value in zip(_TENSOR, inertial.inertia_kg_m2, strict=True):
-        yield Row("inertial", name, value, "kg·m²", editable=True)
+        yield PropertyRow("inertial", name, value, "kg·m²", editable=True)
     for row in _pose_rows(inertial.T_link_com):
         yield row._replace(group="inertial", editable=False)
 
 
-def _collision_rows(collision: Collision) -> Iterator[Row]:
+def _collision_rows(collision: Collision) -> Iterator[PropertyRow]:
     group = f"collision/{collision.name}"
-    yield Row(group, "geometry", type(collision.shape).__name__.lower())
+    yield PropertyRow(group, "geometry", type(collision.shape).__name__.lower())
     for name, unit in _SURFACE.items():
         value = getattr(collision.surface, _SURFACE_FIELDS.get(name, name))
-        yield Row(group, name, value, unit, editable=True)
+        yield PropertyRow(group, name, value, unit, editable=True)
 
 
 def _with_link(model: Model, link_name: str, name: str, value: Any) -> Model:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
 from gazelle.bag import open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
@@ -14,10 +14,35 @@ from gazelle.graph import Node
 from gazelle.studio.errors import StudioError
 from gazelle.studio.session import Studio
 
-__all__ = ["Playing"]
+__all__ = ["BagTopic", "PlayerState", "Playing"]
 
 _LAST_LOOK_S = 2.0
 _CLOCK_HZ = 100.0
+
+
+class BagTopic(TypedDict):
+    """A topic of a bag."""
+
+    name: str
+    type: str
+    count: int
+
+
+class PlayerState(TypedDict):
+    """A bag that is open; seconds of its stamps.
+
+    Attributes:
+        problems: what could not be published.
+    """
+
+    path: str
+    playing: bool
+    rate: float
+    begin_s: float
+    end_s: float
+    time_s: float
+    topics: list[BagTopic]
+    problems: list[str]
 
 
 class Playing:
@@ -113,7 +138,7 @@ class Playing:
                 self._held_s = self._time_s()
                 self._start(self._held_s)
 
-    def state(self) -> dict[str, Any] | None:
+    def state(self) -> PlayerState | None:
         """Return what the page shows; None without a bag."""
         with self._lock:
             bag = self._bag
@@ -195,7 +220,7 @@ def _run(player: Player, ended: Callable[[Player], None]) -> None:
             publisher.unregister()
 
 
-def _topics(bag: BagReader) -> list[dict[str, Any]]:
+def _topics(bag: BagReader) -> list[BagTopic]:
     counts: dict[tuple[str, str], int] = {}
     for one in bag.connections:
         key = (one.topic, one.type_name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
 from gazelle.bag.formats import OWN_FORMATS
 from gazelle.bag.recording import Recorder, Ros1Files, Selection, default_stem
@@ -15,11 +15,26 @@ from gazelle.graph import Node
 from gazelle.studio.errors import StudioError
 from gazelle.studio.session import Studio
 
-__all__ = ["FORMATS", "Recording"]
+__all__ = ["FORMATS", "RecorderState", "Recording"]
 
 _BY_KIND = {one.suffix.removeprefix("."): one for one in OWN_FORMATS}
 FORMATS = tuple(_BY_KIND)
 _FLUSH_S = 10.0
+
+
+class RecorderState(TypedDict):
+    """A bag that is being recorded.
+
+    Attributes:
+        dropped: messages that came faster than they were written.
+    """
+
+    path: str
+    seconds: float
+    messages: int
+    dropped: int
+    bytes: int
+    topics: list[str]
 
 
 class Recording:
@@ -86,7 +101,7 @@ class Recording:
     def _close(self) -> None:
         self.stop()
 
-    def state(self) -> dict[str, Any] | None:
+    def state(self) -> RecorderState | None:
         """Return what the page shows; None while nothing is recorded."""
         recorder, sink = self._recorder, self._sink
         if recorder is None or sink is None:

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypedDict
 
-from gazelle.studio.bags.playing import Playing
-from gazelle.studio.bags.recording import Recording
+from gazelle.studio.bags.playing import PlayerState, Playing
+from gazelle.studio.bags.recording import RecorderState, Recording
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream, StreamKind
 
-__all__ = ["METHODS", "STREAMS"]
+__all__ = ["METHODS", "STREAMS", "BagState"]
 
 _PERIOD_S = 0.2
+
+
+class BagState(TypedDict):
+    """What is recorded and what is played."""
+
+    recorder: RecorderState | None
+    player: PlayerState | None
 
 
 def _record(studio: Studio, params: Params) -> Any:
@@ -68,7 +75,7 @@ def _close(studio: Studio, _params: Params) -> Any:
 def _open_states(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``bag``: recorder and player, five times a second."""
 
-    def value() -> dict[str, Any]:
+    def value() -> BagState:
         recorder, player = studio.shared(Recording), studio.shared(Playing)
         return {"recorder": recorder.state(), "player": player.state()}
 

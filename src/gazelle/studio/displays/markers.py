@@ -7,13 +7,14 @@ from typing import Any
 
 from gazelle.geometry.pose import IDENTITY_POSE
 from gazelle.interfaces import message_type, service_type
+from gazelle.sensors.scene_types import MeshFile
 from gazelle.studio.displays.showing import Site
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.pacing import every
 from gazelle.studio.scenes.assets import Assets
-from gazelle.studio.scenes.shapes import mesh_geometry
+from gazelle.studio.scenes.shapes import MeshPartValue, mesh_geometry
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import OpenStream
 from gazelle.studio.taps import Sample
@@ -130,11 +131,15 @@ class _Meshes:
             value["mesh"] = self._known[uri]
         return value
 
-    def _read(self, uri: str) -> Any:
+    def _read(self, uri: str) -> list[MeshPartValue]:
         self._workspace = self._workspace or Workspace.discover()
         found = self._workspace.resolve(uri).path
-        geometry = {"uri": uri, "path": str(found or ""), "scale": [1.0, 1.0, 1.0]}
-        return mesh_geometry(geometry, self._assets).get("parts", [])
+        file: MeshFile = {
+            "type": "mesh", "uri": uri, "path": str(found or ""), "scale": [1.0, 1.0, 1.0],
+            "submesh": "", "center_submesh": False,
+        }  # fmt: skip
+        geometry = mesh_geometry(file, self._assets)
+        return geometry["parts"] if geometry["type"] == "mesh" else []
 
 
 def open_interactive(site: Site) -> OpenStream:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
 from gazelle.interfaces import message_type
@@ -14,6 +14,9 @@ from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 
 __all__ = [
+    "NodeParameter",
+    "ParameterDescriptor",
+    "ParameterRow",
     "delete_parameter",
     "get_node_parameters",
     "get_parameter",
@@ -29,7 +32,36 @@ _SET = "rcl_interfaces/srv/SetParameters"
 _RANGES = ("floating_point_range", "integer_range")
 
 
-def list_parameters(studio: Studio, params: Params) -> list[dict[str, Any]]:
+class ParameterRow(TypedDict):
+    """A parameter of ROS 1."""
+
+    name: str
+    value: Any
+
+
+class ParameterDescriptor(TypedDict):
+    """What a node of ROS 2 says of a parameter.
+
+    Attributes:
+        range: with `from_value`, `to_value` and `step`, or null.
+    """
+
+    description: str
+    read_only: bool
+    constraints: str
+    range: Any
+
+
+class NodeParameter(TypedDict):
+    """A parameter of a node of ROS 2."""
+
+    name: str
+    value: Any
+    type: str
+    descriptor: ParameterDescriptor
+
+
+def list_parameters(studio: Studio, params: Params) -> list[ParameterRow]:
     """``param.list``: names and values below a namespace, all by default."""
     tree = _value(studio, params.text("name", "/"))
     start = params.text("name", "/").rstrip("/")
@@ -60,7 +92,7 @@ def delete_parameter(studio: Studio, params: Params) -> dict[str, Any]:
     return {}
 
 
-def get_node_parameters(studio: Studio, params: Params) -> list[dict[str, Any]]:
+def get_node_parameters(studio: Studio, params: Params) -> list[NodeParameter]:
     """``node.params`` of a ROS 2 node."""
     node = _node(studio, params)
     listed = request_response(studio, f"{node}/list_parameters", _LIST)
@@ -92,7 +124,7 @@ def _node(studio: Studio, params: Params) -> str:
     return node
 
 
-def _row(name: str, value: Any, descriptor: Any) -> dict[str, Any]:
+def _row(name: str, value: Any, descriptor: Any) -> NodeParameter:
     told = message_value(descriptor)
     limits = next((told[key][0] for key in _RANGES if told.get(key)), None)
     return {

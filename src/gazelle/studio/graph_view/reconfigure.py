@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.graph.reconfigure import (
     DynamicGroup,
@@ -15,9 +15,49 @@ from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 
-__all__ = ["get_reconfigurable", "list_reconfigurable", "set_reconfigurable"]
+__all__ = [
+    "DynamicGroupRow",
+    "DynamicParameterRow",
+    "Reconfigurable",
+    "get_reconfigurable",
+    "list_reconfigurable",
+    "set_reconfigurable",
+]
 
 _TIMEOUT_S = 3.0
+
+
+class DynamicParameterRow(TypedDict):
+    """A parameter of dynamic_reconfigure.
+
+    Attributes:
+        edit_method: an object with `enum`, or null.
+    """
+
+    name: str
+    type: str
+    min: Any
+    max: Any
+    default: Any
+    value: Any
+    edit_method: Any
+    description: str
+
+
+class DynamicGroupRow(TypedDict):
+    """A group of parameters."""
+
+    name: str
+    id: int
+    parent: int
+    type: str
+    parameters: list[DynamicParameterRow]
+
+
+class Reconfigurable(TypedDict):
+    """What a node lets be changed."""
+
+    groups: list[DynamicGroupRow]
 
 
 def list_reconfigurable(studio: Studio, _params: Params) -> list[str]:
@@ -25,7 +65,7 @@ def list_reconfigurable(studio: Studio, _params: Params) -> list[str]:
     return server_names(studio.graph)
 
 
-def get_reconfigurable(studio: Studio, params: Params) -> dict[str, Any]:
+def get_reconfigurable(studio: Studio, params: Params) -> Reconfigurable:
     """``reconfigure.get``: groups with the values of now."""
     client = studio.shared(_Clients).client(params)
     group, values = client.description, client.values
@@ -68,7 +108,7 @@ class _Clients:
             made.close()
 
 
-def _groups(top: DynamicGroup, values: dict[str, Any]) -> list[dict[str, Any]]:
+def _groups(top: DynamicGroup, values: dict[str, Any]) -> list[DynamicGroupRow]:
     return [
         {
             "name": group.name,
@@ -81,7 +121,7 @@ def _groups(top: DynamicGroup, values: dict[str, Any]) -> list[dict[str, Any]]:
     ]
 
 
-def _row(one: DynamicParameter, values: dict[str, Any]) -> dict[str, Any]:
+def _row(one: DynamicParameter, values: dict[str, Any]) -> DynamicParameterRow:
     return {
         "name": one.name,
         "type": one.type,

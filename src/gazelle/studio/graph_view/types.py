@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NotRequired, TypedDict
 
 from gazelle.errors import NotFoundError
 from gazelle.interfaces import Definition, Field, Generation, definition, known_types
@@ -12,7 +12,7 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 
-__all__ = ["field_tree", "get_type", "list_types"]
+__all__ = ["TypeConstant", "TypeField", "TypeValue", "field_tree", "get_type", "list_types"]
 
 _KINDS = ("msg", "srv", "action")
 _PARTS = {
@@ -23,7 +23,46 @@ _PARTS = {
 _RULE = "\n---\n"
 
 
-def get_type(_studio: Studio, params: Params) -> Any:
+class TypeConstant(TypedDict):
+    """A constant of a definition."""
+
+    name: str
+    type: str
+    value: Any
+
+
+class TypeField(TypedDict):
+    """A field of a definition.
+
+    Attributes:
+        array: how many of them; `[]` for any number, null for one.
+        default: null where the definition has none.
+        fields: those of a message inside.
+    """
+
+    name: str
+    type: str
+    array: int | str | None
+    default: Any
+    fields: NotRequired[list[TypeField]]
+    constants: NotRequired[list[TypeConstant]]
+
+
+class TypeValue(TypedDict):
+    """A definition; the fields of a service and of an action are its parts.
+
+    Attributes:
+        kind: `msg`, `srv` or `action`.
+    """
+
+    type: str
+    kind: str
+    text: str
+    fields: list[TypeField]
+    constants: NotRequired[list[TypeConstant]]
+
+
+def get_type(_studio: Studio, params: Params) -> TypeValue:
     """``type.get``: text and fields; those of a service are ``request`` and ``response``."""
     name = params.text("type")
     package, part, bare = split_name(name)
@@ -43,31 +82,37 @@ def list_types(_studio: Studio, params: Params) -> list[str]:
     return list(known_types(kind))
 
 
-def field_tree(full: str) -> list[dict[str, Any]]:
+def field_tree(full: str) -> list[TypeField]:
     """Return the fields of a message with those of all messages inside."""
     return [_field(item) for item in definition(full, Generation.ROS2).fields]
 
 
-def _described(full: str, kind: str) -> dict[str, Any]:
+def _described(full: str, kind: str) -> TypeValue:
     parts = {word: definition(full + end, Generation.ROS2) for word, end in _PARTS[kind].items()}
-    fields: list[dict[str, Any]] = []
+    fields: list[TypeField] = []
     for word, part in parts.items():
         tree = [_field(item) for item in part.fields]
         if not word:
             fields = tree
             continue
-        whole = {"name": word, "type": part.name, "array": None, "default": None, "fields": tree}
-        fields.append(whole | _constants(part))
+        whole: TypeField = {
+            "name": word, "type": part.name, "array": None, "default": None, "fields": tree,
+        }  # fmt: skip
+        if part.constants:
+            whole["constants"] = _constants(part)
+        fields.append(whole)
     text = _RULE.join(part.text for part in parts.values())
-    value = {"type": full, "kind": kind, "text": text, "fields": fields}
-    return value | (_constants(parts[""]) if "" in parts else {})
+    value: TypeValue = {"type": full, "kind": kind, "text": text, "fields": fields}
+    if "" in parts and parts[""].constants:
+        value["constants"] = _constants(parts[""])
+    return value
 
 
-def _field(item: Field) -> dict[str, Any]:
+def _field(item: Field) -> TypeField:
     array: int | str | None = None
     if item.type.array is not Array.ONE:
         array = item.type.size if item.type.array is Array.FIXED else "[]"
-    value: dict[str, Any] = {
+    value: TypeField = {
         "name": item.name,
         "type": item.type.base,
         "array": array,
@@ -76,15 +121,10 @@ def _field(item: Field) -> dict[str, Any]:
     if item.type.is_message:
         inner = definition(item.type.base, Generation.ROS2)
         value["fields"] = [_field(one) for one in inner.fields]
-        value |= _constants(inner)
+        if inner.constants:
+            value["constants"] = _constants(inner)
     return value
 
 
-def _constants(part: Definition) -> dict[str, Any]:
-    if not part.constants:
-        return {}
-    return {
-        "constants": [
-            {"name": one.name, "type": one.type, "value": one.value} for one in part.constants
-        ]
-    }
+def _constants(part: Definition) -> list[TypeConstant]:
+    return [{"name": one.name, "type": one.type, "value": one.value} for one in part.constants]

@@ -6,7 +6,7 @@ import base64
 import binascii
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 
@@ -14,12 +14,19 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 
-__all__ = ["read_mesh"]
+__all__ = ["MotionMesh", "read_mesh"]
 
 _MOST_TRIANGLES = 200_000
 
 
-def read_mesh(_studio: Studio, params: Params) -> dict[str, Any]:
+class MotionMesh(TypedDict):
+    """A mesh as `shape_msgs/Mesh` has it, metres."""
+
+    vertices: list[list[float]]
+    triangles: list[list[int]]
+
+
+def read_mesh(_studio: Studio, params: Params) -> MotionMesh:
     """Read the file ``name`` with the content ``base64``; vertices in metres."""
     # Readers of meshes are needed by few pages.
     from gazelle.errors import GazelleError
@@ -42,7 +49,7 @@ def read_mesh(_studio: Studio, params: Params) -> dict[str, Any]:
     return _value(name, [(part.vertices_m, part.faces) for part in mesh.parts])
 
 
-def _value(name: str, parts: list[tuple[Any, Any]]) -> dict[str, Any]:
+def _value(name: str, parts: list[tuple[Any, Any]]) -> MotionMesh:
     """Return one mesh; corners at the same place are one vertex."""
     begins = np.cumsum([0, *(len(vertices) for vertices, _ in parts[:-1])])
     corners = np.concatenate([np.asarray(vertices, np.float64) for vertices, _ in parts])

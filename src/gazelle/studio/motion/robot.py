@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from gazelle.graph import Kind
+from gazelle.sensors.scene_types import SceneValue
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
 from gazelle.studio.scenes.assets import Assets
-from gazelle.studio.scenes.shapes import page_scene
+from gazelle.studio.scenes.shapes import PageGeometry, page_scene
 from gazelle.studio.session import Studio
 
 if TYPE_CHECKING:
     from gazelle.description.moveit import MoveItConfig
     from gazelle.motion.model import JointGroup, RobotModel
 
-__all__ = ["get_motion_robot"]
+__all__ = [
+    "MotionEffector",
+    "MotionGroup",
+    "MotionJoint",
+    "MotionMimic",
+    "MotionRobot",
+    "MotionVariable",
+    "get_motion_robot",
+]
 
 _PLAN = "plan_kinematic_path"
 _TYPE = "moveit_msgs/srv/GetMotionPlan"
@@ -29,7 +38,85 @@ _START = (
 )
 
 
-def get_motion_robot(studio: Studio, params: Params) -> dict[str, Any]:
+class MotionVariable(TypedDict):
+    """A variable of a joint, rad or m; null where there is no limit."""
+
+    name: str
+    lower: float | None
+    upper: float | None
+
+
+class MotionJoint(TypedDict):
+    """A joint that can move."""
+
+    name: str
+    kind: str
+    child: str
+    variables: list[MotionVariable]
+
+
+class MotionMimic(TypedDict):
+    """A variable that follows another one."""
+
+    variable: str
+    leader: str
+    factor: float
+    offset: float
+
+
+class MotionEffector(TypedDict):
+    """An end effector: the link that carries it, and links of its own."""
+
+    name: str
+    link: str
+    links: list[str]
+
+
+class MotionGroup(TypedDict):
+    """A planning group.
+
+    Attributes:
+        active: joints that are planned for.
+        states: positions of its named states.
+    """
+
+    name: str
+    variables: list[str]
+    active: list[str]
+    links: list[str]
+    tips: list[str]
+    effectors: list[MotionEffector]
+    states: dict[str, dict[str, float]]
+    is_chain: bool
+
+
+class _RobotPart(TypedDict):
+    name: str
+    frame: str
+    root: str
+    velocity_scaling: float
+    acceleration_scaling: float
+    default_pipeline: str
+    defaults: dict[str, float]
+    mimics: list[MotionMimic]
+    joints: list[MotionJoint]
+    groups: list[MotionGroup]
+
+
+class MotionRobot(_RobotPart):
+    """A robot as its move_group knows it.
+
+    Attributes:
+        prefix: what names of this move_group begin with: `/`.
+        frame: the planning frame.
+    """
+
+    node: str
+    prefix: str
+    scene: SceneValue[PageGeometry]
+
+
+def get_motion_robot(studio: Studio, params: Params) -> MotionRobot:
     """Return groups, joints, states and shapes of the robot of a move_group.
 
     ``namespace`` is that of the move_group, ``description`` the name of the parameter.
@@ -109,7 +196,7 @@ def _of_topic(studio: Studio, topic: str) -> str:
     return description_text(studio, topic)
 
 
-def _robot_value(robot: RobotModel, config: MoveItConfig) -> dict[str, Any]:
+def _robot_value(robot: RobotModel, config: MoveItConfig) -> _RobotPart:
     return {
         "name": robot.name,
         "frame": robot.frame,
@@ -129,8 +216,8 @@ def _robot_value(robot: RobotModel, config: MoveItConfig) -> dict[str, Any]:
     }
 
 
-def _joint_value(joint: Any) -> dict[str, Any]:
-    limits = [
+def _joint_value(joint: Any) -> MotionJoint:
+    limits: list[MotionVariable] = [
         {
             "name": name,
             "lower": None if limit.continuous else _finite(limit.lower),
@@ -145,7 +232,7 @@ def _finite(value: float) -> float | None:
     return value if abs(value) < 1e6 else None
 
 
-def _group_value(robot: RobotModel, group: JointGroup) -> dict[str, Any]:
+def _group_value(robot: RobotModel, group: JointGroup) -> MotionGroup:
     effectors = [one for one in robot.srdf.end_effectors if one.name in group.end_effectors]
     return {
         "name": group.name,

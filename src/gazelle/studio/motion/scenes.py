@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
+from typing import Any, NotRequired, TypedDict
 
 from gazelle.errors import GazelleError
 from gazelle.studio.errors import StudioError
@@ -14,12 +14,25 @@ from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["open_scene"]
+__all__ = ["PlanningScene", "open_scene"]
 
 _GET = "moveit_msgs/srv/GetPlanningScene"
 _REMOVE = 1
 _MOVE = 3
 _MOST_WAITING = 1000
+
+
+class PlanningScene(TypedDict):
+    """A planning scene; its objects are there at first and after every change of them.
+
+    Attributes:
+        objects: `moveit_msgs/CollisionObject` each.
+        attached: `moveit_msgs/AttachedCollisionObject` each.
+    """
+
+    positions: dict[str, float]
+    objects: NotRequired[list[Any]]
+    attached: NotRequired[list[Any]]
 
 
 def open_scene(studio: Studio, channel: Channel, params: Params) -> OpenStream:
@@ -59,7 +72,7 @@ class _Scene:
             del self._samples[:-_MOST_WAITING]
         self._channel.offer(self._value)
 
-    def _value(self) -> Any:
+    def _value(self) -> PlanningScene:
         with self._lock:
             samples, self._samples = self._samples, []
         for sample in samples:
@@ -67,7 +80,7 @@ class _Scene:
             if not hasattr(message, "robot_state"):
                 raise StudioError(f"{message.TYPE_NAME} is no moveit_msgs/PlanningScene")
             self._merge(message)
-        value: dict[str, Any] = {"positions": dict(self._positions)}
+        value: PlanningScene = {"positions": dict(self._positions)}
         if self._is_new:
             value["objects"] = [message_value(item, None) for item in self._objects.values()]
             value["attached"] = [message_value(item, None) for item in self._attached.values()]

@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import itertools
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 if TYPE_CHECKING:
     from gazelle.studio.streams import Channel
     from gazelle.studio.workers import Workers
 
-__all__ = ["Follower"]
+__all__ = ["Follower", "PanelEvent"]
 
 _GATHER_S = 0.05
 _REPLACED = ("set", "widget", "error", "state")
+
+
+class PanelEvent(TypedDict):
+    """What happened in a panel; `value` by `what`: docs/studio_protocol.md."""
+
+    what: str
+    name: str
+    value: Any
 
 
 class Follower:
@@ -27,14 +35,14 @@ class Follower:
         """Wrap a channel."""
         self.channel = channel
         self._workers = workers
-        self._waiting: dict[tuple[str, str | int], dict[str, Any]] = {}
+        self._waiting: dict[tuple[str, str | int], PanelEvent] = {}
         self._numbers = itertools.count()
         self._lock = threading.Lock()
         self._sending = threading.Lock()
 
     def tell(self, what: str, name: str, value: Any) -> None:
         """Send an event soon; one that it makes superfluous is not sent."""
-        event = {"what": what, "name": name, "value": value}
+        event: PanelEvent = {"what": what, "name": name, "value": value}
         with self._lock:
             first = not self._waiting
             if what == "state":

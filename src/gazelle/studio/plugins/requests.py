@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal, TypedDict
 
 from gazelle.studio.errors import StudioError
 from gazelle.studio.files import Answer
@@ -16,6 +16,8 @@ from gazelle.studio.streams import Channel, OpenStream
 from gazelle.workspace import Workspace
 
 __all__ = [
+    "PanelEntry",
+    "PanelInfo",
     "file_answer",
     "list_panels",
     "open_panel",
@@ -27,9 +29,36 @@ __all__ = [
 _ENDINGS = (".js", ".mjs")
 
 
-def list_panels(studio: Studio, _params: Params) -> list[dict[str, Any]]:
+class PanelEntry(TypedDict):
+    """A panel that could be opened.
+
+    Attributes:
+        problem: why it cannot, empty when it can.
+    """
+
+    name: str
+    kind: Literal["panel", "rqt"]
+    title: str
+    group: str
+    about: str
+    problem: str
+
+
+class PanelInfo(TypedDict):
+    """A panel that is open.
+
+    Attributes:
+        module: where its ES module is.
+    """
+
+    title: str
+    file: str
+    module: str | None
+
+
+def list_panels(studio: Studio, _params: Params) -> list[PanelEntry]:
     """``plugin.list``: what could be opened; no code of it runs."""
-    panels = [
+    panels: list[PanelEntry] = [
         {
             "name": source.name,
             "kind": "panel",
@@ -40,7 +69,7 @@ def list_panels(studio: Studio, _params: Params) -> list[dict[str, Any]]:
         }
         for source in studio.shared(Desk).sources().values()
     ]
-    foreign = [
+    foreign: list[PanelEntry] = [
         {
             "name": plugin.name,
             "kind": "rqt",
@@ -60,7 +89,7 @@ def open_panel(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     leave = show.follow(channel)
     source = show.source
     script = _script(source)
-    info = {
+    info: PanelInfo = {
         "title": source.title,
         "file": str(source.file),
         "module": f"/plugin/{source.name}.js" if script else None,

@@ -7,7 +7,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, replace
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.studio.plugins.containers import Column, Part, Row, all_widgets
@@ -15,10 +15,24 @@ from gazelle.studio.plugins.panel import Panel
 from gazelle.studio.plugins.values import accepted, check_sendable, first_value, refitted
 from gazelle.studio.plugins.widgets import Button, Choice, Handler, Image, Plot, Widget
 
-__all__ = ["State", "checked_layout", "handler_of"]
+__all__ = ["PanelState", "State", "checked_layout", "handler_of"]
 
 _KEPT_POINTS = 2000
 _NOT_SENT = ("on_change", "on_press", "value")
+
+
+class PanelState(TypedDict):
+    """Everything that a panel shows.
+
+    Attributes:
+        layout: its parts: widgets, and rows and columns with `children`.
+        values: by the widgets' names.
+        points: of its plots: `[t, value…]` each.
+    """
+
+    layout: list[dict[str, Any]]
+    values: dict[str, Any]
+    points: dict[str, list[Any]]
 
 
 def checked_layout(panel: type[Panel]) -> tuple[Part, ...]:
@@ -134,7 +148,7 @@ class State:
     def show_to(self, tell: Callable[[str, str, Any], None]) -> None:
         """Tell everything that a page needs which begins to show the panel."""
         with self._lock:
-            whole = {
+            whole: PanelState = {
                 "layout": [self._part(part) for part in self._layout],
                 "values": {name: self._shown(name) for name in self.widgets},
                 "points": {name: list(points) for name, points in self._points.items()},

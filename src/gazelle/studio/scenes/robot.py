@@ -6,10 +6,11 @@ import threading
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.sensors.scene_types import SceneValue
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.params import Params
 from gazelle.studio.scenes.assets import Assets
-from gazelle.studio.scenes.shapes import page_scene
+from gazelle.studio.scenes.shapes import PageGeometry, page_scene
 from gazelle.studio.session import Studio
 from gazelle.studio.taps import Sample
 from gazelle.workspace import Workspace
@@ -20,7 +21,7 @@ _PARAMETER = "/robot_description"
 _TOPIC_S = 2.0
 
 
-def get_robot(studio: Studio, params: Params) -> dict[str, Any]:
+def get_robot(studio: Studio, params: Params) -> SceneValue[PageGeometry]:
     """``robot.get``: of ``parameter`` or ``topic``, of ``/robot_description`` in either."""
     # Readers of descriptions take a third of the server's start; few pages wait for them.
     from gazelle.description.loader import load_models
@@ -29,7 +30,7 @@ def get_robot(studio: Studio, params: Params) -> dict[str, Any]:
     text = _description(studio, params)
     found = Diagnostics()
     models = load_models(text, workspace=Workspace.discover(), diagnostics=found, inserts=False)
-    findings = [
+    findings: list[dict[str, Any]] = [
         {"level": item.severity.name.lower(), "text": str(item.message), "code": item.code}
         for item in found
     ]
@@ -40,7 +41,8 @@ def get_robot(studio: Studio, params: Params) -> dict[str, Any]:
     prefix = params.text("tf_prefix", "").strip("/")
     for body in value["bodies"]:
         body["frame"] = f"{prefix}/{body['link']}" if prefix else body["link"]
-    return value | {"findings": findings}
+    value["findings"] = findings
+    return value
 
 
 def _description(studio: Studio, params: Params) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Literal, TypedDict, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,32 +11,70 @@ from numpy.typing import NDArray
 from gazelle.errors import GazelleError
 from gazelle.geometry import Mesh, MeshMaterial, MeshPart, load_mesh
 from gazelle.geometry.terrain import heightmap_mesh, polyline_mesh
+from gazelle.sensors.scene_types import (
+    BodyValue,
+    Floats3,
+    HeightmapFile,
+    MaterialValue,
+    MeshFile,
+    PlainGeometry,
+    PolylineOutlines,
+    SceneValue,
+    ShapeValue,
+    WorldGeometry,
+)
 from gazelle.studio.scenes.assets import Assets
 
-__all__ = ["mesh_geometry", "page_scene"]
+__all__ = [
+    "MeshGeometry",
+    "MeshPartValue",
+    "MissingGeometry",
+    "PageGeometry",
+    "mesh_geometry",
+    "page_scene",
+]
 
-Value = dict[str, Any]
+
+class MeshPartValue(TypedDict):
+    """A part of a mesh, which the page loads by its key."""
+
+    key: str
+    material: MaterialValue | None
 
 
-def page_scene(value: Value, assets: Assets) -> Value:
+class MeshGeometry(TypedDict):
+    """A mesh."""
+
+    type: Literal["mesh"]
+    parts: list[MeshPartValue]
+    scale: Floats3
+
+
+class MissingGeometry(TypedDict):
+    """A mesh that cannot be read; it is drawn as a red box."""
+
+    type: Literal["missing"]
+    uri: str
+    reason: str
+
+
+PageGeometry = PlainGeometry | MeshGeometry | MissingGeometry
+"""Geometries as the page takes them."""
+
+
+def page_scene(value: SceneValue[WorldGeometry], assets: Assets) -> SceneValue[PageGeometry]:
     """Return a scene value of `gazelle.sensors.scene_value` as the page takes it.
 
     Args:
         value: its shapes and materials name files.
         assets: keeps what the page loads later.
     """
-    bodies = [
-        body
-        | {
-            "visuals": [_shape(shape, assets) for shape in body["visuals"]],
-            "collisions": [_shape(shape, assets) for shape in body["collisions"]],
-        }
-        for body in value["bodies"]
-    ]
-    return value | {"bodies": bodies}
+    made = cast("SceneValue[PageGeometry]", value.copy())
+    made["bodies"] = [_body(body, assets) for body in value["bodies"]]
+    return made
 
 
-def mesh_geometry(geometry: Value, assets: Assets) -> Value:
+def mesh_geometry(geometry: MeshFile, assets: Assets) -> MeshGeometry | MissingGeometry:
     """Return a mesh's geometry with keys; one that cannot be read is of type ``missing``.
 
     Args:
@@ -50,44 +88,52 @@ def mesh_geometry(geometry: Value, assets: Assets) -> Value:
         mesh = _chosen(load_mesh(path), geometry)
     except GazelleError as error:
         return _missing(uri, str(error))
-    parts = [
+    parts: list[MeshPartValue] = [
         {"key": assets.add_mesh(part), "material": _mesh_material(part.material, assets)}
         for part in mesh.parts
     ]
     return {"type": "mesh", "parts": parts, "scale": geometry["scale"]}
 
 
-def _shape(shape: Value, assets: Assets) -> Value:
+def _body(body: BodyValue[WorldGeometry], assets: Assets) -> BodyValue[PageGeometry]:
+    made = cast("BodyValue[PageGeometry]", body.copy())
+    made["visuals"] = [_shape(shape, assets) for shape in body["visuals"]]
+    made["collisions"] = [_shape(shape, assets) for shape in body["collisions"]]
+    return made
+
+
+def _shape(shape: ShapeValue[WorldGeometry], assets: Assets) -> ShapeValue[PageGeometry]:
+    made = cast("ShapeValue[PageGeometry]", shape.copy())
+    made["geometry"] = _geometry(shape["geometry"], assets)
     material = shape["material"]
-    changed: Value = {"geometry": _geometry(shape["geometry"], assets)}
-    if material is not None and material.get("texture"):
-        key = assets.add_texture(Path(material["texture"]))
-        changed["material"] = material | {"texture": key}
-    return shape | changed
+    if material is not None and material["texture"]:
+        looks = material.copy()
+        looks["texture"] = assets.add_texture(Path(material["texture"]))
+        made["material"] = looks
+    return made
 
 
-def _geometry(geometry: Value, assets: Assets) -> Value:
-    kind = geometry["type"]
-    if kind == "mesh":
+def _geometry(geometry: WorldGeometry, assets: Assets) -> PageGeometry:
+    if geometry["type"] == "mesh":
         return mesh_geometry(geometry, assets)
-    if kind not in ("heightmap", "polyline"):
+    if geometry["type"] != "heightmap" and geometry["type"] != "polyline":
         return geometry
     try:
         part = _made_part(geometry)
     except (GazelleError, OSError, ValueError) as error:
-        return _missing(str(geometry.get("uri", kind)), str(error))
-    parts = [{"key": assets.add_mesh(part), "material": None}]
+        return _missing(str(geometry.get("uri", geometry["type"])), str(error))
+    parts: list[MeshPartValue] = [{"key": assets.add_mesh(part), "material": None}]
     return {"type": "mesh", "parts": parts, "scale": [1.0, 1.0, 1.0]}
 
 
-def _made_part(geometry: Value) -> MeshPart:
+def _made_part(geometry: HeightmapFile | PolylineOutlines) -> MeshPart:
     if geometry["type"] == "polyline":
         outlines = tuple(
             tuple((float(x), float(y)) for x, y in outline) for outline in geometry["outlines"]
         )
         return polyline_mesh(outlines, geometry["height"])
-    size, position = geometry["size"], geometry["position"]
-    return heightmap_mesh(_heights(Path(geometry["path"])), tuple(size), tuple(position))
+    (x, y, z), (at_x, at_y, at_z) = geometry["size"], geometry["position"]
+    return heightmap_mesh(_heights(Path(geometry["path"])), (x, y, z), (at_x, at_y, at_z))
 
 
 def _heights(path: Path) -> NDArray[np.float64]:
@@ -100,18 +146,18 @@ def _heights(path: Path) -> NDArray[np.float64]:
     return pixels / (65535.0 if deep else 255.0)
 
 
-def _chosen(mesh: Mesh, geometry: Value) -> Mesh:
-    name = geometry.get("submesh", "")
+def _chosen(mesh: Mesh, geometry: MeshFile) -> Mesh:
+    name = geometry["submesh"]
     if not name:
         return mesh
-    chosen = mesh.submesh(name, bool(geometry.get("center_submesh")))
+    chosen = mesh.submesh(name, geometry["center_submesh"])
     if chosen is None:
         names = ", ".join(mesh.submesh_names)
         raise GazelleError(f"it has no submesh '{name}'; there are {names}")
     return chosen
 
 
-def _mesh_material(material: MeshMaterial | None, assets: Assets) -> Value | None:
+def _mesh_material(material: MeshMaterial | None, assets: Assets) -> MaterialValue | None:
     if material is None:
         return None
     return {
@@ -124,5 +170,5 @@ def _mesh_material(material: MeshMaterial | None, assets: Assets) -> Value | Non
     }
 
 
-def _missing(uri: str, reason: str) -> Value:
+def _missing(uri: str, reason: str) -> MissingGeometry:
     return {"type": "missing", "uri": uri, "reason": reason}

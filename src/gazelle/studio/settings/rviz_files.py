@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal, NotRequired, TypedDict
 
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import YamlError, read_yaml
@@ -15,20 +15,72 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 
-__all__ = ["open_rviz", "rviz_value"]
+__all__ = ["RvizDisplay", "RvizFile", "RvizTool", "RvizView", "open_rviz", "rviz_value"]
 
 _GROUPS = ("Group",)
 _TOPICS = dict.fromkeys(
     ("Topic", *(name for display in DISPLAYS.values() for name in display.topic_names))
 )
 # Of the views: RViz's word, ours.
-_NUMBERS = {"Distance": "distance", "Yaw": "yaw", "Pitch": "pitch", "Scale": "scale",
-            "Angle": "angle"}  # fmt: skip
+_NUMBERS: dict[str, Literal["distance", "yaw", "pitch", "scale", "angle"]] = {
+    "Distance": "distance",
+    "Yaw": "yaw",
+    "Pitch": "pitch",
+    "Scale": "scale",
+    "Angle": "angle",
+}
 _KNOWN_PARTS = ("Panels", "Visualization Manager", "Window Geometry", "Preferences", "Toolbars")
 _USUAL = "The displays that are there stay."
 
+RvizDisplay = TypedDict(
+    "RvizDisplay",
+    {
+        "class": str,
+        "name": str,
+        "enabled": bool,
+        "topic": NotRequired[str],
+        "properties": dict[str, Any],
+    },
+)
+"""A display as a file lists it; layouts keep the topic among the properties."""
 
-def open_rviz(_studio: Studio, params: Params) -> dict[str, Any]:
+RvizTool = TypedDict("RvizTool", {"class": str, "topic": str, "properties": dict[str, Any]})
+"""A tool as a file lists it."""
+
+
+class RvizView(TypedDict, total=False):
+    """Where a file looks from, metres and rad; what it does not say is not there.
+
+    Attributes:
+        scale: pixels per metre.
+    """
+
+    kind: str
+    distance: float
+    yaw: float
+    pitch: float
+    scale: float
+    angle: float
+    focal: Annotated[list[float], 3]
+
+
+class RvizFile(TypedDict):
+    """What a `.rviz` file says.
+
+    Attributes:
+        unknown: its parts that mean nothing here.
+    """
+
+    fixed_frame: str
+    background: str
+    displays: list[RvizDisplay]
+    view: RvizView
+    tools: list[RvizTool]
+    panels: list[str]
+    unknown: list[str]
+
+
+def open_rviz(_studio: Studio, params: Params) -> RvizFile:
     """``rviz.open``: of a ``path`` on this machine or of a ``text``."""
     if "text" in params:
         return rviz_value(params.text("text"), params.text("name", "the .rviz file"))
@@ -41,7 +93,7 @@ def open_rviz(_studio: Studio, params: Params) -> dict[str, Any]:
         raise StudioError(f"cannot read {path}: {error}", hint=_USUAL) from None
 
 
-def rviz_value(text: str, name: str) -> dict[str, Any]:
+def rviz_value(text: str, name: str) -> RvizFile:
     """Return frame, displays, view, tools and panels of a ``.rviz`` file of either generation.
 
     Raises:
@@ -77,7 +129,7 @@ def _content(text: str, name: str) -> Mapping[str, Any]:
     return content
 
 
-def _displays(found: Any, group: str = "", *, enabled: bool = True) -> Iterator[dict[str, Any]]:
+def _displays(found: Any, group: str = "", *, enabled: bool = True) -> Iterator[RvizDisplay]:
     """Yield all displays; those of a group have its name before theirs, and are off where it is."""
     for item in _list(found):
         short = _short(item.get("Class", ""))
@@ -102,7 +154,7 @@ def _displays(found: Any, group: str = "", *, enabled: bool = True) -> Iterator[
         }
 
 
-def _tool(item: Mapping[str, Any]) -> dict[str, Any]:
+def _tool(item: Mapping[str, Any]) -> RvizTool:
     skipped = {"Class", "Topic"}
     return {
         "class": _short(item.get("Class", "")),
@@ -111,11 +163,11 @@ def _tool(item: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _view(current: Mapping[str, Any]) -> dict[str, Any]:
+def _view(current: Mapping[str, Any]) -> RvizView:
     """Return the view in the page's words; what the file does not say is left out."""
     if not current:
         return {}
-    value: dict[str, Any] = {"kind": _short(current.get("Class", "Orbit"))}
+    value: RvizView = {"kind": _short(current.get("Class", "Orbit"))}
     for theirs, ours in _NUMBERS.items():
         if isinstance(current.get(theirs), int | float):
             value[ours] = _number(current[theirs])

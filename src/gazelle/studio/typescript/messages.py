@@ -2,12 +2,42 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from gazelle.sensors.scene_types import (
+    BodyValue,
+    BoxGeometry,
+    EllipsoidGeometry,
+    InertialValue,
+    JointValue,
+    LightValue,
+    MaterialValue,
+    MimicValue,
+    ModelValue,
+    PlaneGeometry,
+    RoundGeometry,
+    SceneValue,
+    SensorValue,
+    ShapeValue,
+    SphereGeometry,
+)
+from gazelle.simulator.viewing.broadcast import WorldStats
+from gazelle.simulator.viewing.properties import PropertyRow
+from gazelle.studio.bags.playing import BagTopic, PlayerState
+from gazelle.studio.bags.recording import RecorderState
+from gazelle.studio.bags.tables import BagState
 from gazelle.studio.displays.display import DisplayRow
 from gazelle.studio.displays.finding import AddedDisplays
 from gazelle.studio.errors import ErrorValue
 from gazelle.studio.graph_view.echo import EchoedMessage
+from gazelle.studio.graph_view.parameters import NodeParameter, ParameterDescriptor, ParameterRow
 from gazelle.studio.graph_view.plot import PlotCurves, PlotPoints
 from gazelle.studio.graph_view.rates import TopicStats
+from gazelle.studio.graph_view.reconfigure import (
+    DynamicGroupRow,
+    DynamicParameterRow,
+    Reconfigurable,
+)
 from gazelle.studio.graph_view.rosout import LogLine
 from gazelle.studio.graph_view.topology import (
     ActionRow,
@@ -17,15 +47,60 @@ from gazelle.studio.graph_view.topology import (
     TopicRow,
 )
 from gazelle.studio.graph_view.transforms import FrameNames, FrameRow, TfFrame
+from gazelle.studio.graph_view.types import TypeConstant, TypeField, TypeValue
+from gazelle.studio.motion.meshes import MotionMesh
+from gazelle.studio.motion.robot import (
+    MotionEffector,
+    MotionGroup,
+    MotionJoint,
+    MotionMimic,
+    MotionRobot,
+    MotionVariable,
+)
+from gazelle.studio.motion.scenes import PlanningScene
+from gazelle.studio.plugins.following import PanelEvent
+from gazelle.studio.plugins.requests import PanelEntry, PanelInfo
+from gazelle.studio.plugins.state import PanelState
+from gazelle.studio.scenes.shapes import (
+    MeshGeometry,
+    MeshPartValue,
+    MissingGeometry,
+    PageGeometry,
+)
 from gazelle.studio.session import GraphPlace, Hello, Show
+from gazelle.studio.settings.rviz_files import RvizDisplay, RvizFile, RvizTool, RvizView
+from gazelle.studio.world.models import ModelEntry
+from gazelle.studio.world.watching import PageScene, WorldJoint
 
-__all__ = ["MESSAGES"]
+__all__ = ["ALIASES", "MESSAGES"]
 
 _SESSION = (GraphPlace, Hello, Show, ErrorValue)
 _GRAPH = (NodeRow, TopicRow, ServiceRow, ActionRow, GraphValue)
 _TOPICS = (TopicStats, EchoedMessage, PlotCurves, PlotPoints, LogLine)
+_TYPES = (TypeConstant, TypeField, TypeValue)
 _FRAMES = (TfFrame, FrameNames, FrameRow)
-_DISPLAYS = (DisplayRow, AddedDisplays)
+_DYNAMIC = (DynamicParameterRow, DynamicGroupRow, Reconfigurable)
+_PARAMETERS = (ParameterRow, ParameterDescriptor, NodeParameter, *_DYNAMIC)
+_DISPLAYS = (DisplayRow, AddedDisplays, RvizDisplay, RvizTool, RvizView, RvizFile)
+_SOLIDS = (BoxGeometry, SphereGeometry, RoundGeometry, EllipsoidGeometry, PlaneGeometry)
+_SHAPES = (MaterialValue, *_SOLIDS, MeshPartValue, MeshGeometry, MissingGeometry, ShapeValue)
+_PARTS = (InertialValue, SensorValue, LightValue, BodyValue, MimicValue, JointValue, ModelValue)
+_WORLD = (WorldStats, WorldJoint, PropertyRow, ModelEntry)
+_MOTION_PARTS = (MotionVariable, MotionJoint, MotionMimic, MotionEffector, MotionGroup)
+_MOTION = (*_MOTION_PARTS, MotionRobot, MotionMesh, PlanningScene)
+_BAGS = (BagTopic, RecorderState, PlayerState, BagState)
+_PANELS = (PanelEntry, PanelInfo, PanelEvent, PanelState)
 
-MESSAGES: tuple[type, ...] = (*_SESSION, *_GRAPH, *_TOPICS, *_FRAMES, *_DISPLAYS)
-"""`TypedDict` classes, those that belong together beside each other."""
+MESSAGES: tuple[type, ...] = (
+    *(*_SESSION, *_GRAPH, *_TOPICS, *_TYPES, *_FRAMES, *_PARAMETERS, *_DISPLAYS),
+    *(*_SHAPES, *_PARTS, SceneValue, *_WORLD, *_MOTION, *_BAGS, *_PANELS),
+)
+"""`TypedDict` classes, and `NamedTuple` ones that are sent as such."""
+
+ALIASES: dict[str, Any] = {
+    "PageBody": BodyValue[PageGeometry],
+    "PageGeometry": PageGeometry,
+    "PageScene": PageScene,
+    "PageShape": ShapeValue[PageGeometry],
+}
+"""Names of types that are made of these."""

@@ -7,7 +7,7 @@ import json
 import re
 import types
 import typing
-from typing import Any, Literal, NotRequired, Required
+from typing import Annotated, Any, Literal, NotRequired, Required, TypeVar
 
 __all__ = ["interface", "type_text"]
 
@@ -23,16 +23,19 @@ _ATTRIBUTE = re.compile(r"^    (\w+): (.*(?:\n {8}.*)*)", re.MULTILINE)
 
 
 def interface(message: type) -> str:
-    """Return the interface of a `TypedDict`.
+    """Return the interface of a `TypedDict`, or of a `NamedTuple` that is sent as one.
 
     Raises:
         TypeError: a field has a type that JSON does not have.
     """
-    about, _, rest = inspect.cleandoc(message.__doc__ or "").partition("\n\nAttributes:\n")
+    about, _, rest = inspect.cleandoc(message.__dict__.get("__doc__") or "").partition(
+        "\n\nAttributes:\n"
+    )
     notes = {name: " ".join(text.split()) for name, text in _ATTRIBUTE.findall(rest)}
-    required: frozenset[str] = message.__dict__["__required_keys__"]
+    required: Any = getattr(message, "_fields", None) or getattr(message, "__required_keys__", ())
     lines = [f"/** {' '.join(about.split())} */"] if about else []
-    lines.append(f"export interface {message.__name__} {{")
+    names = ", ".join(one.__name__ for one in getattr(message, "__parameters__", ()))
+    lines.append(f"export interface {message.__name__}{f'<{names}>' if names else ''} {{")
     for name, kind in typing.get_type_hints(message, include_extras=True).items():
         if name in notes:
             lines.append(f"  /** {notes[name]} */")
@@ -51,11 +54,16 @@ def type_text(kind: Any) -> str:
     """
     if kind in _PLAIN:
         return _PLAIN[kind]
-    if typing.is_typeddict(kind):
+    if typing.is_typeddict(kind) or isinstance(kind, TypeVar):
         return str(kind.__name__)
     origin, parts = typing.get_origin(kind), typing.get_args(kind)
     if origin in (NotRequired, Required):
         return type_text(parts[0])
+    if origin is Annotated:
+        item, length = parts
+        return f"[{', '.join([type_text(typing.get_args(item)[0])] * length)}]"
+    if typing.is_typeddict(origin):
+        return f"{origin.__name__}<{', '.join(type_text(one) for one in parts)}>"
     if origin is Literal:
         return " | ".join(json.dumps(one) for one in parts)
     if origin in (types.UnionType, typing.Union):

@@ -6,7 +6,7 @@ import io
 import threading
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, nearest_names
@@ -17,7 +17,7 @@ from gazelle.studio.params import Params
 from gazelle.studio.session import Studio
 from gazelle.workspace import Workspace
 
-__all__ = ["list_models", "model_folder", "thumbnail"]
+__all__ = ["ModelEntry", "list_models", "model_folder", "thumbnail"]
 
 _SIZE_PX = (160, 120)
 _BACKGROUND = (0.16, 0.18, 0.22)
@@ -25,10 +25,25 @@ _BACKGROUND = (0.16, 0.18, 0.22)
 _drawing = threading.Lock()
 
 
-def list_models(_studio: Studio, _params: Params) -> list[dict[str, Any]]:
+class ModelEntry(TypedDict):
+    """A model of the model paths.
+
+    Attributes:
+        path: its folder.
+        thumbnail: where its picture is.
+    """
+
+    name: str
+    title: str
+    description: str
+    path: str
+    thumbnail: str
+
+
+def list_models(_studio: Studio, _params: Params) -> list[ModelEntry]:
     """``world.models``: sorted by title."""
     models = [_described(name, folder) for name, folder in Workspace.discover().models.items()]
-    return sorted(models, key=lambda model: str(model["title"]).lower())
+    return sorted(models, key=lambda model: model["title"].lower())
 
 
 def model_folder(name: str) -> Path:
@@ -61,7 +76,7 @@ def thumbnail(_studio: Studio, name: str) -> Answer | None:
     return Answer(data or _png(Image.new("RGBA", (1, 1))), "image/png")
 
 
-def _described(name: str, folder: Path) -> dict[str, Any]:
+def _described(name: str, folder: Path) -> ModelEntry:
     title, description = _manifest(folder)
     return {
         "name": name,

@@ -5,21 +5,48 @@ from __future__ import annotations
 import json
 import threading
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.graph import Entity, Kind
+from gazelle.sensors.scene_types import SceneValue, WorldGeometry
 from gazelle.studio.errors import unknown
 from gazelle.studio.params import Params
 from gazelle.studio.scenes.assets import Assets
-from gazelle.studio.scenes.shapes import page_scene
+from gazelle.studio.scenes.shapes import PageGeometry, page_scene
 from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, Frame, OpenStream
 from gazelle.studio.taps import Sample
 
-__all__ = ["Scene", "open_contacts", "open_joints", "open_poses", "open_scene", "open_stats"]
+__all__ = [
+    "Scene",
+    "WorldJoint",
+    "open_contacts",
+    "open_joints",
+    "open_poses",
+    "open_scene",
+    "open_stats",
+]
 
 _SCENE = "/_gazelle/scene"
 _POSES, _CONTACTS = 1, 3
+
+PageScene = SceneValue[PageGeometry]
+
+
+class WorldJoint(TypedDict):
+    """A joint of the stream `world.joints`; rad or m.
+
+    Attributes:
+        lower: null where there is no limit.
+    """
+
+    name: str
+    type: str
+    position: float
+    velocity: float
+    effort: float
+    lower: float | None
+    upper: float | None
 
 
 class Scene:
@@ -30,13 +57,13 @@ class Scene:
         self._studio = studio
         self._lock = threading.Lock()
         self._followers: list[Channel] = []
-        self._value: dict[str, Any] | None = None
+        self._value: PageScene | None = None
         self._count = self._shown = 0
         studio.graph.discovery.listen(self._on_entity)
         studio.on_close(studio.taps.listen(_SCENE, self._take))
 
     @property
-    def value(self) -> dict[str, Any] | None:
+    def value(self) -> PageScene | None:
         """The newest scene value."""
         return self._value
 
@@ -60,13 +87,13 @@ class Scene:
         if entity.name == _SCENE and entity.kind is Kind.PUBLISHER and not is_there:
             self._later(lambda: None)
 
-    def _later(self, make: Callable[[], dict[str, Any] | None]) -> None:
+    def _later(self, make: Callable[[], SceneValue[WorldGeometry] | None]) -> None:
         with self._lock:
             self._count += 1
             number = self._count
         self._studio.workers.submit(lambda: self._show(number, make()))
 
-    def _show(self, number: int, value: dict[str, Any] | None) -> None:
+    def _show(self, number: int, value: SceneValue[WorldGeometry] | None) -> None:
         assets = self._studio.shared(Assets)
         finished = None if value is None else page_scene(value, assets)
         with self._lock:
@@ -105,7 +132,8 @@ def open_stats(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
 def open_joints(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     """Stream ``world.joints`` of one model."""
     scene, model = studio.shared(Scene), params.text("model")
-    names = [one["name"] for one in (scene.value or {"models": []})["models"]]
+    value = scene.value
+    names = [one["name"] for one in value["models"]] if value is not None else []
     if model not in names:
         raise unknown("model", model, names)
 
@@ -127,9 +155,7 @@ def _frames(studio: Studio, channel: Channel, topic: str, kind: int) -> OpenStre
     return OpenStream(studio.taps.listen(topic, take))
 
 
-def _joint_rows(
-    scene: dict[str, Any] | None, model: str, frames: Any
-) -> list[dict[str, Any]] | None:
+def _joint_rows(scene: PageScene | None, model: str, frames: Any) -> list[WorldJoint] | None:
     if scene is None or scene["version"] != frames.version:
         return None
     rows = frames.values.reshape(-1, frames.width).tolist()
