@@ -2,6 +2,7 @@
 
 import type { CallError } from './errors';
 import type { Frame } from './frame';
+import { LATEST_STREAMS } from './generated/streams';
 import type { Json, JsonObject } from './json';
 
 export type StatusLevel = 'ok' | 'warn' | 'error';
@@ -28,12 +29,6 @@ export interface ChannelWire {
   forget(channel: Channel): void;
 }
 
-/** Streams of which only the newest item counts; their items are acknowledged. */
-const LATEST = new Set([
-  'topic.stats', 'topic.echo', 'image', 'tf', 'tf.tree', 'display', 'world.poses',
-  'world.stats', 'world.contacts', 'world.joints', 'bag', 'turtles', 'motion.path', 'motion.scene',
-]);
-
 /** Streams that do something once: to open them again would do it again. */
 const ONCE = new Set(['action']);
 
@@ -52,7 +47,7 @@ export class Channel {
     public params: JsonObject,
     readonly handlers: ChannelHandlers,
   ) {
-    this.latest = LATEST.has(stream);
+    this.latest = LATEST_STREAMS.has(stream);
   }
 
   /** New parameters, without a gap in the data. */

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 
+from gazelle.studio.catalogue import STREAMS
 from gazelle.studio.displays.display import display_row
 from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.typescript.messages import ALIASES, MESSAGES
@@ -37,5 +38,18 @@ def _messages() -> str:
     return f"{_HEAD.format(what=what)}{json_type}\n{text}"
 
 
-FILES: dict[str, Callable[[], str]] = {"displays.ts": _displays, "messages.ts": _messages}
+def _streams() -> str:
+    latest = [name for name, kind in sorted(STREAMS.items()) if kind.latest]
+    rows = "".join(f"  {json.dumps(name)},\n" for name in latest)
+    return (
+        _HEAD.format(what="Streams of which only the newest item counts; these are acknowledged")
+        + f"export const LATEST_STREAMS: ReadonlySet<string> = new Set([\n{rows}]);\n"
+    )
+
+
+FILES: dict[str, Callable[[], str]] = {
+    "displays.ts": _displays,
+    "messages.ts": _messages,
+    "streams.ts": _streams,
+}
 """Their names and what gives their texts."""
