@@ -17,6 +17,7 @@ from gazelle.sensors.embree import packet_buffer
 from gazelle.sensors.gaussian_noise import PictureNoise
 from gazelle.sensors.intrinsics import camera_intrinsics
 from gazelle.sensors.ray_scene import SHADOW_BIT, RayScene
+from gazelle.sensors.render_arguments import Lighting, Output, Packet, Surfaces, View
 from gazelle.sensors.shading_tables import (
     ShadingTables,
     light_table,
@@ -123,12 +124,14 @@ class _Exposure:
         self.tiles = np.ones((-(-height // 4), -(-width // 4)), np.uint8)
         self.rgb, self.depth = rgb, depth
         self._scene, self._rows = scene.handle, height
-        self._view = (
+        self._view = View(
             np.array(T_world_camera.position_m, np.float32),
             T_world_camera.matrix()[:3, :3].astype(np.float32),
             np.array([lens.fx, lens.fy, lens.cx, lens.cy, lens.skew], np.float32),
             np.array([spec.near_m, spec.far_m], np.float32),
             np.int32(spec.visibility_mask & ~SHADOW_BIT),
+        )
+        self._surfaces = Surfaces(
             tables.instance_part,
             normal_matrices(scene),
             tables.part_table,
@@ -142,11 +145,9 @@ class _Exposure:
             tables.texels,
             tables.levels,
             tables.level_count,
-            light_table(scene.lights(), shadows=shadows),
-            tables.ambient,
-            tables.background,
-            len(tables.background),
         )
+        lights = light_table(scene.lights(), shadows=shadows)
+        self._lighting = Lighting(lights, tables.ambient, tables.background)
         self._arguments = np.zeros(16, np.uint32)
         self._arguments[:2] = _COHERENT, _ALL_FEATURES
 
@@ -170,14 +171,21 @@ class _Exposure:
         rgb = np.empty((1, 1, 3), np.uint8) if self.rgb is None else self.rgb
         depth = np.empty((1, 1), np.float32) if self.depth is None else self.depth
         arguments = self._arguments.ctypes.data
+        output = Output(self.tiles, want_rgb, rgb, want_depth, depth)
 
         def band(first: int, last: int) -> None:
             floats = packet_buffer(SCRATCH_ROWS // 24).reshape(-1)
+            packet = Packet(floats.view(np.int32), floats, floats.ctypes.data, arguments)
             render_rows(
-                self._scene, first, last, *self._view,
-                floats.view(np.int32), floats, floats.ctypes.data, arguments,
-                samples, self.tiles, want_rgb, rgb, want_depth, depth,
-            )  # fmt: skip
+                self._scene,
+                (first, last),
+                self._view,
+                self._surfaces,
+                self._lighting,
+                packet,
+                samples,
+                output,
+            )
 
         each_band(threads, row_bands(self._rows, threads, multiple=4), band)
 

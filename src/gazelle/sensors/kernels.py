@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, D103, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
 """The compiled inner loop of the cameras.
 
 Importing this module imports numba; only cameras do. Machine code is cached beside the module
@@ -35,6 +35,11 @@ _occluded16 = types.ExternalFunction("rtcOccluded16", _FOUR_ADDRESSES)
 
 SCRATCH_ROWS = 48
 """Rows of 16 words: 0–23 RTCRayHit16, 24–39 RTCRay16 of shadows, 40 and 41 their lanes."""
+
+# Where Embree's RTCRayHit16 has what, in words: rows of 16, one for each ray of a packet.
+_FROM, _NEAR, _ALONG, _FAR, _MASK = 0 * 16, 3 * 16, 4 * 16, 8 * 16, 9 * 16
+_NORMAL, _U, _V, _FACE, _PART, _INSTANCE = 12 * 16, 15 * 16, 16 * 16, 17 * 16, 18 * 16, 19 * 16
+_SHADOW, _LANES, _SHADOW_LANES = 24 * 16, 40 * 16, 41 * 16
 
 MATERIAL_COLUMNS = 16
 """Ambient rgb, diffuse rgb, emissive rgb, specular rgb, shininess, opacity, texture scale u v."""
@@ -86,43 +91,34 @@ def _texel(texels, offset, width, height, u, v):
 
 
 @njit(fastmath=_LOOSE, nogil=True, cache=True)
-def render_rows(
-    scene,
-    first_row,
-    last_row,
-    camera,
-    rotation,
-    lens,
-    clip,
-    mask,
-    instance_part,
-    normal_matrix,
-    part_table,
-    part_density,
-    faces,
-    normals,
-    uv,
-    materials,
-    material_texture,
-    material_lit,
-    texels,
-    levels,
-    level_count,
-    lights,
-    ambient,
-    background,
-    sky_rows,
-    words,
-    floats,
-    address,
-    arguments,
-    samples,
-    tiles,
-    want_rgb,
-    rgb,
-    want_depth,
-    depth,
-):
+def render_rows(scene, rows, view, surfaces, lighting, packet, samples, output):
+    """Draw some rows of a picture.
+
+    Args:
+        scene: address of Embree's scene.
+        rows: the first one and the one behind the last.
+        view: a `View`.
+        surfaces: `Surfaces`.
+        lighting: a `Lighting`.
+        packet: a `Packet`.
+        samples: along each side of a pixel.
+        output: an `Output`.
+    """
+    first_row, last_row = rows
+    camera, rotation, lens, clip, mask = view
+    instance_part, normal_matrix, part_table = (
+        surfaces.instance_part,
+        surfaces.normal_matrix,
+        surfaces.part_table,
+    )
+    part_density, faces, normals = surfaces.part_density, surfaces.faces, surfaces.normals
+    uv, materials = surfaces.uv, surfaces.materials
+    material_texture, material_lit = surfaces.material_texture, surfaces.material_lit
+    texels, levels, level_count = surfaces.texels, surfaces.levels, surfaces.level_count
+    lights, ambient, background = lighting
+    sky_rows = background.shape[0]
+    words, floats, address, arguments = packet
+    tiles, want_rgb, rgb, want_depth, depth = output
     if want_rgb:
         height = rgb.shape[0]
         width = rgb.shape[1]
@@ -148,17 +144,17 @@ def render_rows(
     strength = np.zeros(16, np.float32)
     shown = np.zeros(16, np.int32)
     material_of = np.zeros(16, np.int32)
-    shadow = 24 * 16
-    valid_row = 40 * 16
-    shadow_valid_row = 41 * 16
+    shadow = _SHADOW
+    valid_row = _LANES
+    shadow_valid_row = _SHADOW_LANES
     light_count = lights.shape[0]
     # The rest of both rays (time, id, flags, a shadow's beginning) is zero and stays so.
     for j in range(16):
-        floats[j] = camera[0]
-        floats[16 + j] = camera[1]
-        floats[32 + j] = camera[2]
-        words[144 + j] = mask
-        words[shadow + 144 + j] = -0x80000000
+        floats[_FROM + j] = camera[0]
+        floats[_FROM + 16 + j] = camera[1]
+        floats[_FROM + 32 + j] = camera[2]
+        words[_MASK + j] = mask
+        words[shadow + _MASK + j] = -0x80000000
     for y in range(first_row, last_row, 4):
         for x in range(0, width, 4):
             if tiles[y >> 2, x >> 2] == 0:
@@ -177,13 +173,19 @@ def render_rows(
                     down = (py - cy) / fy
                     left = -(px - cx - skew * down) / fx
                     up = -down
-                    floats[48 + j] = clip[0]
-                    floats[64 + j] = rotation[0, 0] + rotation[0, 1] * left + rotation[0, 2] * up
-                    floats[80 + j] = rotation[1, 0] + rotation[1, 1] * left + rotation[1, 2] * up
-                    floats[96 + j] = rotation[2, 0] + rotation[2, 1] * left + rotation[2, 2] * up
-                    floats[128 + j] = clip[1]
-                    words[288 + j] = -1
-                    words[304 + j] = -1
+                    floats[_NEAR + j] = clip[0]
+                    floats[_ALONG + j] = (
+                        rotation[0, 0] + rotation[0, 1] * left + rotation[0, 2] * up
+                    )
+                    floats[_ALONG + 16 + j] = (
+                        rotation[1, 0] + rotation[1, 1] * left + rotation[1, 2] * up
+                    )
+                    floats[_ALONG + 32 + j] = (
+                        rotation[2, 0] + rotation[2, 1] * left + rotation[2, 2] * up
+                    )
+                    floats[_FAR + j] = clip[1]
+                    words[_PART + j] = -1
+                    words[_INSTANCE + j] = -1
                     inside = x + (j & 3) < width and y + (j >> 2) < height
                     words[valid_row + j] = -1 if inside else 0
                     through[j] = per_sample if inside else _ZERO
@@ -191,9 +193,9 @@ def render_rows(
                 if want_depth and sample == 0 and samples == 1:
                     for j in range(16):
                         if words[valid_row + j] != 0:
-                            found = words[288 + j] != -1
+                            found = words[_PART + j] != -1
                             depth[y + (j >> 2), x + (j & 3)] = (
-                                floats[128 + j] if found else np.float32(np.inf)
+                                floats[_FAR + j] if found else np.float32(np.inf)
                             )
                 if not want_rgb:
                     continue
@@ -203,11 +205,11 @@ def render_rows(
                         shown[j] = 0
                         if words[valid_row + j] == 0:
                             continue
-                        dx = floats[64 + j]
-                        dy = floats[80 + j]
-                        dz = floats[96 + j]
+                        dx = floats[_ALONG + j]
+                        dy = floats[_ALONG + 16 + j]
+                        dz = floats[_ALONG + 32 + j]
                         inverse_length = _ONE / math.sqrt(dx * dx + dy * dy + dz * dz)
-                        if words[288 + j] == -1:
+                        if words[_PART + j] == -1:
                             row = (dz * inverse_length * _HALF + _HALF) * np.float32(sky_rows - 1)
                             low = min(int(row), sky_rows - 2) if sky_rows > 1 else 0
                             blend = row - np.float32(low) if sky_rows > 1 else _ZERO
@@ -220,9 +222,9 @@ def render_rows(
                             words[valid_row + j] = 0
                             continue
                         shown[j] = 1
-                        t = floats[128 + j]
-                        k = words[304 + j]
-                        part = instance_part[k] + words[288 + j]
+                        t = floats[_FAR + j]
+                        k = words[_INSTANCE + j]
+                        part = instance_part[k] + words[_PART + j]
                         first_face = part_table[part, 0]
                         first_vertex = part_table[part, 1]
                         m = part_table[part, 2]
@@ -231,20 +233,20 @@ def render_rows(
                         tu = _ZERO
                         tv = _ZERO
                         if first_face < 0:
-                            n0 = floats[192 + j]
-                            n1 = floats[208 + j]
-                            n2 = floats[224 + j]
+                            n0 = floats[_NORMAL + j]
+                            n1 = floats[_NORMAL + 16 + j]
+                            n2 = floats[_NORMAL + 32 + j]
                             if texture >= 0:
                                 long_n = math.sqrt(n0 * n0 + n1 * n1 + n2 * n2)
                                 tu = np.float32(math.atan2(n1, n0) / (2 * math.pi) + 0.5)
                                 tv = np.float32(math.asin(n2 / long_n) / math.pi + 0.5)
                         else:
-                            face = first_face + words[272 + j]
+                            face = first_face + words[_FACE + j]
                             a = first_vertex + faces[face, 0]
                             b = first_vertex + faces[face, 1]
                             c = first_vertex + faces[face, 2]
-                            bu = floats[240 + j]
-                            bv = floats[256 + j]
+                            bu = floats[_U + j]
+                            bv = floats[_V + j]
                             bw = _ONE - bu - bv
                             n0 = bw * normals[a, 0] + bu * normals[b, 0] + bv * normals[c, 0]
                             n1 = bw * normals[a, 1] + bu * normals[b, 1] + bv * normals[c, 1]
@@ -387,13 +389,13 @@ def render_rows(
                             to_light[j, 1] = ly
                             to_light[j, 2] = lz
                             if lights[number, 20] != 0:
-                                floats[shadow + j] = point[j, 0]
-                                floats[shadow + 16 + j] = point[j, 1]
-                                floats[shadow + 32 + j] = point[j, 2]
-                                floats[shadow + 64 + j] = lx
-                                floats[shadow + 80 + j] = ly
-                                floats[shadow + 96 + j] = lz
-                                floats[shadow + 128 + j] = reach
+                                floats[shadow + _FROM + j] = point[j, 0]
+                                floats[shadow + _FROM + 16 + j] = point[j, 1]
+                                floats[shadow + _FROM + 32 + j] = point[j, 2]
+                                floats[shadow + _ALONG + j] = lx
+                                floats[shadow + _ALONG + 16 + j] = ly
+                                floats[shadow + _ALONG + 32 + j] = lz
+                                floats[shadow + _FAR + j] = reach
                                 words[shadow_valid_row + j] = -1
                                 anything = True
                         if anything:
@@ -406,7 +408,7 @@ def render_rows(
                         for j in range(16):
                             if strength[j] == 0:
                                 continue
-                            if words[shadow_valid_row + j] != 0 and floats[shadow + 128 + j] < 0:
+                            if words[shadow_valid_row + j] != 0 and floats[shadow + _FAR + j] < 0:
                                 continue
                             m = material_of[j]
                             lx = to_light[j, 0]
@@ -444,12 +446,12 @@ def render_rows(
                             total[j, c] += through[j] * opacity * min(_ONE, max(_ZERO, colour))
                         through[j] *= _ONE - opacity
                         if opacity < np.float32(0.999):
-                            floats[48 + j] = floats[128 + j] * np.float32(1.00001) + np.float32(
+                            floats[_NEAR + j] = floats[_FAR + j] * np.float32(1.00001) + np.float32(
                                 1e-5
                             )
-                            floats[128 + j] = clip[1]
-                            words[288 + j] = -1
-                            words[304 + j] = -1
+                            floats[_FAR + j] = clip[1]
+                            words[_PART + j] = -1
+                            words[_INSTANCE + j] = -1
                             again = True
                         else:
                             words[valid_row + j] = 0

@@ -67,6 +67,26 @@ class Chain(NamedTuple):
     tool_m: FloatArray
 
 
+class Goal(NamedTuple):
+    """Where a chain's tip is to be, and how nearly.
+
+    Attributes:
+        rotation: (3, 3) in the robot's frame.
+        position_m: (3,) in the robot's frame.
+        weight: metres that a radian counts as; 0 where the orientation does not matter.
+        near_m: near enough.
+        near_rad: likewise.
+        steps: most steps from one seed.
+    """
+
+    rotation: FloatArray
+    position_m: FloatArray
+    weight: float
+    near_m: float
+    near_rad: float
+    steps: int
+
+
 def link_tree(robot: RobotModel) -> LinkTree:
     """Return a robot's links as arrays."""
     place = {link: index for index, link in enumerate(robot.links)}

@@ -132,8 +132,11 @@ def tree(parents, A, a, kinds, axes, places, B, b, positions, R, p):
 
 
 @njit(cache=True, nogil=True)
-def chain_pose(A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q, R, p, F, o):
+def chain_pose(chain, q, R, p, F, o):
     """Write the tip's rotation and position, and the frame of every step before its motion."""
+    A, a, kinds, axes, variables = chain.A, chain.a, chain.kinds, chain.axes, chain.variables
+    factors, offsets = chain.factors, chain.offsets
+    tool_R, tool_p = chain.tool_rotation, chain.tool_m
     M = np.empty((3, 3))
     S = np.empty((3, 3))
     v = np.empty(3)
@@ -173,8 +176,9 @@ def chain_pose(A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q
 
 
 @njit(cache=True, nogil=True)
-def chain_jacobian(kinds, axes, dofs, factors, F, o, p, J):
+def chain_jacobian(chain, F, o, p, J):
     """Write the Jacobian, linear rows first; a quaternion's columns are turns about x, y, z."""
+    kinds, axes, dofs, factors = chain.kinds, chain.axes, chain.dofs, chain.factors
     J[:] = 0.0
     z = np.empty(3)
     for i in range(len(kinds)):
@@ -281,16 +285,19 @@ def _turn_quaternion(q, at, dx, d, scale, F):
 
 
 @njit(cache=True, nogil=True)
-def solve(
-    A, a, kinds, axes, variables, factors, offsets, dofs, tool_R, tool_p,
-    lower, upper, dof_variables, target_R, target_p, seeds, weight, eps_m, eps_rad, steps, out,
-):  # fmt: skip
+def solve(chain, goal, lower, upper, seeds, out):
     """Write a solution and return the number of the seed it was found from, -1 without one.
 
-    ``dof_variables`` gives each degree of freedom its variable, -1 for those of quaternions;
-    ``lower`` and ``upper`` are of variables, infinite where there is no limit.
+    Args:
+        chain: a `Chain`.
+        goal: a `Goal`.
+        lower: of variables, -∞ where there is no limit.
+        upper: likewise, ∞.
+        seeds: where to start, (k, n).
+        out: the solution, (n,).
     """
-    nv, ns = len(dof_variables), len(kinds)
+    dof_variables, weight = chain.dof_variables, goal.weight
+    nv, ns = len(dof_variables), len(chain.kinds)
     R, p = np.empty((3, 3)), np.empty(3)
     F, o = np.zeros((ns, 3, 3)), np.zeros((ns, 3))
     J, e = np.empty((6, nv)), np.empty(6)
@@ -301,14 +308,12 @@ def solve(
     for s in range(len(seeds)):
         q = seeds[s].copy()
         mark, since, polished = np.inf, 0, 0
-        for _ in range(steps + _POLISH):
-            chain_pose(
-                A, a, kinds, axes, variables, factors, offsets, tool_R, tool_p, q, R, p, F, o
-            )
-            _error(R, p, target_R, target_p, e)
+        for _ in range(goal.steps + _POLISH):
+            chain_pose(chain, q, R, p, F, o)
+            _error(R, p, goal.rotation, goal.position_m, e)
             far = math.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
             turned = math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
-            if far <= eps_m and (weight == 0.0 or turned <= eps_rad):
+            if far <= goal.near_m and (weight == 0.0 or turned <= goal.near_rad):
                 # Close by, two more steps give many more digits.
                 polished += 1
                 if polished > _POLISH or far + weight * turned < _EXACT:
@@ -329,7 +334,7 @@ def solve(
                 since += 1
                 if since > _PATIENCE:
                     break
-            chain_jacobian(kinds, axes, dofs, factors, F, o, p, J)
+            chain_jacobian(chain, F, o, p, J)
             for i in range(nv):
                 t = 0.0
                 for k in range(3):
@@ -372,8 +377,8 @@ def solve(
                 if v >= 0:
                     q[v] = min(max(q[v] + scale * dx[i], lower[v]), upper[v])
             for i in range(ns):
-                if kinds[i] == QUATERNION:
-                    _turn_quaternion(q, variables[i], dx, dofs[i], scale, F[i])
+                if chain.kinds[i] == QUATERNION:
+                    _turn_quaternion(q, chain.variables[i], dx, chain.dofs[i], scale, F[i])
         if polished:
             for k in range(len(q)):
                 out[k] = best[k]

@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.description.moveit import KinematicsSettings
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
-from gazelle.motion.kinematics.chain import Chain, chain_to
+from gazelle.motion.kinematics.chain import Chain, Goal, chain_to
 from gazelle.motion.kinematics.kernels import chain_jacobian, chain_pose, solve
 from gazelle.motion.model import JointGroup, JointKind, RobotModel
 from gazelle.motion.space import BoolArray, FloatArray, Validity
@@ -94,8 +94,7 @@ class Solver:
         chain = self._chain(link, _IDENTITY if T_link_tool is None else T_link_tool)
         _, p, frames, origins = self._at(chain, q)
         found = np.empty((6, len(chain.dof_variables)))
-        kinds, dofs, factors = chain.kinds, chain.dofs, chain.factors
-        chain_jacobian(kinds, chain.axes, dofs, factors, frames, origins, p, found)
+        chain_jacobian(chain, frames, origins, p, found)
         return found
 
     def ik(
@@ -162,15 +161,19 @@ class Solver:
         lower = np.where(space.continuous, -np.inf, space.lower)
         upper = np.where(space.continuous, np.inf, space.upper)
         steps = min(_STEPS, settings.max_iterations)
-        R, p = np.ascontiguousarray(target[:3, :3]), np.ascontiguousarray(target[:3, 3])
+        goal = Goal(
+            np.ascontiguousarray(target[:3, :3]),
+            np.ascontiguousarray(target[:3, 3]),
+            float(weight),
+            float(settings.epsilon),
+            float(settings.epsilon),
+            steps,
+        )
         out = np.empty(space.size)
         starts = np.clip(seed, lower, upper)[None]
         done = 0
         while True:
-            number = solve(
-                *chain[:8], chain.tool_rotation, chain.tool_m, lower, upper, chain.dof_variables,
-                R, p, starts, weight, settings.epsilon, settings.epsilon, steps, out,
-            )  # fmt: skip
+            number = solve(chain, goal, lower, upper, starts, out)
             if number >= 0:
                 yield out.copy()
             used = number + 1 if number >= 0 else len(starts)
@@ -214,7 +217,7 @@ class Solver:
         R, p = np.empty((3, 3)), np.empty(3)
         frames, origins = np.zeros((count, 3, 3)), np.zeros((count, 3))
         values = np.ascontiguousarray(q, dtype=np.float64)
-        chain_pose(*chain[:7], chain.tool_rotation, chain.tool_m, values, R, p, frames, origins)
+        chain_pose(chain, values, R, p, frames, origins)
         return R, p, frames, origins
 
     def _chain(self, link: str, offset: FloatArray) -> Chain:
