@@ -67,6 +67,8 @@ def test_nodes_of_both_sides_show_on_the_other(
     graph.create_node("talker", namespace="/robot")
     peer.publish_on("/hello", STRING, STRING_MD5)
     eventually(lambda: bridge.nodes == (("/robot/talker",), ("/peer",)))
+    # The bridge knows of a node a little before the master does.
+    eventually(lambda: "/robot/talker" in str(peer.call("getSystemState")[0]))
     uri = peer.call("lookupNode", "/robot/talker")
     assert ask(uri, "getPid", "/peer")[0] == 1
     assert ask(uri, "getPublications", "/peer")[2] == [["/rosout", "rosgraph_msgs/Log"]]
