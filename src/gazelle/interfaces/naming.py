@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from gazelle.interfaces.definition import Definition, Field, Generation
 from gazelle.interfaces.forms import Types
-from gazelle.interfaces.names import canonical_name, ros1_name
 from gazelle.interfaces.translate import as_generation
+from gazelle.interfaces.type_names import canonical_name, ros1_name
 
 __all__ = ["ros1_type_of", "wire_definition", "wire_field", "wire_type"]
 

@@ -17,7 +17,7 @@ from gazelle.bag.types import cdr_connection, ros1_connection
 from gazelle.errors import GazelleError
 from gazelle.graph import Entity, Graph, Kind, MessageInfo, Node, RawMessage
 from gazelle.interfaces import Generation, from_cdr, ros1_message_type, ros1_type_of, to_ros1
-from gazelle.interfaces.names import ros1_name
+from gazelle.interfaces.type_names import ros1_name
 
 __all__ = ["Limits", "Recorder", "Sink"]
 

@@ -23,7 +23,7 @@ from gazelle.interfaces import (
 )
 from gazelle.interfaces.conversion import CONVERTED
 from gazelle.interfaces.definition import Array
-from gazelle.interfaces.names import ros1_name
+from gazelle.interfaces.type_names import ros1_name
 
 __all__ = ["Frame", "MessageKind", "ServiceKind", "is_ros2_only", "message_kind", "service_kind"]
 
