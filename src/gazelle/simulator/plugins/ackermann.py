@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
 from gazelle.engine import JointHandle
 from gazelle.simulator.messages import message_class, transform_stamped
 from gazelle.simulator.plugins.ackermann_table import TABLE
-from gazelle.simulator.plugins.body_odometry import (
-    BodyOdometry,
-    OdometrySetup,
-    planar_covariance,
-)
 from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.drive import Velocity, needed_joints, run_drive, take_velocities
+from gazelle.simulator.plugins.drive_odometry import DriveOdometry, OdometrySetup, given_covariance
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.wheel_geometry import wheel_radius_m
@@ -37,9 +33,8 @@ _STEERING_WHEEL = "steering_wheel_joint"
 def load(context: PluginContext) -> None:
     """Start a car; one diagnostic and nothing else when a joint is missing."""
     parameters = context.reader(TABLE)
-    found = {key: context.joint_name(parameters.text(key)) for key in _NEEDED}
-    names = {key: name for key, name in found.items() if name is not None}
-    if len(names) == len(_NEEDED):
+    names = needed_joints(context, parameters, _NEEDED)
+    if names is not None:
         wheel = parameters.text(_STEERING_WHEEL)
         if wheel in [joint.name for joint in context.model.joints]:
             names[_STEERING_WHEEL] = f"{context.model.name}::{wheel}"
@@ -74,7 +69,7 @@ class _Car:
             for name in ("right_steering", "left_steering", "linear_velocity")
         }
         self._measure()
-        self._command = (0.0, 0.0)
+        self._command = Velocity()
         self._distance_m = 0.0
         self._last_place = self._engine.model_pose(context.model.name).position_m
         self._offer(parameters)
@@ -101,14 +96,8 @@ class _Car:
 
     def _offer(self, parameters: PluginReader) -> None:
         context, resources = self._context, self._context.resources
-        # Twist and TwistStamped are both taken.
-        resources.subscription(
-            context.topic(parameters, "cmd_vel"), None, self._take,
-            announced="geometry_msgs/msg/Twist",
-        )  # fmt: skip
-        covariance = planar_covariance(
-            *(parameters.number(f"covariance_{axis}") for axis in ("x", "y", "yaw"))
-        )
+        take_velocities(context, context.topic(parameters, "cmd_vel"), self._take)
+        covariance = given_covariance(parameters)
         topic = context.topic(parameters, "odom") if parameters.flag("publish_odom") else ""
         setup = OdometrySetup(
             topic,
@@ -118,7 +107,7 @@ class _Car:
             covariance,
             covariance,
         )
-        self._odometry = BodyOdometry(context, setup)
+        self._odometry = DriveOdometry(context, setup)
         self._base_frame = setup.child_frame
         self._floats = {
             name: resources.publisher(context.topic(parameters, name), "std_msgs/Float32")
@@ -130,17 +119,14 @@ class _Car:
             self._tf = resources.publisher("/tf", "tf2_msgs/TFMessage")
 
     def _start(self, parameters: PluginReader) -> None:
-        resources, step_ns = self._context.resources, self._engine.step_ns
+        step_ns = self._engine.step_ns
         period = period_in_steps(parameters.number("update_rate"), step_ns)
         self._steps = max(1.0, float(period))
         self._period_s = self._steps * step_ns * 1e-9
-        resources.task(f"{self._context.plugin.name} drive", period, self._update)
-        resources.on_reset(self._reset)
-        resources.on_close(self._release)
+        run_drive(self._context, self._joints.values(), period, self._update, self._reset)
 
-    def _take(self, message: Any) -> None:
-        twist = getattr(message, "twist", message)
-        self._command = (float(twist.linear.x), float(twist.angular.z))
+    def _take(self, command: Velocity) -> None:
+        self._command = command
 
     def _update(self) -> None:
         self._measure_distance()
@@ -156,9 +142,9 @@ class _Car:
                 publisher.publish(message_class("std_msgs/Float32")(data=value))
 
     def _drive(self) -> None:
-        speed, turn = self._command
+        speed, _, turn = self._command
         speed = min(max(speed, -self._max_speed), self._max_speed)
-        turn = math.copysign(1.0, self._command[0]) * turn
+        turn = math.copysign(1.0, self._command.forward) * turn
         turn = min(max(turn, -self._max_steer), self._max_steer)
         rear = self._joints["rear_right_joint"]
         push = self._pid("linear_velocity", rear.velocity - speed / self._radius_m)
@@ -201,14 +187,10 @@ class _Car:
         self._tf.publish(message_class("tf2_msgs/TFMessage")(transforms=transforms))
 
     def _reset(self) -> None:
-        self._command, self._distance_m = (0.0, 0.0), 0.0
+        self._command, self._distance_m = Velocity(), 0.0
         self._last_place = self._engine.model_pose(self._context.model.name).position_m
         for pid in self._pids.values():
             pid.reset()
-
-    def _release(self) -> None:
-        for joint in self._joints.values():
-            joint.release()
 
 
 def _pid(context: PluginContext, parameters: PluginReader, name: str) -> GazeboPid:

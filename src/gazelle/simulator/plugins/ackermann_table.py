@@ -3,6 +3,17 @@
 from __future__ import annotations
 
 from gazelle.parameters import Parameter, ParameterTable, Topic
+from gazelle.simulator.plugins.drive_rows import (
+    GZ_COMMANDS,
+    GZ_NO_JERK,
+    GZ_ODOMETRY,
+    GZ_RATE,
+    GZ_SEPARATION,
+    GZ_SIDES,
+    GZ_TOPICS,
+    GZ_WHEEL_RADIUS,
+    covariances,
+)
 from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["GZ_TABLE", "TABLE"]
@@ -43,9 +54,7 @@ TABLE = PluginTable(
             Parameter("publish_wheel_tf", "flag", False, "publish base → wheels"),
             Parameter("publish_distance", "flag", False, "publish the distance driven"),
             Parameter("publish_steerangle", "flag", False, "publish the mean steering angle"),
-            Parameter("covariance_x", "number", 1e-5, "covariance x", "m²"),
-            Parameter("covariance_y", "number", 1e-5, "covariance y", "m²"),
-            Parameter("covariance_yaw", "number", 1e-3, "covariance yaw", "rad²"),
+            *covariances(1e-5, 1e-3),
         ),
     ),
     topics=(
@@ -85,47 +94,31 @@ GZ_TABLE = PluginTable(
         (
             Parameter("topic", "text", "", "commands, by default /model/M/cmd_vel"),
             Parameter("sub_topic", "text", "", "the same, below /model/M"),
-            Parameter("odom_topic", "text", "/model/{model}/odometry", "odometry"),
-            Parameter("tf_topic", "text", "/model/{model}/tf", "odom → base"),
-            Parameter("frame_id", "text", "{model}/odom", "frame of the odometry"),
-            Parameter("child_frame_id", "text", "{model}/{link}", "child frame"),
-            Parameter("left_joint", "text", "", "left wheels' joints, repeatable"),
-            Parameter("right_joint", "text", "", "right wheels' joints, repeatable"),
+            *GZ_ODOMETRY,
+            *GZ_SIDES,
             Parameter("left_steering_joint", "text", "", "left steering joints, repeatable"),
             Parameter("right_steering_joint", "text", "", "right steering joints, repeatable"),
-            Parameter("wheel_separation", "number", 1.0, "distance of the wheels", "m"),
+            GZ_SEPARATION,
             Parameter("kingpin_width", "number", 0.8, "distance of the steering axes", "m"),
             Parameter("wheel_base", "number", 1.0, "distance of the axles", "m"),
-            Parameter("wheel_radius", "number", 0.2, "radius of the wheels", "m"),
+            GZ_WHEEL_RADIUS,
             Parameter("steering_limit", "number", 0.5, "largest steering angle", "rad"),
             Parameter("steer_p_gain", "number", 1.0, "steering rate per error", "1/s"),
             Parameter("steering_only", "flag", False, "only steer, from an angle"),
-            Parameter("odom_publish_frequency", "number", 50.0, "publish rate", "Hz"),
+            GZ_RATE,
             Parameter("min_velocity", "number", -1e12, "lowest speed and turn rate", "m/s, rad/s"),
             Parameter("max_velocity", "number", 1e12, "highest speed and turn rate", "m/s, rad/s"),
             Parameter("min_acceleration", "number", -1e12, "hardest braking", "m/s²"),
             Parameter("max_acceleration", "number", 1e12, "hardest acceleration", "m/s²"),
-            Parameter("min_jerk", "refused", "", "jerk is not limited"),
-            Parameter("max_jerk", "refused", "", "jerk is not limited"),
+            *GZ_NO_JERK,
             Parameter("use_actuator_msg", "refused", "", "there is no actuators message in ROS"),
             Parameter("actuator_number", "refused", "", "there is no actuators message in ROS"),
         ),
     ),
     topics=(
-        Topic("{topic}", "geometry_msgs/msg/Twist", kind="listens"),
+        GZ_COMMANDS,
         Topic("/model/M/steer_angle", "std_msgs/msg/Float64", kind="listens"),
-        Topic(
-            "{odom_topic}",
-            "nav_msgs/msg/Odometry",
-            rate="`odom_publish_frequency`",
-            frame="`frame_id`",
-        ),
-        Topic(
-            "{tf_topic}",
-            "tf2_msgs/msg/TFMessage",
-            rate="`odom_publish_frequency`",
-            frame="`frame_id`",
-        ),
+        *GZ_TOPICS,
     ),
     behaviour=(
         "The turning radius is v/ω, at least `wheel_base`/sin(`steering_limit`); the steering"

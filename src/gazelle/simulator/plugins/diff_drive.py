@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,12 +11,17 @@ from gazelle.geometry import Pose
 from gazelle.simulator.messages import (
     header,
     message_class,
-    pose_message,
-    transform_stamped,
-    twist_message,
 )
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.diff_drive_table import TABLE
+from gazelle.simulator.plugins.drive import Velocity, run_drive, take_velocities
+from gazelle.simulator.plugins.drive_odometry import (
+    DriveOdometry,
+    OdometrySetup,
+    given_covariance,
+    turned_back,
+    wheel_transform,
+)
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.wheel_checks import check_drive, exchange_wheels
 from gazelle.simulator.plugins.wheel_motion import EncoderOdometry, WheelRamp, wheel_speeds
@@ -25,8 +29,6 @@ from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["load"]
 
-# Gazebo's plug-in marks what it does not measure (z, roll, pitch) with this variance.
-_UNMEASURED = 1e12
 _SOURCES = {"world": "world", "1": "world", "encoder": "encoder", "0": "encoder"}
 
 
@@ -43,16 +45,6 @@ def load(context: PluginContext) -> None:
     if len(wheels) == len(names) and wheels:
         _Drive(context, parameters, wheels)
     parameters.report_unread()
-
-
-@dataclass(frozen=True, slots=True)
-class _Frames:
-    odometry: str
-    base: str
-    prefix: str
-
-    def prefixed(self, name: str) -> str:
-        return f"{self.prefix}/{name}" if self.prefix and not name.startswith("/") else name
 
 
 class _Drive:
@@ -74,14 +66,13 @@ class _Drive:
         check_drive(
             context, wheels[0], self._separation_m, 2 * self._radius_m, exchanged=self._exchanged
         )
-        self._odometry = EncoderOdometry(self._separation_m, self._radius_m, self._exchanged)
+        self._reckoning = EncoderOdometry(self._separation_m, self._radius_m, self._exchanged)
         self._last_angles = self._angles()
-        self._command = (0.0, 0.0)
+        self._command = Velocity()
         # Motors keep their orders until the engine is compiled anew.
         self._ordered: tuple[float, float] | None = None
         self._revision = -1
         self._source = _odometry_source(context, parameters)
-        self._covariance = _covariance(parameters)
         self._offer(parameters)
         self._start(parameters)
 
@@ -91,26 +82,22 @@ class _Drive:
         prefix = context.tf_prefix(namespace) or (
             "" if parameters.is_ros2() else namespace.strip("/")
         )
-        self._frames = _Frames(
-            parameters.text("odometryFrame"), parameters.text("robotBaseFrame"), prefix.strip("/")
-        )
-        command_topic = context.topic(parameters, parameters.text("commandTopic"))
-        # Twist and TwistStamped are both taken.
-        resources.subscription(
-            command_topic, None, self._take_command, announced="geometry_msgs/msg/Twist"
-        )
-        self._odom_publisher = None
+        self._prefix = prefix.strip("/")
+        topic = context.topic(parameters, parameters.text("commandTopic"))
+        take_velocities(context, topic, self._take)
+        topic = ""
         if parameters.flag("publishTf"):
             topic = context.topic(parameters, parameters.text("odometryTopic"))
-            self._odom_publisher = resources.publisher(topic, "nav_msgs/Odometry")
-        # The ROS 1 plug-in sends odom → base from the function that publishTf switches.
-        self._sends_odom_tf = parameters.flag("publishOdomTF") and (
-            self._odom_publisher is not None or parameters.is_ros2()
+        setup = OdometrySetup(
+            topic,
+            # The ROS 1 plug-in sends odom → base from the function that publishTf switches.
+            parameters.flag("publishOdomTF") and (bool(topic) or parameters.is_ros2()),
+            self._prefixed(parameters.text("odometryFrame")),
+            self._prefixed(parameters.text("robotBaseFrame")),
+            given_covariance(parameters),
         )
-        self._sends_wheel_tf = parameters.flag("publishWheelTF")
-        self._tf_publisher = None
-        if self._sends_odom_tf or self._sends_wheel_tf:
-            self._tf_publisher = resources.publisher("/tf", "tf2_msgs/TFMessage")
+        wheels = self._wheel_transforms if parameters.flag("publishWheelTF") else None
+        self._odometry = DriveOdometry(context, setup, wheels)
         self._joint_publisher = None
         if parameters.flag("publishWheelJointState"):
             topic = join_names(namespace, parameters.ros.remapped("joint_states"))
@@ -120,23 +107,21 @@ class _Drive:
         step_ns = self._engine.step_ns
         period = period_in_steps(parameters.number("updateRate"), step_ns)
         self._period_s = float(period * step_ns) * 1e-9
-        self._drive(self._command)
-        self._context.resources.task(f"{self._context.plugin.name} drive", period, self._update)
-        self._context.resources.on_reset(self._reset)
-        self._context.resources.on_close(self._release)
+        self._drive((0.0, 0.0))
+        joints = (joint for pair in self._wheels for joint in pair)
+        run_drive(self._context, joints, period, self._update, self._reset)
 
-    def _take_command(self, message: Any) -> None:
-        twist = getattr(message, "twist", message)
-        self._command = (float(twist.linear.x), float(twist.angular.z))
+    def _take(self, command: Velocity) -> None:
+        self._command = command
 
     def _update(self) -> None:
         if self._source == "encoder":
             angles = self._angles()
             last, self._last_angles = self._last_angles, angles
-            self._odometry.update(angles[0] - last[0], angles[1] - last[1], self._period_s)
+            self._reckoning.update(angles[0] - last[0], angles[1] - last[1], self._period_s)
         self._publish()
-        linear, angular = self._command
-        self._drive(wheel_speeds(linear, angular, self._separation_m, exchanged=self._exchanged))
+        forward, _, turn = self._command
+        self._drive(wheel_speeds(forward, turn, self._separation_m, exchanged=self._exchanged))
 
     def _drive(self, target_m_s: tuple[float, float]) -> None:
         left, right = self._wheels[0]
@@ -151,69 +136,42 @@ class _Drive:
                 joint.set_velocity_target(speed / self._radius_m, self._torque_nm)
 
     def _publish(self) -> None:
-        time_ns = self._engine.time_ns
-        wants_odom = self._odom_publisher is not None and self._odom_publisher.matched
-        wants_tf = self._tf_publisher is not None and self._tf_publisher.matched
-        pose = self._pose() if wants_odom or wants_tf else None
-        if pose is not None and wants_tf:
-            self._publish_tf(time_ns, pose)
-        if pose is not None and wants_odom:
-            self._publish_odometry(time_ns, pose)
+        if self._odometry.matched:
+            pose = self._pose()
+            self._odometry.publish(pose, self._velocity(pose))
         if self._joint_publisher is not None and self._joint_publisher.matched:
-            self._publish_joints(time_ns)
+            self._publish_joints(self._engine.time_ns)
 
     def _pose(self) -> Pose:
         if self._source == "world":
             return self._engine.model_pose(self._context.model.name)
-        return self._odometry.pose()
-
-    def _publish_odometry(self, time_ns: int, pose: Pose) -> None:
-        forward, sideways, yaw_rate = self._velocity(pose)
-        frames = self._frames
-        message = message_class("nav_msgs/Odometry")(
-            header=header(time_ns, frames.prefixed(frames.odometry)),
-            child_frame_id=frames.prefixed(frames.base),
-        )
-        message.pose.pose = pose_message(pose)
-        message.pose.covariance = self._covariance
-        message.twist.twist = twist_message((forward, sideways, 0.0), (0.0, 0.0, yaw_rate))
-        assert self._odom_publisher is not None
-        self._odom_publisher.publish(message)
+        return self._reckoning.pose()
 
     def _velocity(self, pose: Pose) -> tuple[float, float, float]:
         if self._source != "world":
-            return self._odometry.forward_m_s, 0.0, self._odometry.yaw_rate_rad_s
+            return self._reckoning.forward_m_s, 0.0, self._reckoning.yaw_rate_rad_s
         model = self._context.model
         linear, angular = self._engine.link(
             f"{model.name}::{model.canonical_link}"
         ).velocity_world()
-        yaw = pose.rpy_rad[2]
-        cos, sin = float(np.cos(yaw)), float(np.sin(yaw))
-        vx, vy = float(linear[0]), float(linear[1])
-        return cos * vx + sin * vy, cos * vy - sin * vx, float(angular[2])
+        forward, sideways = turned_back(float(linear[0]), float(linear[1]), pose.rpy_rad[2])
+        return forward, sideways, float(angular[2])
 
-    def _publish_tf(self, time_ns: int, pose: Pose) -> None:
-        frames = self._frames
-        transforms = []
-        if self._sends_odom_tf:
-            parent, child = frames.prefixed(frames.odometry), frames.prefixed(frames.base)
-            transforms.append(transform_stamped(time_ns, parent, child, pose))
-        if self._sends_wheel_tf:
-            transforms += [
-                self._wheel_tf(time_ns, joint) for pair in self._wheels for joint in pair
-            ]
-        assert self._tf_publisher is not None
-        self._tf_publisher.publish(message_class("tf2_msgs/TFMessage")(transforms=transforms))
+    def _wheel_transforms(self) -> list[Any]:
+        return [
+            wheel_transform(
+                self._context,
+                joint,
+                self._prefixed(joint.joint.parent),
+                self._prefixed(joint.joint.child),
+            )
+            for pair in self._wheels
+            for joint in pair
+        ]
 
-    def _wheel_tf(self, time_ns: int, joint: Any) -> Any:
-        model = self._context.model
-        described = model.joint(joint.name.removeprefix(f"{model.name}::"))
-        assert described is not None
-        T_world_parent = self._engine.link(f"{model.name}::{described.parent}").T_world_link()
-        T_world_child = self._engine.link(f"{model.name}::{described.child}").T_world_link()
-        parent = self._frames.prefixed(described.parent)
-        child = self._frames.prefixed(described.child)
-        return transform_stamped(time_ns, parent, child, T_world_parent.inverse() @ T_world_child)
+    def _prefixed(self, frame: str) -> str:
+        has_own = frame.startswith("/") or not self._prefix
+        return frame if has_own else f"{self._prefix}/{frame}"
 
     def _publish_joints(self, time_ns: int) -> None:
         joints = [joint for pair in self._wheels for joint in pair]
@@ -230,26 +188,12 @@ class _Drive:
         return left.position, right.position
 
     def _reset(self) -> None:
-        self._command = (0.0, 0.0)
+        self._command = Velocity()
         self._ramp.reset()
-        self._odometry.reset()
+        self._reckoning.reset()
         self._last_angles = self._angles()
         self._ordered = None
         self._drive((0.0, 0.0))
-
-    def _release(self) -> None:
-        for pair in self._wheels:
-            for joint in pair:
-                joint.release()
-
-
-def _covariance(parameters: PluginReader) -> np.ndarray[Any, np.dtype[np.float64]]:
-    covariance = np.zeros(36)
-    covariance[[14, 21, 28]] = _UNMEASURED
-    covariance[0] = parameters.number("covariance_x")
-    covariance[7] = parameters.number("covariance_y")
-    covariance[35] = parameters.number("covariance_yaw")
-    return covariance
 
 
 def _odometry_source(context: PluginContext, parameters: PluginReader) -> str:

@@ -3,6 +3,25 @@
 from __future__ import annotations
 
 from gazelle.parameters import Parameter, ParameterTable, Topic
+from gazelle.simulator.plugins.drive_rows import (
+    ALWAYS_ON,
+    COMMAND_TOPIC,
+    DEBUG_LEVEL,
+    GZ_COMMANDS,
+    GZ_NO_JERK,
+    GZ_ODOMETRY,
+    GZ_RATE,
+    GZ_SEPARATION,
+    GZ_SIDES,
+    GZ_TOPICS,
+    GZ_WHEEL_RADIUS,
+    UPDATE_RATE,
+    WHEEL_TF,
+    covariances,
+    frames,
+    odometry_topics,
+    topics,
+)
 from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["GZ_TABLE", "TABLE"]
@@ -13,36 +32,8 @@ TABLE = PluginTable(
         "Drives two wheels from velocity commands and publishes odometry.",
         ("gazebo_ros_diff_drive",),
         (
-            Parameter("robotNamespace", "text", "", "namespace of all topics", generations=(1,)),
-            Parameter(
-                "commandTopic",
-                "text",
-                "cmd_vel",
-                "commands",
-                "",
-                aliases=("command_topic",),
-                generations=(1,),
-            ),
-            Parameter(
-                "odometryTopic",
-                "text",
-                "odom",
-                "odometry",
-                "",
-                aliases=("odometry_topic",),
-                generations=(1,),
-            ),
-            Parameter(
-                "odometryFrame", "text", "odom", "its frame", "", aliases=("odometry_frame",)
-            ),
-            Parameter(
-                "robotBaseFrame",
-                "text",
-                "base_footprint",
-                "child frame",
-                "",
-                aliases=("robot_base_frame",),
-            ),
+            *topics(has_aliases=True),
+            *frames("base_footprint"),
             Parameter(
                 "leftJoint", "text", "left_joint", "left wheel's joint", "", aliases=("left_joint",)
             ),
@@ -86,14 +77,7 @@ TABLE = PluginTable(
                 "m/s²",
                 aliases=("max_wheel_acceleration",),
             ),
-            Parameter(
-                "updateRate",
-                "number",
-                100.0,
-                "update and publish rate",
-                "Hz",
-                aliases=("update_rate",),
-            ),
+            UPDATE_RATE,
             Parameter(
                 "odometrySource",
                 "text",
@@ -120,14 +104,7 @@ TABLE = PluginTable(
                 aliases=("publish_odom_tf",),
                 ros2_default=False,
             ),
-            Parameter(
-                "publishWheelTF",
-                "flag",
-                False,
-                "publish wheel transforms",
-                "",
-                aliases=("publish_wheel_tf",),
-            ),
+            WHEEL_TF,
             Parameter(
                 "publishWheelJointState",
                 "flag",
@@ -136,32 +113,18 @@ TABLE = PluginTable(
                 generations=(1,),
             ),
             Parameter("legacyMode", "flag", True, "exchange the wheels", generations=(1,)),
-            Parameter("covariance_x", "number", 1e-5, "pose covariance x", "m²"),
-            Parameter("covariance_y", "number", 1e-5, "pose covariance y", "m²"),
-            Parameter("covariance_yaw", "number", 1e-3, "pose covariance yaw", "rad²"),
+            *covariances(1e-5, 1e-3, "pose covariance {}"),
             Parameter(
                 "num_wheel_pairs", "number", 1.0, "pairs of wheels (ROS 2)", generations=(2,)
             ),
-            Parameter("rosDebugLevel", "refused", "", "Gazebo's logging level"),
-            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+            DEBUG_LEVEL,
+            ALWAYS_ON,
             Parameter("broadcastTF", "refused", "", "no release of the plug-in reads it"),
         ),
     ),
     topics=(
-        Topic("{commandTopic}", "geometry_msgs/msg/Twist", kind="listens", ros2="cmd_vel"),
-        Topic(
-            "{odometryTopic}",
-            "nav_msgs/msg/Odometry",
-            rate="`updateRate`",
-            frame="`odometryFrame`",
-            ros2="odom",
-        ),
-        Topic(
-            "/tf",
-            "tf2_msgs/msg/TFMessage",
-            rate="`updateRate`",
-            frame="`odometryFrame`, wheel parents",
-        ),
+        COMMAND_TOPIC,
+        *odometry_topics("updateRate", tf_frame="`odometryFrame`, wheel parents"),
         Topic(
             "joint_states",
             "sensor_msgs/msg/JointState",
@@ -195,15 +158,11 @@ GZ_TABLE = PluginTable(
         ),
         (
             Parameter("topic", "text", "/model/{model}/cmd_vel", "commands"),
-            Parameter("odom_topic", "text", "/model/{model}/odometry", "odometry"),
-            Parameter("tf_topic", "text", "/model/{model}/tf", "odom → base"),
-            Parameter("frame_id", "text", "{model}/odom", "frame of the odometry"),
-            Parameter("child_frame_id", "text", "{model}/{link}", "child frame"),
-            Parameter("left_joint", "text", "", "left wheels' joints, repeatable"),
-            Parameter("right_joint", "text", "", "right wheels' joints, repeatable"),
-            Parameter("wheel_separation", "number", 1.0, "distance of the wheels", "m"),
-            Parameter("wheel_radius", "number", 0.2, "radius of the wheels", "m"),
-            Parameter("odom_publish_frequency", "number", 50.0, "publish rate", "Hz"),
+            *GZ_ODOMETRY,
+            *GZ_SIDES,
+            GZ_SEPARATION,
+            GZ_WHEEL_RADIUS,
+            GZ_RATE,
             Parameter(
                 "min_velocity",
                 "number",
@@ -242,24 +201,12 @@ GZ_TABLE = PluginTable(
                 "min_angular_acceleration", "number", -1e12, "hardest turn braking", "rad/s²"
             ),
             Parameter("max_angular_acceleration", "number", 1e12, "hardest turning", "rad/s²"),
-            Parameter("min_jerk", "refused", "", "jerk is not limited"),
-            Parameter("max_jerk", "refused", "", "jerk is not limited"),
+            *GZ_NO_JERK,
         ),
     ),
     topics=(
-        Topic("{topic}", "geometry_msgs/msg/Twist", kind="listens"),
-        Topic(
-            "{odom_topic}",
-            "nav_msgs/msg/Odometry",
-            rate="`odom_publish_frequency`",
-            frame="`frame_id`",
-        ),
-        Topic(
-            "{tf_topic}",
-            "tf2_msgs/msg/TFMessage",
-            rate="`odom_publish_frequency`",
-            frame="`frame_id`",
-        ),
+        GZ_COMMANDS,
+        *GZ_TOPICS,
     ),
     behaviour=(
         "Topics keep their gz names and carry the ROS types that `ros_gz_bridge` maps them to.",

@@ -6,18 +6,14 @@ import math
 from fractions import Fraction
 from typing import Any
 
-from gazelle.geometry import Pose, quat_xyzw_from_rpy
-from gazelle.simulator.messages import (
-    header,
-    message_class,
-    pose_message,
-    transform_stamped,
-    twist_message,
-)
+from gazelle.geometry import Pose
 from gazelle.simulator.plugins.ackermann import steering_angles
 from gazelle.simulator.plugins.ackermann_table import GZ_TABLE
 from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.drive import Velocity, run_drive, take_velocities
+from gazelle.simulator.plugins.drive_odometry import DriveOdometry, gz_odometry_setup
 from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.wheel_motion import SpeedLimiter
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["load"]
@@ -61,54 +57,43 @@ class _GzCar:
         self._separation_m, self._base_m = number("wheel_separation"), number("wheel_base")
         self._kingpin_m, self._radius_m = number("kingpin_width"), number("wheel_radius")
         self._limit, self._gain = number("steering_limit"), number("steer_p_gain")
-        self._bounds = (number("min_velocity"), number("max_velocity"))
-        self._rates = (number("min_acceleration"), number("max_acceleration"))
+        keys = ("min_velocity", "max_velocity", "min_acceleration", "max_acceleration")
+        self._speed, self._turn = (SpeedLimiter(*map(number, keys)) for _ in range(2))
         self._only_steers = parameters.flag("steering_only")
-        self._command, self._followed = (0.0, 0.0), (0.0, 0.0)
-        self._odometry = (0.0, 0.0, 0.0)
+        self._command = Velocity()
+        self._place = (0.0, 0.0, 0.0)
         self._last_roll = self._roll()
         self._offer(parameters)
 
     def _offer(self, parameters: PluginReader) -> None:
         context, resources = self._context, self._context.resources
-        model, name = context.model, context.plugin.name
-
-        def named(key: str) -> str:
-            text = parameters.text(key)
-            return text.replace("{model}", model.name).replace("{link}", model.canonical_link)
-
         own = parameters.text("sub_topic") or ("steer_angle" if self._only_steers else "cmd_vel")
-        topic = parameters.text("topic") or f"/model/{model.name}/{own}"
-        kind = "std_msgs/msg/Float64" if self._only_steers else "geometry_msgs/msg/Twist"
-        resources.subscription(join_names("/", topic), None, self._take, announced=kind)
-        resources.task(f"{name} drive", Fraction(1), self._control)
-        resources.on_reset(self._reset)
-        resources.on_close(self._release)
+        topic = parameters.text("topic") or f"/model/{context.model.name}/{own}"
+        topic = join_names("/", topic)
+        if self._only_steers:
+            resources.subscription(topic, None, self._hear, announced="std_msgs/msg/Float64")
+        else:
+            take_velocities(context, topic, self._take)
+        joints = (joint for some in self._joints.values() for joint in some)
+        run_drive(context, joints, Fraction(1), self._control, self._reset)
         if self._only_steers:
             return
-        self._frames = (named("frame_id"), named("child_frame_id"))
-        topics = [join_names("/", named(key)) for key in ("odom_topic", "tf_topic")]
-        self._odom_publisher = resources.publisher(topics[0], "nav_msgs/Odometry")
-        self._tf_publisher = resources.publisher(topics[1], "tf2_msgs/TFMessage")
+        self._odometry = DriveOdometry(context, gz_odometry_setup(context, parameters))
         rate = parameters.number("odom_publish_frequency")
         period = period_in_steps(rate, self._engine.step_ns)
         self._publish_period_s = max(1.0, float(period)) * self._engine.step_ns * 1e-9
-        resources.task(f"{name} odometry", period, self._publish)
+        resources.task(f"{context.plugin.name} odometry", period, self._publish)
 
-    def _take(self, message: Any) -> None:
-        if self._only_steers:
-            self._command = (0.0, float(message.data))
-            return
-        twist = getattr(message, "twist", message)
-        self._command = (float(twist.linear.x), float(twist.angular.z))
+    def _hear(self, message: Any) -> None:
+        self._command = Velocity(turn=float(message.data))
+
+    def _take(self, command: Velocity) -> None:
+        self._command = command
 
     def _control(self) -> None:
         period_s = self._engine.step_ns * 1e-9
-        speed, turn = (
-            self._limited(wanted, now, period_s)
-            for wanted, now in zip(self._command, self._followed, strict=True)
-        )
-        self._followed = (speed, turn)
+        speed = self._speed.follow(self._command.forward, period_s)
+        turn = self._turn.follow(self._command.turn, period_s)
         if self._only_steers:
             angle = min(max(turn, -self._limit), self._limit)
             self._steer(*steering_angles(angle, self._separation_m, self._base_m))
@@ -122,10 +107,6 @@ class _GzCar:
             rim = speed * (1.0 + side * self._separation_m / (2.0 * radius))
             for joint in self._joints[key]:
                 joint.set_velocity_target(rim / self._radius_m, _TORQUE_NM)
-
-    def _limited(self, wanted: float, now: float, period_s: float) -> float:
-        wanted = min(max(wanted, self._bounds[0]), self._bounds[1])
-        return min(max(wanted, now + self._rates[0] * period_s), now + self._rates[1] * period_s)
 
     def _turning_radius(self, speed: float, turn: float) -> float:
         if abs(turn) < _NO_TURN_RAD_S:
@@ -144,20 +125,8 @@ class _GzCar:
 
     def _publish(self) -> None:
         moved, turned = self._reckon()
-        time_ns, (frame, child) = self._engine.time_ns, self._frames
-        x, y, yaw = self._odometry
-        pose = Pose((x, y, 0.0), quat_xyzw_from_rpy((0.0, 0.0, yaw)))
-        if self._odom_publisher.matched:
-            message = message_class("nav_msgs/Odometry")(
-                header=header(time_ns, frame), child_frame_id=child
-            )
-            message.pose.pose = pose_message(pose)
-            speeds = (moved / self._publish_period_s, turned / self._publish_period_s)
-            message.twist.twist = twist_message((speeds[0], 0.0, 0.0), (0.0, 0.0, speeds[1]))
-            self._odom_publisher.publish(message)
-        if self._tf_publisher.matched:
-            transform = transform_stamped(time_ns, frame, child, pose)
-            self._tf_publisher.publish(message_class("tf2_msgs/TFMessage")(transforms=[transform]))
+        motion = (moved / self._publish_period_s, 0.0, turned / self._publish_period_s)
+        self._odometry.publish(Pose.from_xy_yaw(*self._place), motion)
 
     def _reckon(self) -> tuple[float, float]:
         """Go on by what wheels rolled since the last time; returns distance and turn."""
@@ -167,9 +136,9 @@ class _GzCar:
         sides = ("left_steering_joint", "right_steering_joint")
         steer = sum(self._joints[key][0].position for key in sides) / 2
         turned = moved * math.tan(steer) / self._base_m
-        x, y, yaw = self._odometry
+        x, y, yaw = self._place
         yaw += turned
-        self._odometry = (x + moved * math.cos(yaw), y + moved * math.sin(yaw), yaw)
+        self._place = (x + moved * math.cos(yaw), y + moved * math.sin(yaw), yaw)
         return moved, turned
 
     def _roll(self) -> float:
@@ -178,9 +147,6 @@ class _GzCar:
         return sum(self._joints[key][0].position for key in ("left_joint", "right_joint")) / 2
 
     def _reset(self) -> None:
-        self._command = self._followed = (0.0, 0.0)
-        self._odometry, self._last_roll = (0.0, 0.0, 0.0), self._roll()
-
-    def _release(self) -> None:
-        for joint in (joint for some in self._joints.values() for joint in some):
-            joint.release()
+        self._command = Velocity()
+        self._speed.value = self._turn.value = 0.0
+        self._place, self._last_roll = (0.0, 0.0, 0.0), self._roll()

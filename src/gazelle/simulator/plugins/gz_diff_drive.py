@@ -3,20 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
-from gazelle.simulator.messages import (
-    header,
-    message_class,
-    pose_message,
-    transform_stamped,
-    twist_message,
-)
-from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.diff_drive_table import GZ_TABLE
+from gazelle.simulator.plugins.drive import Velocity, gz_topic, run_drive, take_velocities
+from gazelle.simulator.plugins.drive_odometry import DriveOdometry, gz_odometry_setup
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.wheel_checks import check_drive
-from gazelle.simulator.plugins.wheel_motion import EncoderOdometry, wheel_speeds
+from gazelle.simulator.plugins.wheel_motion import EncoderOdometry, SpeedLimiter, wheel_speeds
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["load"]
@@ -41,22 +35,6 @@ def load(context: PluginContext) -> None:
     parameters.report_unread()
 
 
-class _Limiter:
-    """Keeps a speed and its rate of change within bounds."""
-
-    def __init__(self, lowest: float, highest: float, braking: float, acceleration: float) -> None:
-        self._bounds = (lowest, highest)
-        self._rates = (braking, acceleration)
-        self.value = 0.0
-
-    def follow(self, wanted: float, period_s: float) -> float:
-        """Return the next value towards `wanted`."""
-        wanted = max(self._bounds[0], min(wanted, self._bounds[1]))
-        least, most = (self.value + rate * period_s for rate in self._rates)
-        self.value = max(least, min(wanted, most))
-        return self.value
-
-
 class _GzDrive:
     """One running drive."""
 
@@ -75,49 +53,35 @@ class _GzDrive:
         check_drive(
             context, (names[0][0], names[1][0]), separation, 2 * self._radius_m, exchanged=False
         )
-        self._odometry = EncoderOdometry(separation, self._radius_m, exchanged=False)
+        self._reckoning = EncoderOdometry(separation, self._radius_m, exchanged=False)
         self._last_angles = self._angles()
-        self._command = (0.0, 0.0)
+        self._command = Velocity()
         self._linear = _limiter(parameters, "velocity", "acceleration")
         self._angular = _limiter(parameters, "angular_velocity", "angular_acceleration")
         self._offer(parameters)
         self._start(parameters)
 
     def _offer(self, parameters: PluginReader) -> None:
-        model, resources = self._context.model, self._context.resources
-
-        def named(key: str) -> str:
-            text = parameters.text(key)
-            return text.replace("{model}", model.name).replace("{link}", model.canonical_link)
-
-        self._frames = (named("frame_id"), named("child_frame_id"))
-        command_topic = join_names("/", named("topic"))
-        # Twist and TwistStamped are both taken.
-        resources.subscription(
-            command_topic, None, self._take_command, announced="geometry_msgs/msg/Twist"
-        )
-        odom_topic, tf_topic = join_names("/", named("odom_topic")), named("tf_topic")
-        self._odom_publisher = resources.publisher(odom_topic, "nav_msgs/Odometry")
-        self._tf_publisher = resources.publisher(join_names("/", tf_topic), "tf2_msgs/TFMessage")
+        context = self._context
+        take_velocities(context, gz_topic(context, parameters, "topic"), self._take)
+        self._odometry = DriveOdometry(context, gz_odometry_setup(context, parameters))
 
     def _start(self, parameters: PluginReader) -> None:
-        step_ns, resources = self._engine.step_ns, self._context.resources
+        context, step_ns = self._context, self._engine.step_ns
         period = period_in_steps(parameters.number("odom_publish_frequency"), step_ns)
         self._publish_period_s = float(period * step_ns) * 1e-9
         control = period_in_steps(_CONTROL_HZ, step_ns)
         self._control_period_s = float(control * step_ns) * 1e-9
-        resources.task(f"{self._context.plugin.name} drive", control, self._control)
-        resources.task(f"{self._context.plugin.name} odometry", period, self._publish)
-        resources.on_reset(self._reset)
-        resources.on_close(self._release)
+        joints = (joint for side in self._joints for joint in side)
+        run_drive(context, joints, control, self._control, self._reset)
+        context.resources.task(f"{context.plugin.name} odometry", period, self._publish)
 
-    def _take_command(self, message: Any) -> None:
-        twist = getattr(message, "twist", message)
-        self._command = (float(twist.linear.x), float(twist.angular.z))
+    def _take(self, command: Velocity) -> None:
+        self._command = command
 
     def _control(self) -> None:
-        linear = self._linear.follow(self._command[0], self._control_period_s)
-        angular = self._angular.follow(self._command[1], self._control_period_s)
+        linear = self._linear.follow(self._command.forward, self._control_period_s)
+        angular = self._angular.follow(self._command.turn, self._control_period_s)
         speeds = wheel_speeds(linear, angular, self._separation_m, exchanged=False)
         for joints, speed in zip(self._joints, speeds, strict=True):
             for joint in joints:
@@ -126,39 +90,24 @@ class _GzDrive:
     def _publish(self) -> None:
         angles, last = self._angles(), self._last_angles
         self._last_angles = angles
-        odometry = self._odometry
-        odometry.update(angles[0] - last[0], angles[1] - last[1], self._publish_period_s)
-        time_ns = self._engine.time_ns
-        frame, child = self._frames
-        if self._odom_publisher.matched:
-            message = message_class("nav_msgs/Odometry")(
-                header=header(time_ns, frame), child_frame_id=child
-            )
-            message.pose.pose = pose_message(odometry.pose())
-            linear = (odometry.forward_m_s, 0.0, 0.0)
-            message.twist.twist = twist_message(linear, (0.0, 0.0, odometry.yaw_rate_rad_s))
-            self._odom_publisher.publish(message)
-        if self._tf_publisher.matched:
-            transform = transform_stamped(time_ns, frame, child, odometry.pose())
-            self._tf_publisher.publish(message_class("tf2_msgs/TFMessage")(transforms=[transform]))
+        reckoning = self._reckoning
+        reckoning.update(angles[0] - last[0], angles[1] - last[1], self._publish_period_s)
+        motion = (reckoning.forward_m_s, 0.0, reckoning.yaw_rate_rad_s)
+        self._odometry.publish(reckoning.pose(), motion)
 
     def _angles(self) -> tuple[float, float]:
         left, right = (math.fsum(j.position for j in side) / len(side) for side in self._joints)
         return left, right
 
     def _reset(self) -> None:
-        self._command = (0.0, 0.0)
+        self._command = Velocity()
         self._linear.value = self._angular.value = 0.0
-        self._odometry.reset()
+        self._reckoning.reset()
         self._last_angles = self._angles()
 
-    def _release(self) -> None:
-        for joint in (joint for side in self._joints for joint in side):
-            joint.release()
 
-
-def _limiter(parameters: PluginReader, speed: str, rate: str) -> _Limiter:
-    return _Limiter(
+def _limiter(parameters: PluginReader, speed: str, rate: str) -> SpeedLimiter:
+    return SpeedLimiter(
         parameters.number(f"min_{speed}"),
         parameters.number(f"max_{speed}"),
         parameters.number(f"min_{rate}"),

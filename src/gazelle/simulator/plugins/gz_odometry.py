@@ -18,7 +18,8 @@ from gazelle.simulator.messages import (
     transform_stamped,
     twist_message,
 )
-from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.drive import gz_text, gz_topic
 from gazelle.simulator.plugins.noise import gaussian
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.stream import once_per_step, publish_at
@@ -147,7 +148,7 @@ def load(context: PluginContext) -> None:
 
 
 def _start(context: PluginContext, parameters: PluginReader, *, is_flat: bool) -> None:
-    frame, child = (_named(context, parameters, key) for key in ("odom_frame", "robot_base_frame"))
+    frame, child = (gz_text(context, parameters, key) for key in ("odom_frame", "robot_base_frame"))
     noise = gaussian(context, parameters.number("gaussian_noise"))
     variance = parameters.number("gaussian_noise") ** 2
     offset = Pose.from_xyz_rpy(parameters.vector("xyz_offset"), parameters.vector("rpy_offset"))
@@ -183,7 +184,7 @@ def _start(context: PluginContext, parameters: PluginReader, *, is_flat: bool) -
         ("odom_covariance_topic", "nav_msgs/Odometry", odometry(variance)),
         ("tf_topic", "tf2_msgs/TFMessage", transform),
     ):
-        topic = join_names("/", _named(context, parameters, key))
+        topic = gz_topic(context, parameters, key)
         publish_at(context, topic, type_name, period, build, order=ORDER_STATE)
 
 
@@ -210,7 +211,7 @@ def load_poses(context: PluginContext) -> None:
     """Start publishing the poses inside a model."""
     parameters = context.reader(POSE_TABLE)
     rows, moving = _rows(context, parameters), _moving_links(context.model)
-    topic = join_names("/", _named(context, parameters, "topic"))
+    topic = gz_topic(context, parameters, "topic")
     rate_hz, is_vector = (
         parameters.number("update_frequency"),
         parameters.flag("use_pose_vector_msg"),
@@ -285,7 +286,3 @@ def _moving_links(model: Model) -> set[str]:
         for end in (joint.parent, joint.child)
     }
     return {f"{model.name}/{end}".replace("::", "/") for end in ends - {model.canonical_link}}
-
-
-def _named(context: PluginContext, parameters: PluginReader, key: str) -> str:
-    return parameters.text(key).replace("{model}", context.model.name)

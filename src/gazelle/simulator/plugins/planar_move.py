@@ -4,19 +4,27 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
 from gazelle.geometry import Pose
-from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.plugins.body_odometry import (
-    BodyOdometry,
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.drive import Velocity, take_velocities
+from gazelle.simulator.plugins.drive_odometry import (
+    DriveOdometry,
     OdometrySetup,
     frame_prefix,
-    planar_covariance,
+    given_covariance,
+    turned_back,
 )
-from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.drive_rows import (
+    COMMAND_TOPIC,
+    covariances,
+    frames,
+    odometry_topics,
+    topics,
+)
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
@@ -31,20 +39,8 @@ TABLE = PluginTable(
         "Gives a robot the commanded velocity in the plane, without wheels (omnidirectional).",
         ("gazebo_ros_planar_move",),
         (
-            Parameter("robotNamespace", "text", "", "namespace of all topics", generations=(1,)),
-            Parameter("commandTopic", "text", "cmd_vel", "commands", generations=(1,)),
-            Parameter("odometryTopic", "text", "odom", "odometry", generations=(1,)),
-            Parameter(
-                "odometryFrame", "text", "odom", "its frame", "", aliases=("odometry_frame",)
-            ),
-            Parameter(
-                "robotBaseFrame",
-                "text",
-                "base_footprint",
-                "child frame",
-                "",
-                aliases=("robot_base_frame",),
-            ),
+            *topics(),
+            *frames("base_footprint"),
             Parameter(
                 "odometryRate",
                 "number",
@@ -73,27 +69,12 @@ TABLE = PluginTable(
             Parameter(
                 "publish_odom_tf", "flag", True, "publish odom → base (ROS 2)", generations=(2,)
             ),
-            Parameter(
-                "covariance_x", "number", 1e-5, "covariance x (ROS 2)", "m²", generations=(2,)
-            ),
-            Parameter(
-                "covariance_y", "number", 1e-5, "covariance y (ROS 2)", "m²", generations=(2,)
-            ),
-            Parameter(
-                "covariance_yaw", "number", 1e-3, "covariance yaw (ROS 2)", "rad²", generations=(2,)
-            ),
+            *covariances(1e-5, 1e-3, "covariance {} (ROS 2)", (2,)),
         ),
     ),
     topics=(
-        Topic("{commandTopic}", "geometry_msgs/msg/Twist", kind="listens", ros2="cmd_vel"),
-        Topic(
-            "{odometryTopic}",
-            "nav_msgs/msg/Odometry",
-            rate="`odometryRate`",
-            frame="`odometryFrame`",
-            ros2="odom",
-        ),
-        Topic("/tf", "tf2_msgs/msg/TFMessage", rate="`odometryRate`", frame="`odometryFrame`"),
+        COMMAND_TOPIC,
+        *odometry_topics("odometryRate"),
     ),
     behaviour=(
         "ROS 1 sets the velocity at every step, ROS 2 at `update_rate`; in between friction and"
@@ -121,15 +102,14 @@ class _PlanarMove:
         self._context = context
         self._engine = context.host.engine
         self._is_ros2 = parameters.is_ros2("update_rate")
-        self._command = (0.0, 0.0, 0.0)
+        self._command = Velocity()
         self._stamp_ns = 0
         timeout = parameters.number("cmdTimeout")
         self._timeout_ns = math.inf if timeout < 0 else timeout * 1e9
-        self._odometry = BodyOdometry(context, _setup(context, parameters, ros2=self._is_ros2))
+        self._odometry = DriveOdometry(context, _setup(context, parameters, ros2=self._is_ros2))
         self._last: tuple[int, Pose] = (self._engine.time_ns, self._pose())
         topic = context.topic(parameters, parameters.text("commandTopic"))
-        # Twist and TwistStamped are both taken.
-        context.resources.subscription(topic, None, self._take, announced="geometry_msgs/msg/Twist")
+        take_velocities(context, topic, self._take)
         self._start(parameters)
 
     def _start(self, parameters: PluginReader) -> None:
@@ -144,14 +124,13 @@ class _PlanarMove:
             resources.task(f"{name} odometry", period_in_steps(rate, step_ns), self._publish)
         resources.on_reset(self._reset)
 
-    def _take(self, message: Any) -> None:
-        twist = getattr(message, "twist", message)
-        self._command = (float(twist.linear.x), float(twist.linear.y), float(twist.angular.z))
+    def _take(self, command: Velocity) -> None:
+        self._command = command
         self._stamp_ns = self._engine.time_ns
 
     def _move(self) -> None:
         if self._engine.time_ns - self._stamp_ns > self._timeout_ns:
-            self._command = (0.0, 0.0, 0.0)
+            self._command = Velocity()
         forward, sideways, turn = self._command
         if not any(self._command) and self._is_asleep():
             return
@@ -169,10 +148,8 @@ class _PlanarMove:
         period_s = (time_ns - last_ns) * 1e-9
         gap = np.subtract(pose.position_m, last.position_m)[:2] / period_s
         yaw = pose.rpy_rad[2]
-        cos, sin = math.cos(yaw), math.sin(yaw)
         turn = math.remainder(yaw - last.rpy_rad[2], 2 * math.pi) / period_s
-        motion = (cos * gap[0] + sin * gap[1], cos * gap[1] - sin * gap[0], turn)
-        self._odometry.publish(pose, motion)
+        self._odometry.publish(pose, (*turned_back(gap[0], gap[1], yaw), turn))
 
     def _pose(self) -> Pose:
         return self._engine.model_pose(self._context.model.name)
@@ -183,15 +160,13 @@ class _PlanarMove:
         return self._engine.is_asleep(self._engine.body_id(f"{model.name}::{link}"))
 
     def _reset(self) -> None:
-        self._command = (0.0, 0.0, 0.0)
+        self._command = Velocity()
         self._last = (self._engine.time_ns, self._pose())
 
 
 def _setup(context: PluginContext, parameters: PluginReader, *, ros2: bool) -> OdometrySetup:
     prefix = "" if ros2 else frame_prefix(context, parameters)
-    covariance = planar_covariance(
-        *(parameters.number(f"covariance_{axis}") for axis in ("x", "y", "yaw"))
-    )
+    covariance = given_covariance(parameters)
     topic = context.topic(parameters, parameters.text("odometryTopic"))
     return OdometrySetup(
         topic if parameters.flag("publish_odom") else "",

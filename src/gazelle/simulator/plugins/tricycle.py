@@ -8,15 +8,17 @@ from typing import Any
 import numpy as np
 
 from gazelle.engine import JointHandle
-from gazelle.geometry import Pose, quat_xyzw_from_rpy
-from gazelle.simulator.messages import header, message_class, transform_stamped
-from gazelle.simulator.plugins.body_odometry import (
-    BodyOdometry,
+from gazelle.geometry import Pose
+from gazelle.simulator.messages import header, message_class
+from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.drive import Velocity, needed_joints, run_drive, take_velocities
+from gazelle.simulator.plugins.drive_odometry import (
+    DriveOdometry,
     OdometrySetup,
     frame_prefix,
     planar_covariance,
+    wheel_transform,
 )
-from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.tricycle_table import TABLE
 from gazelle.simulator.scheduler import period_in_steps
@@ -32,10 +34,9 @@ _ENCODER = frozenset({"encoder", "0"})
 def load(context: PluginContext) -> None:
     """Start a drive; one diagnostic and nothing else when a joint is missing."""
     parameters = context.reader(TABLE)
-    found = [context.joint_name(parameters.text(key)) for key in _JOINTS]
-    names = [name for name in found if name is not None]
-    if len(names) == len(_JOINTS):
-        _Tricycle(context, parameters, names)
+    names = needed_joints(context, parameters, _JOINTS)
+    if names is not None:
+        _Tricycle(context, parameters, list(names.values()))
     parameters.report_unread()
 
 
@@ -48,7 +49,7 @@ class _Tricycle:
         self._joints = [self._engine.joint(name) for name in names]
         self._steering, self._wheel, *self._encoders = self._joints
         self._read(parameters)
-        self._command = (0.0, 0.0)
+        self._command = Velocity()
         self._place = (0.0, 0.0, 0.0)
         self._motion = (0.0, 0.0, 0.0)
         self._last_angles = self._angles()
@@ -81,12 +82,10 @@ class _Tricycle:
             self._prefix + parameters.text("odometryFrame"),
             self._prefix + parameters.text("robotBaseFrame"),
             planar_covariance(1e-5, 1e-5, 1e-3),
-            np.zeros(36),
         )
-        self._odometry = BodyOdometry(context, setup)
+        self._odometry = DriveOdometry(context, setup)
         command = context.topic(parameters, parameters.text("commandTopic"))
-        # Twist and TwistStamped are both taken.
-        resources.subscription(command, None, self._take, announced="geometry_msgs/msg/Twist")
+        take_velocities(context, command, self._take)
         self._tf = self._states = None
         if parameters.flag("publishWheelTF"):
             self._tf = resources.publisher("/tf", "tf2_msgs/TFMessage")
@@ -96,25 +95,20 @@ class _Tricycle:
             self._states = resources.publisher(topic, "sensor_msgs/JointState")
 
     def _start(self, parameters: PluginReader) -> None:
-        resources, step_ns = self._context.resources, self._engine.step_ns
+        step_ns = self._engine.step_ns
         period = period_in_steps(parameters.number("updateRate"), step_ns)
         self._steps = max(1, round(float(period)))
         self._period_s = max(1.0, float(period)) * step_ns * 1e-9
         self._drive()
-        resources.task(f"{self._context.plugin.name} drive", period, self._update)
-        resources.on_reset(self._reset)
-        resources.on_close(self._release)
+        run_drive(self._context, self._joints, period, self._update, self._reset)
 
-    def _take(self, message: Any) -> None:
-        twist = getattr(message, "twist", message)
-        self._command = (float(twist.linear.x), float(twist.angular.z))
+    def _take(self, command: Velocity) -> None:
+        self._command = command
 
     def _update(self) -> None:
         if self._by_encoder:
             self._reckon()
-            x, y, yaw = self._place
-            pose = Pose((x, y, 0.0), quat_xyzw_from_rpy((0.0, 0.0, yaw)))
-            self._odometry.publish(pose, self._motion)
+            self._odometry.publish(Pose.from_xy_yaw(*self._place), self._motion)
         else:
             self._odometry.publish()
         self._publish_wheels()
@@ -122,7 +116,7 @@ class _Tricycle:
         self._drive()
 
     def _drive(self) -> None:
-        speed, angle = self._command
+        speed, _, angle = self._command
         rate = self._ramped(speed / self._radius_m, self._wheel.velocity)
         self._wheel.set_velocity_target(rate, self._torque_nm)
         angle = min(max(angle, -math.pi / 2), math.pi / 2)
@@ -167,16 +161,11 @@ class _Tricycle:
         self._tf.publish(message_class("tf2_msgs/TFMessage")(transforms=transforms))
 
     def _wheel_transform(self, joint: JointHandle) -> Any:
-        described, model = joint.joint, self._context.model.name
-        poses = [
-            self._engine.link(f"{model}::{link}").T_world_link()
-            for link in (described.parent, described.child)
-        ]
+        described = joint.joint
         # ROS 1 names the frame after the joint, ROS 2 after the link.
         child = described.child if self._is_ros2 else described.name
-        parent = self._prefix + described.parent
-        pose = poses[0].inverse() @ poses[1]
-        return transform_stamped(self._engine.time_ns, parent, self._prefix + child, pose)
+        parent, child = self._prefix + described.parent, self._prefix + child
+        return wheel_transform(self._context, joint, parent, child)
 
     def _publish_states(self) -> None:
         if self._states is None or not self._states.matched:
@@ -195,11 +184,7 @@ class _Tricycle:
         return left.position, right.position
 
     def _reset(self) -> None:
-        self._command = (0.0, 0.0)
+        self._command = Velocity()
         self._place = self._motion = (0.0, 0.0, 0.0)
         self._last_angles = self._angles()
         self._drive()
-
-    def _release(self) -> None:
-        for joint in self._joints:
-            joint.release()

@@ -3,6 +3,16 @@
 from __future__ import annotations
 
 from gazelle.parameters import Parameter, ParameterTable, Topic
+from gazelle.simulator.plugins.drive_rows import (
+    ALWAYS_ON,
+    COMMAND_TOPIC,
+    DEBUG_LEVEL,
+    UPDATE_RATE,
+    WHEEL_TF,
+    frames,
+    odometry_topics,
+    topics,
+)
 from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["TABLE"]
@@ -13,20 +23,8 @@ TABLE = PluginTable(
         "Drives and steers one front wheel; two rear wheels measure (ROS 1 and 2).",
         ("gazebo_ros_tricycle_drive",),
         (
-            Parameter("robotNamespace", "text", "", "namespace of all topics", generations=(1,)),
-            Parameter("commandTopic", "text", "cmd_vel", "commands", generations=(1,)),
-            Parameter("odometryTopic", "text", "odom", "odometry", generations=(1,)),
-            Parameter(
-                "odometryFrame", "text", "odom", "its frame", "", aliases=("odometry_frame",)
-            ),
-            Parameter(
-                "robotBaseFrame",
-                "text",
-                "base_link",
-                "child frame",
-                "",
-                aliases=("robot_base_frame",),
-            ),
+            *topics(),
+            *frames("base_link"),
             Parameter(
                 "steeringJoint",
                 "text",
@@ -139,14 +137,7 @@ TABLE = PluginTable(
                 "",
                 aliases=("odometry_source",),
             ),
-            Parameter(
-                "updateRate",
-                "number",
-                100.0,
-                "update and publish rate",
-                "Hz",
-                aliases=("update_rate",),
-            ),
+            UPDATE_RATE,
             Parameter(
                 "publish_odom",
                 "flag",
@@ -154,14 +145,7 @@ TABLE = PluginTable(
                 "publish odometry and odom → base (ROS 2)",
                 generations=(2,),
             ),
-            Parameter(
-                "publishWheelTF",
-                "flag",
-                False,
-                "publish wheel transforms",
-                "",
-                aliases=("publish_wheel_tf",),
-            ),
+            WHEEL_TF,
             Parameter(
                 "publishWheelJointState",
                 "flag",
@@ -170,25 +154,13 @@ TABLE = PluginTable(
                 "",
                 aliases=("publish_wheel_joint_state",),
             ),
-            Parameter("rosDebugLevel", "refused", "", "Gazebo's logging level"),
-            Parameter("alwaysOn", "refused", "", "a model plug-in always runs"),
+            DEBUG_LEVEL,
+            ALWAYS_ON,
         ),
     ),
     topics=(
-        Topic("{commandTopic}", "geometry_msgs/msg/Twist", kind="listens", ros2="cmd_vel"),
-        Topic(
-            "{odometryTopic}",
-            "nav_msgs/msg/Odometry",
-            rate="`updateRate`",
-            frame="`odometryFrame`",
-            ros2="odom",
-        ),
-        Topic(
-            "/tf",
-            "tf2_msgs/msg/TFMessage",
-            rate="`updateRate`",
-            frame="`odometryFrame`, wheel parents",
-        ),
+        COMMAND_TOPIC,
+        *odometry_topics("updateRate", tf_frame="`odometryFrame`, wheel parents"),
         Topic("joint_states", "sensor_msgs/msg/JointState", rate="`updateRate`", frame="none"),
     ),
     behaviour=(

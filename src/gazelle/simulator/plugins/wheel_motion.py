@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from gazelle.geometry import Pose, quat_xyzw_from_rpy
+from gazelle.geometry import Pose
 
-__all__ = ["EncoderOdometry", "WheelRamp", "wheel_speeds"]
+__all__ = ["EncoderOdometry", "SpeedLimiter", "WheelRamp", "wheel_speeds"]
 
 # Below this difference Gazebo's plug-in commands the target at once (m/s).
 _NEAR_M_S = 0.01
@@ -29,6 +29,26 @@ def wheel_speeds(
     if exchanged:
         turn = -turn
     return linear_m_s - turn, linear_m_s + turn
+
+
+class SpeedLimiter:
+    """Keeps a speed and its rate of change within bounds, as gz-sim does.
+
+    Attributes:
+        value: the last speed.
+    """
+
+    def __init__(self, lowest: float, highest: float, braking: float, acceleration: float) -> None:
+        self._bounds = (lowest, highest)
+        self._rates = (braking, acceleration)
+        self.value = 0.0
+
+    def follow(self, wanted: float, period_s: float) -> float:
+        """Return the next value towards `wanted`."""
+        wanted = max(self._bounds[0], min(wanted, self._bounds[1]))
+        least, most = (self.value + rate * period_s for rate in self._rates)
+        self.value = max(least, min(wanted, most))
+        return self.value
 
 
 class WheelRamp:
@@ -93,7 +113,7 @@ class EncoderOdometry:
 
     def pose(self) -> Pose:
         """Return the pose in the odometry frame."""
-        return Pose((self.x_m, self.y_m, 0.0), quat_xyzw_from_rpy((0.0, 0.0, self.yaw_rad)))
+        return Pose.from_xy_yaw(self.x_m, self.y_m, self.yaw_rad)
 
     def reset(self) -> None:
         """Start over at the origin."""
