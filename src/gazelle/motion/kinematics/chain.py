@@ -12,7 +12,7 @@ from gazelle.motion.kinematics.kernels import QUATERNION, SLIDE, TURN, tree
 from gazelle.motion.model import JointGroup, JointKind, RobotJoint, RobotModel
 from gazelle.motion.space import FloatArray
 
-__all__ = ["Chain", "LinkTree", "chain_to", "link_tree"]
+__all__ = ["Chain", "Goal", "LinkTree", "chain_to", "link_tree"]
 
 IntArray = NDArray[np.int64]
 _TREE_KINDS = {
