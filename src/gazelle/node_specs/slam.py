@@ -16,6 +16,25 @@ from gazelle.node_specs.spec import (
 
 __all__ = ["SLAM"]
 
+_MAP = (
+    publishes("/tf", "tf2_msgs/msg/TFMessage"),
+    publishes("map", "nav_msgs/msg/OccupancyGrid"),
+    publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
+)
+_TOOLBOX_TOPICS = (
+    *_MAP,
+    listens("{~scan_topic|/scan}", "sensor_msgs/msg/LaserScan"),
+    *TF_LISTENED,
+)
+_TOOLBOX_SERVICES = (
+    offers("~deserialize_map", "slam_toolbox/srv/DeserializePoseGraph"),
+    offers("~dynamic_map", "nav_msgs/srv/GetMap"),
+    offers("~pause_new_measurements", "slam_toolbox/srv/Pause"),
+    offers("~reset", "slam_toolbox/srv/Reset"),
+    offers("~save_map", "slam_toolbox/srv/SaveMap"),
+    offers("~serialize_map", "slam_toolbox/srv/SerializePoseGraph"),
+)
+
 SLAM = (
     NodeSpec(
         package="explore_lite",
@@ -36,13 +55,7 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_gmapping",
         does="SLAM, gmapping's names",
         is_light=False,
-        topics=(
-            publishes("/tf", "tf2_msgs/msg/TFMessage"),
-            publishes("map", "nav_msgs/msg/OccupancyGrid"),
-            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
-            listens("scan", "sensor_msgs/msg/LaserScan"),
-            *TF_LISTENED,
-        ),
+        topics=(*_MAP, listens("scan", "sensor_msgs/msg/LaserScan"), *TF_LISTENED),
         services=(offers("dynamic_map", "nav_msgs/srv/GetMap"),),
         frames=(FrameRow("{~map_frame|map}", "{~odom_frame|odom}"),),
     ),
@@ -53,13 +66,7 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_karto",
         does="SLAM, slam_karto's names",
         is_light=False,
-        topics=(
-            publishes("/tf", "tf2_msgs/msg/TFMessage"),
-            publishes("map", "nav_msgs/msg/OccupancyGrid"),
-            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
-            listens("scan", "sensor_msgs/msg/LaserScan"),
-            *TF_LISTENED,
-        ),
+        topics=(*_MAP, listens("scan", "sensor_msgs/msg/LaserScan"), *TF_LISTENED),
         services=(offers("dynamic_map", "nav_msgs/srv/GetMap"),),
         frames=(FrameRow("{~map_frame|map}", "{~odom_frame|odom}"),),
     ),
@@ -70,13 +77,7 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_hector",
         does="SLAM, hector_mapping's names",
         is_light=False,
-        topics=(
-            publishes("/tf", "tf2_msgs/msg/TFMessage"),
-            publishes("map", "nav_msgs/msg/OccupancyGrid"),
-            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
-            listens("scan", "sensor_msgs/msg/LaserScan"),
-            *TF_LISTENED,
-        ),
+        topics=(*_MAP, listens("scan", "sensor_msgs/msg/LaserScan"), *TF_LISTENED),
         services=(offers("dynamic_map", "nav_msgs/srv/GetMap"),),
         frames=None,
     ),
@@ -86,13 +87,7 @@ SLAM = (
         entry="gazelle.nodes.slam.node:run_cartographer",
         does="SLAM, cartographer's names",
         is_light=False,
-        topics=(
-            publishes("/tf", "tf2_msgs/msg/TFMessage"),
-            publishes("map", "nav_msgs/msg/OccupancyGrid"),
-            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
-            listens("scan", "sensor_msgs/msg/LaserScan"),
-            *TF_LISTENED,
-        ),
+        topics=(*_MAP, listens("scan", "sensor_msgs/msg/LaserScan"), *TF_LISTENED),
         services=(offers("dynamic_map", "nav_msgs/srv/GetMap"),),
         frames=None,
     ),
@@ -116,21 +111,8 @@ SLAM = (
             NodeName("slam_toolbox", "map_and_localization_slam_toolbox_node", ROS_2),
         ),
         name="slam_toolbox",
-        topics=(
-            publishes("/tf", "tf2_msgs/msg/TFMessage"),
-            publishes("map", "nav_msgs/msg/OccupancyGrid"),
-            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
-            listens("{~scan_topic|/scan}", "sensor_msgs/msg/LaserScan"),
-            *TF_LISTENED,
-        ),
-        services=(
-            offers("~deserialize_map", "slam_toolbox/srv/DeserializePoseGraph"),
-            offers("~dynamic_map", "nav_msgs/srv/GetMap"),
-            offers("~pause_new_measurements", "slam_toolbox/srv/Pause"),
-            offers("~reset", "slam_toolbox/srv/Reset"),
-            offers("~save_map", "slam_toolbox/srv/SaveMap"),
-            offers("~serialize_map", "slam_toolbox/srv/SerializePoseGraph"),
-        ),
+        topics=_TOOLBOX_TOPICS,
+        services=_TOOLBOX_SERVICES,
         frames=None,
     ),
     NodeSpec(
@@ -140,21 +122,8 @@ SLAM = (
         does="localisation in a saved graph of poses, slam_toolbox's names",
         is_light=False,
         name="slam_toolbox",
-        topics=(
-            publishes("/tf", "tf2_msgs/msg/TFMessage"),
-            publishes("map", "nav_msgs/msg/OccupancyGrid"),
-            publishes("map_metadata", "nav_msgs/msg/MapMetaData"),
-            listens("{~scan_topic|/scan}", "sensor_msgs/msg/LaserScan"),
-            *TF_LISTENED,
-        ),
-        services=(
-            offers("~deserialize_map", "slam_toolbox/srv/DeserializePoseGraph"),
-            offers("~dynamic_map", "nav_msgs/srv/GetMap"),
-            offers("~pause_new_measurements", "slam_toolbox/srv/Pause"),
-            offers("~reset", "slam_toolbox/srv/Reset"),
-            offers("~save_map", "slam_toolbox/srv/SaveMap"),
-            offers("~serialize_map", "slam_toolbox/srv/SerializePoseGraph"),
-        ),
+        topics=_TOOLBOX_TOPICS,
+        services=_TOOLBOX_SERVICES,
         frames=None,
     ),
     NodeSpec(
