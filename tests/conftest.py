@@ -25,7 +25,7 @@ from tests.distribution import (  # noqa: F401 - hooks
     pytest_xdist_make_scheduler,
 )
 from tests.garbage import pytest_collection_finish, pytest_configure  # noqa: F401 - hooks
-from tests.patience import PATIENCE_S, eventually, stretched
+from tests.patience import PATIENCE_S, await_change, eventually, stretched
 
 SHARED = Path(__file__).parents[2] / "shared"
 _OWN_FOLDERS = ("HOME", "ROS_HOME", "USERPROFILE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
@@ -181,9 +181,7 @@ class Launched:
             return next((line for line in self.lines if re.search(pattern, line)), "")
 
         with self._changed:
-            assert self._changed.wait_for(lambda: found() or self._ended, stretched(timeout_s)), (
-                self.text
-            )
+            assert await_change(self._changed, lambda: found() or self._ended, timeout_s), self.text
             assert found(), f"no line matches {pattern!r}:\n{self.text}"
             return found()
 
@@ -210,7 +208,7 @@ class Launched:
             return all(len(got[topic]) >= count for topic, count in wanted.items())
 
         with done:
-            in_time = done.wait_for(complete, stretched(timeout_s))
+            in_time = await_change(done, complete, timeout_s)
             counts = {topic: len(items) for topic, items in got.items()}
         assert in_time, f"{counts} of {wanted}\n{self.text}"
         for subscription in listening:

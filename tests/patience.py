@@ -8,17 +8,27 @@ cores just now. Nothing outside this module compares wall time with a number.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 from gazelle.errors import GazelleError
 
-__all__ = ["PATIENCE_S", "at_most", "eventually", "scale", "stretched", "undisturbed"]
+__all__ = [
+    "PATIENCE_S",
+    "at_most",
+    "await_change",
+    "eventually",
+    "scale",
+    "stretched",
+    "undisturbed",
+]
 
 PATIENCE_S = 60.0
 """What is waited for unless a test has a reason to say another number."""
@@ -34,8 +44,17 @@ def scale() -> float:
     """Return how many times longer than on an idle, ordinary machine things may take now; ≥ 1."""
     slowness = _measured_work_s() / _ORDINARY_WORK_S
     # Where the system tells no load (Windows), twice the time is allowed for.
-    load = os.getloadavg()[0] / (os.cpu_count() or 1) if hasattr(os, "getloadavg") else 2.0
+    load = _load() / (os.cpu_count() or 1) if hasattr(os, "getloadavg") else 2.0
     return min(max(1.0, slowness) * max(1.0, load), _HIGHEST_SCALE)
+
+
+def _load() -> float:
+    """Return how many want a core: the last minute's average, or now where that lags behind."""
+    now = 0.0
+    with contextlib.suppress(OSError, ValueError, IndexError):
+        words = Path("/proc/loadavg").read_text(encoding="ascii").split()
+        now = float(words[3].partition("/")[0])
+    return max(os.getloadavg()[0], now)
 
 
 def stretched(limit_s: float = PATIENCE_S) -> float:
@@ -70,6 +89,27 @@ def eventually(
         if waited_s >= limit_s and waited_s >= stretched(limit_s):
             raise AssertionError(f"did not happen in {waited_s:.0f} s\n{why()}") from refusal
         pause.wait(_PAUSE_S)
+
+
+def await_change(
+    changed: threading.Condition, predicate: Callable[[], Any], limit_s: float = PATIENCE_S
+) -> Any:
+    """Return what a predicate gives as soon as that is true, or what it gives when time is up.
+
+    The limit is looked at again when it is over, for the load may have grown since the wait began.
+
+    Args:
+        changed: told after every change; held by the caller.
+        predicate: asked after every change.
+        limit_s: how long, on an idle, ordinary machine.
+    """
+    begin = time.monotonic()
+    while not (found := predicate()):
+        left_s = stretched(limit_s) - (time.monotonic() - begin)
+        if left_s <= 0:
+            break
+        changed.wait(left_s)
+    return found
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from tests import patience
-from tests.patience import stretched
+from tests.patience import await_change
 
 from gazelle.graph import Graph
 
@@ -27,7 +27,7 @@ class Inbox:
 
     def wait_for(self, count: int) -> list[Any]:
         with self._changed:
-            assert self._changed.wait_for(lambda: len(self.items) >= count, stretched()), self.items
+            assert await_change(self._changed, lambda: len(self.items) >= count), self.items
             return list(self.items)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from tests import patience
-from tests.patience import PATIENCE_S, stretched
+from tests.patience import PATIENCE_S, await_change
 
 from gazelle.graph import Graph, TimeJumpError
 
@@ -27,7 +27,7 @@ class Inbox:
 
     def wait_for(self, count: int, timeout_s: float = PATIENCE_S) -> list[Any]:
         with self._changed:
-            in_time = self._changed.wait_for(lambda: len(self.items) >= count, stretched(timeout_s))
+            in_time = await_change(self._changed, lambda: len(self.items) >= count, timeout_s)
             assert in_time, self.items
             return list(self.items)
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from tests.patience import stretched
+from tests.patience import await_change, stretched
 
 from gazelle.description.model import Joint, JointAxis, JointType, Link, Model
 from gazelle.graph import Graph
@@ -38,7 +38,7 @@ class _Heard:
 
     def until(self, names: list[str]) -> None:
         with self._changed:
-            assert self._changed.wait_for(lambda: self._names == names, stretched()), self._names
+            assert await_change(self._changed, lambda: self._names == names), self._names
 
 
 def _joint(lower: float, upper: float) -> Joint:

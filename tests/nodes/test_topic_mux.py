@@ -6,7 +6,7 @@ import threading
 from typing import Any
 
 import pytest
-from tests.patience import stretched
+from tests.patience import await_change, stretched
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Node, ServiceCallError
@@ -37,7 +37,7 @@ class _Heard:
 
     def wait_for(self, number: int) -> None:
         with self._changed:
-            assert self._changed.wait_for(lambda: number in self.numbers, stretched())
+            assert await_change(self._changed, lambda: number in self.numbers)
 
 
 def test_mux_passes_the_selected_topic(bench: Any) -> None:

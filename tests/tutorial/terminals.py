@@ -15,7 +15,7 @@ import termios
 import threading
 from pathlib import Path
 
-from tests.patience import PATIENCE_S, stretched
+from tests.patience import PATIENCE_S, await_change, stretched
 
 __all__ = ["Terminal"]
 
@@ -100,7 +100,7 @@ class Terminal:
             return match[0] if match else ""
 
         with self._changed:
-            assert self._changed.wait_for(found, stretched(timeout_s)), (
+            assert await_change(self._changed, found, timeout_s), (
                 f"{pattern!r} is not shown:\n{self.text[self._mark :]}"
             )
             return found()

@@ -9,7 +9,7 @@ import threading
 from typing import Any
 
 import pytest
-from tests.patience import stretched
+from tests.patience import await_change
 
 VARIABLE = "GAZELLE_TEST_ROS2_PYTHON"
 _END_S = 5.0
@@ -58,7 +58,7 @@ class Program:
             return bool(found) or self.process.poll() is not None
 
         with self._changed:
-            assert self._changed.wait_for(is_there, stretched()), (text, self.lines)
+            assert await_change(self._changed, is_there), (text, self.lines)
         assert found, (text, self.lines, self.process.returncode)
         return found[0]
 

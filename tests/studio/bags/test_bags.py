@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.patience import stretched
+from tests.patience import await_change
 
 from gazelle.bag import open_bag
 from gazelle.graph import Graph, Node
@@ -49,7 +49,7 @@ class _Ear:
 
     def wait(self, wanted: Callable[[list[str]], bool]) -> list[str]:
         with self._changed:
-            assert self._changed.wait_for(lambda: wanted(self.heard), stretched()), self.heard
+            assert await_change(self._changed, lambda: wanted(self.heard)), self.heard
             return list(self.heard)
 
 
