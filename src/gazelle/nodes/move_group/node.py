@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 from gazelle.description.moveit import MoveItConfig, config_from_parameters
@@ -28,6 +29,7 @@ __all__ = ["gathered_parameters", "run"]
 _DESCRIPTION = "robot_description"
 _PARTS = ("", "_semantic", "_kinematics", "_planning")
 _TOPIC_S = 10.0
+_PATIENCE_S = 2.0
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -99,7 +101,8 @@ def _context(
     robot = RobotModel.from_config(config, diagnostics=diagnostics)
     node.log("info", f"Loading robot model '{robot.name}'...")
     context = make_context(node, config, robot, parameters, generation=arguments.generation)
-    context.maker.warm_up(context.monitor.scene)
+    with _told_if_long(node):
+        context.maker.warm_up(context.monitor.scene)
     with node.announced_together():
         offer_scene(context)
         offer_kinematics(context)
@@ -109,6 +112,20 @@ def _context(
         offer_sequences(context)
     log_findings(node, diagnostics, render_text)
     return context
+
+
+@contextmanager
+def _told_if_long(node: Node) -> Iterator[None]:
+    """Say what keeps the user waiting where kernels are not there yet from an earlier run."""
+    text = "compiling what kinematics and planning need, which takes half a minute of computing; "
+    text += "this is done once and kept"
+    timer = threading.Timer(_PATIENCE_S, node.log, ("info", text))
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def _of_topic(node: Node, name: str, stop: threading.Event) -> str:
