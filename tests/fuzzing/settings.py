@@ -40,7 +40,7 @@ from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.nav2.tables import controller_table, planner_table
 from gazelle.nodes.nav2.trees.loading import read_trees
 from gazelle.nodes.navigation.assembling import assemble
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.ros_gz.rows import read_file
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua.configuration import read_configuration

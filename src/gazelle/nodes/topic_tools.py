@@ -13,8 +13,8 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, MessageInfo, Node, Publisher, RawMessage, Subscription
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.reading import private_parameters
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["PARAMETERS", "run_drop", "run_relay", "run_throttle"]

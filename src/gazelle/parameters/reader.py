@@ -8,12 +8,12 @@ from dataclasses import fields
 from typing import Any, TypeVar
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.parameters.coercion import flag_of, number_of, shortened
 from gazelle.parameters.owner import ParameterOwner
 from gazelle.parameters.parameter import Parameter
 from gazelle.parameters.sources import MISSING, ParameterSource, TreeSource
 from gazelle.parameters.table import ParameterTable
 from gazelle.parameters.trees import nested
-from gazelle.parameters.values import flag_of, number_of, shortened
 
 __all__ = ["ParameterReader"]
 

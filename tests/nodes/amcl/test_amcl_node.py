@@ -17,7 +17,7 @@ from gazelle.navigation.localisation import AmclOptions
 from gazelle.nodes.amcl.scans import scan_of_message
 from gazelle.nodes.amcl.tables import amcl_table
 from gazelle.nodes.map_server.messages import message_of_grid
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 
 _TRUE = (1.2, 2.0, 0.4)
 _ELSEWHERE = (2.6, 0.9, -1.2)

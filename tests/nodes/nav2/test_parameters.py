@@ -14,7 +14,7 @@ from gazelle.nodes.nav2 import tables
 from gazelle.nodes.nav2.collision.reading import read_sources, read_zones, report_others
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.navigation.assembling import assemble
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.trees import nested

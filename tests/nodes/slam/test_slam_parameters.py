@@ -14,7 +14,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.slam import SlamParameters, save_graph
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.options import SlamOptions

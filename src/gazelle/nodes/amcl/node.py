@@ -29,8 +29,8 @@ from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.messages import grid_of_message
 from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.reconfigure import offer
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.reading import node_reader
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.trees import nested
 

@@ -17,8 +17,8 @@ from gazelle.navigation.filters import FlatScan, scan_of_depth, scan_of_points
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.sensing import cloud_points
+from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.reading import private_parameters
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["CLOUD_PARAMETERS", "DEPTH_PARAMETERS", "depth_of_image", "run_clouds", "run_depth"]

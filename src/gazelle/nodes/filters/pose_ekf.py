@@ -19,8 +19,8 @@ from gazelle.nodes.filters.fusing import Fusion
 from gazelle.nodes.filters.measuring import measure_imu, measure_pose
 from gazelle.nodes.filters.tables import POSE_EKF, report_pose_ekf
 from gazelle.nodes.findings import log_findings
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import parameter_tree, start_node, ticks
-from gazelle.nodes.reading import node_reader
 
 __all__ = ["run"]
 

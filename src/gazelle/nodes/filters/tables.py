@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["POSE_EKF", "SWITCHES", "ekf_table", "report_ekf", "report_pose_ekf", "threshold_owners"]

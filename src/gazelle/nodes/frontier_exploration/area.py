@@ -19,7 +19,7 @@ from gazelle.nodes.navigation.assembling import assemble
 from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 
 if TYPE_CHECKING:
     from gazelle.graph import Node

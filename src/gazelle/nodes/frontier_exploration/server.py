@@ -22,8 +22,8 @@ from gazelle.nodes.frontier_exploration.services import Services
 from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
 from gazelle.nodes.navigation.frames import PlanePose
 from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.reading import node_reader
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.trees import nested
 

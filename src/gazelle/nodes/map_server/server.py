@@ -15,8 +15,8 @@ from gazelle.mapping.grids import MapFile, OccupancyGrid, read_map, read_map_ima
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.messages import message_of_grid
+from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.reading import private_parameters
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterReader
 

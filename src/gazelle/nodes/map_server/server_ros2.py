@@ -14,8 +14,8 @@ from gazelle.nodes.findings import log_findings
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.messages import message_of_grid
 from gazelle.nodes.map_server.server import result_of
+from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.reading import private_parameters
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["PARAMETERS", "run"]

@@ -31,8 +31,8 @@ from gazelle.nodes.navigation.live import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
 from gazelle.nodes.navigation.reconfigure import offer
 from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import start_node, ticks
-from gazelle.nodes.reading import node_reader
 from gazelle.parameters.trees import nested
 
 __all__ = ["MoveBase", "run"]

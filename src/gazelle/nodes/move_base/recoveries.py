@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.navigation.costmap import footprint_cost
 from gazelle.nodes.move_base.tables import CLEAR, ROTATE, SLOW
 from gazelle.nodes.navigation.live import LiveCostmap
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["Behaviour", "Surroundings", "make_behaviours"]

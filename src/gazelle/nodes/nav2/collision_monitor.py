@@ -21,7 +21,7 @@ from gazelle.nodes.nav2.managed_server import ServerSetup, run_server
 from gazelle.nodes.nav2.outlines import outline_in_base
 from gazelle.nodes.nav2.starting import offer_parameters
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]

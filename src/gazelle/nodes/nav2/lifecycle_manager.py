@@ -16,7 +16,7 @@ from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters, start
 from gazelle.nodes.nav2.tables import LIFECYCLE_MANAGER
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 
 __all__ = ["run"]
 

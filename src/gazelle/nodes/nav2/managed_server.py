@@ -16,7 +16,7 @@ from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.costmaps import Nav2Costmap
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.navigation.single_goal import SingleGoal
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader
 

@@ -23,7 +23,7 @@ from gazelle.navigation.costmap import (
     StaticOptions,
     VoxelOptions,
 )
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.options import table_of
 from gazelle.parameters.reader import ParameterReader

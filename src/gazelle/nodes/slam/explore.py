@@ -17,8 +17,8 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.messages import grid_of_message
 from gazelle.nodes.navigation.frames import Frames
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import start_node, ticks
-from gazelle.nodes.reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.trees import nested

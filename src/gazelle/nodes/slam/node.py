@@ -19,8 +19,8 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.map_server.messages import message_of_grid
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import start_node, ticks
-from gazelle.nodes.reading import node_reader
 from gazelle.nodes.slam.explore import run_explore
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua.configuration import flags_of, read_configuration

@@ -29,8 +29,8 @@ from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import parameter_tree, start_node
-from gazelle.nodes.reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.trees import flattened, nested, values_only
 

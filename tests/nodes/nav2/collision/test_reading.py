@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.nav2.collision.reading import read_sources, read_zones
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.nav2.collision.zones import Action
-from gazelle.nodes.reading import node_reader
+from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters.reader import ParameterReader
 
 _CIRCLE = {"type": "circle", "action_type": "stop", "radius": 0.3}

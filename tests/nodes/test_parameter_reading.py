@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes import reading
+from gazelle.nodes import parameter_reading
 from gazelle.nodes.arguments import read_arguments
+from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.reading import private_parameters
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 _TABLE = ParameterTable(
@@ -32,7 +32,7 @@ def said(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     def log(_node: Any, diagnostics: Diagnostics) -> None:
         found.extend(f"{item.code} {item.message}" for item in diagnostics)
 
-    monkeypatch.setattr(reading, "log_findings", log)
+    monkeypatch.setattr(parameter_reading, "log_findings", log)
     return found
 
 
