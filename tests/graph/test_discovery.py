@@ -11,9 +11,10 @@ import zenoh
 from gazelle.graph import Entity, Graph, Kind
 from gazelle.graph.discovery import Discovery
 from gazelle.graph.keys import token
-from gazelle.interfaces import service_type
+from gazelle.interfaces import message_type, service_type
 
 Empty = service_type("std_srvs/srv/Empty")
+String = message_type("std_msgs/msg/String")
 _SHORT_S = 0.05
 
 
@@ -47,6 +48,38 @@ def test_what_does_not_come_is_missing_once_it_is_quiet() -> None:
     coming = [(Kind.SERVICE, name) for name in ("/a", "/b")]
     assert not discovery.settles(_seen(discovery, coming), quiet_s=_SHORT_S)
     assert [one.name for one in discovery.known()] == ["/a", "/b"]
+
+
+def _told(discovery: Discovery, entity: Entity, kind: zenoh.SampleKind) -> None:
+    discovery._on_token(SimpleNamespace(key_expr=token(0, entity), kind=kind))
+
+
+def test_coming_that_is_told_after_the_going_is_not_believed(
+    graph: Graph, eventually: Callable[..., Any]
+) -> None:
+    ended = Entity("1f", 0, 7, Kind.SUBSCRIPTION, "/n", "/in", "std_msgs/msg/String")
+    seen: list[tuple[str, bool]] = []
+    graph.discovery.listen(
+        lambda one, is_there: seen.append((one.name, is_there)) if one.name == "/in" else None
+    )
+    _told(graph.discovery, ended, zenoh.SampleKind.DELETE)
+    _told(graph.discovery, ended, zenoh.SampleKind.PUT)
+    assert graph.subscription_count("/in") == 1
+    eventually(lambda: graph.subscription_count("/in") == 0)
+    assert ended not in graph.discovery.ask()
+    assert seen == [("/in", False), ("/in", True), ("/in", False)]
+
+
+def test_what_a_lost_link_brings_again_stays(
+    graph: Graph, other: Graph, eventually: Callable[..., Any]
+) -> None:
+    other.create_node("listener").create_subscription("/in", String, print)
+    eventually(lambda: graph.subscription_count("/in") == 1)
+    found = next(one for one in graph.discovery.known() if one.name == "/in")
+    _told(graph.discovery, found, zenoh.SampleKind.DELETE)
+    _told(graph.discovery, found, zenoh.SampleKind.PUT)
+    eventually(lambda: not graph.discovery._is_asking)
+    assert found in graph.discovery.known()
 
 
 def test_a_service_that_is_about_to_come_is_called(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -21,12 +22,21 @@ _MOST_REPLIES = 1 << 20
 # A node's parts come one after the other; on a machine with much to do they take their time.
 _QUIET_S = 1.0
 _LONGEST_S = 10.0
+# Between two questions about what came again after it had gone; so many must lack it.
+_DOUBT_S = 1.0
+_MISSED_LIMIT = 3
+_GONE_LIMIT = 4096
 
 
 class Discovery:
     """Keeps the entities of a domain current, from liveliness tokens.
 
     A token disappears with its process, also after ``kill -9``.
+
+    An answer to a question can come after the question is over. Zenoh takes it for a new token
+    then, and nothing ever takes such a token back: an entity that had ended meanwhile would be
+    there for ever. So what comes after its going is asked for again, and dropped when fresh
+    answers lack it; a lost link that is back brings the same tokens again, and these are found.
     """
 
     def __init__(self, session: zenoh.Session, domain: int) -> None:
@@ -38,6 +48,10 @@ class Discovery:
         self._changed_s = time.monotonic()
         self._listeners: list[Callable[[Entity, bool], None]] = []
         self._subscriber: Any = None
+        self._gone: OrderedDict[str, None] = OrderedDict()
+        self._missed: dict[str, int] = {}
+        self._is_asking = False
+        self._closed = threading.Event()
 
     def start(self) -> None:
         """Follow changes from now on; what is there already counts as a change."""
@@ -50,6 +64,7 @@ class Discovery:
 
     def close(self) -> None:
         """Follow changes no more."""
+        self._closed.set()
         if self._subscriber is not None:
             self._subscriber.undeclare()
             self._subscriber = None
@@ -60,6 +75,12 @@ class Discovery:
         Raises:
             GraphError: the graph is closed.
         """
+        found = self._answers()
+        # The hub's last word can cut those answers short; they are among the entities known.
+        with self._changed:
+            return tuple((self._entities | found).values())
+
+    def _answers(self) -> dict[str, Entity]:
         import zenoh
 
         found: dict[str, Entity] = {}
@@ -73,9 +94,7 @@ class Discovery:
         for reply in replies:
             if reply.ok is not None:
                 _read_token(str(reply.ok.key_expr), found)
-        # The hub's last word can cut those answers short; they are among the entities known.
-        with self._changed:
-            return tuple((self._entities | found).values())
+        return found
 
     def known(self) -> tuple[Entity, ...]:
         """Return the entities seen so far, without asking."""
@@ -146,16 +165,58 @@ class Discovery:
             return
         is_there = sample.kind == zenoh.SampleKind.PUT
         with self._changed:
-            self._changed_s = time.monotonic()
-            if is_there:
-                self._entities[key] = self._by_gid[entity_gid(key)] = entity
-            else:
-                self._entities.pop(key, None)
-                self._by_gid.pop(entity_gid(key), None)
-            self._changed.notify_all()
+            self._note(key, entity, is_there)
+            asks = bool(self._missed) and not self._is_asking
+            self._is_asking |= asks
             listeners = tuple(self._listeners)
+        if asks:
+            threading.Thread(target=self._ask_again, name="discovery", daemon=True).start()
         for listener in listeners:
             listener(entity, is_there)
+
+    def _note(self, key: str, entity: Entity, is_there: bool) -> None:
+        self._changed_s = time.monotonic()
+        if is_there:
+            self._entities[key] = self._by_gid[entity_gid(key)] = entity
+            if key in self._gone:
+                del self._gone[key]
+                self._missed[key] = 0
+        else:
+            self._entities.pop(key, None)
+            self._by_gid.pop(entity_gid(key), None)
+            self._missed.pop(key, None)
+            self._gone[key] = None
+            if len(self._gone) > _GONE_LIMIT:
+                self._gone.popitem(last=False)
+        self._changed.notify_all()
+
+    def _drop_missed(self, found: dict[str, Entity]) -> None:
+        """Look in fresh answers for what came again after its going."""
+        dropped = []
+        with self._changed:
+            for key, missed in list(self._missed.items()):
+                if key in found:
+                    del self._missed[key]
+                elif missed + 1 < _MISSED_LIMIT:
+                    self._missed[key] = missed + 1
+                else:
+                    dropped.append(self._entities[key])
+                    self._note(key, self._entities[key], False)
+            listeners = tuple(self._listeners)
+        for entity in dropped:
+            for listener in listeners:
+                listener(entity, False)
+
+    def _ask_again(self) -> None:
+        while not self._closed.wait(_DOUBT_S):
+            try:
+                self._drop_missed(self._answers())
+            except GraphError:
+                return
+            with self._changed:
+                self._is_asking = bool(self._missed)
+                if not self._is_asking:
+                    return
 
 
 def _read_token(key: str, into: dict[str, Entity]) -> None:
