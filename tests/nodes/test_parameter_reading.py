@@ -67,3 +67,26 @@ def test_a_node_of_ros2_has_its_own_defaults_and_not_ros1_s_names(
     assert said == [
         "parameter.idle /thing: parameter 'prefix' ('a') has no effect here: it is one of ROS 1"
     ]
+
+
+@pytest.mark.parametrize(
+    "node",
+    [
+        "amcl/amcl",
+        "explore_lite/explore",
+        "frontier_exploration/explore_server",
+        "gmapping/slam_gmapping",
+        "move_base/move_base",
+        "robot_localization/ekf_localization_node",
+    ],
+)
+def test_a_file_of_ros2_counts_in_every_node_of_ros1(bench: Any, capfd: Any, node: str) -> None:
+    bench.node.parameters.set("/me", {"me": {"ros__parameters": {"slip": 1}}})
+    bench.start(node, "__name:=me")
+    told: list[str] = []
+
+    def has_said() -> bool:
+        told.extend(capfd.readouterr())
+        return "parameter 'slip' is not one of" in "".join(told)
+
+    bench.eventually(has_said)

@@ -120,7 +120,7 @@ def parameter_tree(node: Node, arguments: NodeArguments) -> dict[str, Any]:
              if isinstance(value, dict) and "ros__parameters" in value]  # fmt: skip
     tree = nested({key: value for key, value in stored.items() if key not in heads})
     for key in heads:
-        tree = {**nested(stored[key]["ros__parameters"]), **tree}
+        tree = {**nested(stored[key]["ros__parameters"] or {}), **tree}
     tree.update(nested(arguments.params))
     return tree
 

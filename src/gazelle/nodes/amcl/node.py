@@ -30,9 +30,8 @@ from gazelle.nodes.map_server.messages import grid_of_message
 from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.reconfigure import offer
 from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.parameters.reader import ParameterReader
-from gazelle.parameters.trees import nested
 
 __all__ = ["AmclNode", "run", "run_ros2"]
 
@@ -48,7 +47,7 @@ _SENSOR_MODELS = ("beam", "likelihood_field", "likelihood_field_prob")
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """ROS 1: localise until told to stop."""
     node = start_node(arguments, graph)
-    amcl = AmclNode(node, _tree(node, arguments), generation=1)
+    amcl = AmclNode(node, parameter_tree(node, arguments), generation=1)
     amcl.start()
     arguments.ready()
     while not stop.wait(_MAP_RETRY_S):
@@ -61,7 +60,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """ROS 2: be a managed node that localises while it is active."""
     node = start_node(arguments, graph)
-    amcl = AmclNode(node, _tree(node, arguments), generation=2)
+    amcl = AmclNode(node, parameter_tree(node, arguments), generation=2)
 
     def activate() -> bool:
         amcl.start()
@@ -78,12 +77,6 @@ def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
     amcl.close()
     node.shutdown()
     return 0
-
-
-def _tree(node: Node, arguments: NodeArguments) -> dict[str, Any]:
-    tree = nested(node.parameters.get(node.resolve_name("~"), {}) or {})
-    tree.update(nested(arguments.params))
-    return tree
 
 
 class AmclNode:

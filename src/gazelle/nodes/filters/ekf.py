@@ -28,8 +28,7 @@ from gazelle.nodes.filters.measuring import (
 )
 from gazelle.nodes.filters.tables import report_ekf, threshold_owners
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.parameters import start_node, ticks
-from gazelle.parameters.trees import nested
+from gazelle.nodes.parameters import parameter_tree, start_node, ticks
 
 __all__ = ["config_of", "matrix_of", "run"]
 
@@ -83,8 +82,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         LaunchError: a parameter cannot be used.
     """
     node = start_node(arguments, graph)
-    tree = nested(node.parameters.get(node.resolve_name("~"), {}) or {})
-    tree.update(nested(arguments.params))
+    tree = parameter_tree(node, arguments)
     try:
         filter_ = _Localization(node, tree)
     except LaunchError:

@@ -23,8 +23,7 @@ from gazelle.navigation.filters import (
 )
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.parameters import start_node
-from gazelle.parameters.trees import nested
+from gazelle.nodes.parameters import parameter_tree, start_node
 
 __all__ = ["chain_of", "run"]
 
@@ -65,8 +64,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         LaunchError: filters are not known.
     """
     node = start_node(arguments, graph)
-    tree = nested(node.parameters.get(node.resolve_name("~"), {}) or {})
-    tree.update(nested(arguments.params))
+    tree = parameter_tree(node, arguments)
     try:
         chain = chain_of(tree)
     except LaunchError:

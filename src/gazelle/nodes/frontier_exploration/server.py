@@ -23,9 +23,8 @@ from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
 from gazelle.nodes.navigation.frames import PlanePose
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.parameters.reader import ParameterReader
-from gazelle.parameters.trees import nested
 
 if TYPE_CHECKING:
     from gazelle.nodes.navigation.live import LiveCostmap
@@ -43,8 +42,7 @@ _SAME_M = 0.3
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Explore polygons until told to stop."""
     node = start_node(arguments, graph)
-    tree = nested(node.parameters.get(node.name, {}) or {})
-    tree.update(nested(arguments.params))
+    tree = parameter_tree(node, arguments)
     found = Diagnostics()
     settings = node_reader(EXPLORE_SERVER, tree, node.name, found)
     area = Area(node, tree, found)

@@ -32,8 +32,7 @@ from gazelle.nodes.navigation.publishing import CostmapPublisher
 from gazelle.nodes.navigation.reconfigure import offer
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import start_node, ticks
-from gazelle.parameters.trees import nested
+from gazelle.nodes.parameters import parameter_tree, start_node, ticks
 
 __all__ = ["MoveBase", "run"]
 
@@ -46,8 +45,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Drive to goals until told to stop."""
     node = start_node(arguments, graph)
     diagnostics = Diagnostics()
-    tree = nested(node.parameters.get(node.name, {}) or {})
-    tree.update(nested(arguments.params))
+    tree = parameter_tree(node, arguments)
     base = MoveBase(node, tree, diagnostics)
     log_findings(node, diagnostics)
     arguments.ready()

@@ -18,10 +18,9 @@ from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.messages import grid_of_message
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.parameters import parameter_tree, start_node, ticks
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.reader import ParameterReader
-from gazelle.parameters.trees import nested
 
 __all__ = ["EXPLORE", "run_explore"]
 
@@ -59,8 +58,7 @@ EXPLORE = ParameterTable(
 def run_explore(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """``explore_lite/explore``."""
     node = start_node(arguments, graph)
-    tree = nested(node.parameters.get(node.resolve_name("~"), {}) or {})
-    tree.update(nested(arguments.params))
+    tree = parameter_tree(node, arguments)
     found = Diagnostics()
     settings = node_reader(EXPLORE, tree, node.resolve_name("~"), found)
     explorer = _Explorer(node, settings)

@@ -20,7 +20,7 @@ from gazelle.nodes.findings import log_findings
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.map_server.messages import message_of_grid
 from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.parameters import parameter_tree, start_node, ticks
 from gazelle.nodes.slam.explore import run_explore
 from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua.configuration import flags_of, read_configuration
@@ -134,9 +134,7 @@ def _run(
 def _options(
     flavour: Flavour, arguments: NodeArguments, node: Node, given: Mapping[str, Any]
 ) -> SlamOptions:
-    tree = nested(given)
-    tree.update(nested(node.parameters.get(node.resolve_name("~"), {}) or {}))
-    tree.update(nested(arguments.params))
+    tree = {**nested(given), **parameter_tree(node, arguments)}
     found = Diagnostics()
     settings = node_reader(flavour.table, tree, node.resolve_name("~"), found)
     options = options_of(flavour, settings)
