@@ -30,7 +30,7 @@ from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterFile
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.localisation import AmclOptions
 from gazelle.navigation.planners import PLANNERS
-from gazelle.nodes.amcl.tables import amcl_table
+from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
 from gazelle.nodes.filters.ekf import config_of, matrix_of
 from gazelle.nodes.filters.laser_filters import chain_of
 from gazelle.nodes.filters.tables import report_ekf
@@ -97,7 +97,7 @@ def _move_base(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> N
         node_reader(controller_table(plugin), own, plugin, diagnostics).fill(
             CONTROLLERS[plugin].options
         )
-    node_reader(amcl_table(1), _group(tree, "amcl"), "/amcl", diagnostics).fill(AmclOptions)
+    node_reader(AMCL, _group(tree, "amcl"), "/amcl", diagnostics).fill(AmclOptions)
 
 
 def _nav2(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
@@ -121,7 +121,7 @@ def _nav2(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     read_sources(settings)
     report_others(settings)
     own = _group(tree, "amcl", "ros__parameters")
-    node_reader(amcl_table(2), own, "/amcl", diagnostics).fill(AmclOptions)
+    node_reader(NAV2_AMCL, own, "/amcl", diagnostics).fill(AmclOptions)
 
 
 def _slam(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:

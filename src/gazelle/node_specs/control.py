@@ -127,6 +127,7 @@ CONTROL = (
         entry="gazelle.nodes.filters.wrench_transformer:run",
         does="turns wrenches into other frames",
         is_light=True,
+        parameters="gazelle.nodes.filters.wrench_transformer:PARAMETERS",
         name="fts_wrench_transformer",
         topics=(
             listens("~wrench", "geometry_msgs/msg/WrenchStamped"),

@@ -91,6 +91,7 @@ LOCALISATION = (
         entry="gazelle.nodes.amcl.node:run",
         does="finds the robot in a map",
         is_light=False,
+        parameters="gazelle.nodes.amcl.tables:AMCL",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),
             publishes("amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
@@ -143,6 +144,7 @@ LOCALISATION = (
         entry="gazelle.nodes.amcl.node:run_ros2",
         does="finds the robot in a map, ROS 2's package",
         is_light=False,
+        parameters="gazelle.nodes.amcl.tables:NAV2_AMCL",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),
             publishes("amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),

@@ -18,7 +18,7 @@ from gazelle.navigation.costmap.options import (
 )
 from gazelle.navigation.planners import PLANNERS
 from gazelle.node_specs.all_specs import node_specs
-from gazelle.nodes.amcl.tables import amcl_table
+from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
 from gazelle.nodes.filters.tables import POSE_EKF, SWITCHES, ekf_table
 from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
 from gazelle.nodes.move_base.local import local_planner_tables
@@ -127,10 +127,10 @@ def _tables(generation: Generation) -> dict[str, ParameterTable]:
     """Return the tables of nodes by ``package/type``."""
     slam = [flavour.table for flavour in FLAVOURS.values()]
     if generation == 1:
-        tables = [*slam, amcl_table(1), MOVE_BASE, EXPLORE, EXPLORE_SERVER, POSE_EKF, ekf_table({})]
+        tables = [*slam, AMCL, MOVE_BASE, EXPLORE, EXPLORE_SERVER, POSE_EKF, ekf_table({})]
     else:
         tables = [
-            *slam, amcl_table(2), EXPLORE, ekf_table({}), COLLISION_MONITOR, nav2.PLANNER_SERVER,
+            *slam, NAV2_AMCL, EXPLORE, ekf_table({}), COLLISION_MONITOR, nav2.PLANNER_SERVER,
             nav2.CONTROLLER_SERVER, nav2.BEHAVIOR_SERVER, nav2.BT_NAVIGATOR, nav2.SMOOTHER_SERVER,
             nav2.WAYPOINT_FOLLOWER, nav2.VELOCITY_SMOOTHER, nav2.LIFECYCLE_MANAGER,
         ]  # fmt: skip

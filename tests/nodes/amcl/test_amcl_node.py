@@ -15,7 +15,7 @@ from gazelle.interfaces import message_type
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.localisation import AmclOptions
 from gazelle.nodes.amcl.scans import scan_of_message
-from gazelle.nodes.amcl.tables import amcl_table
+from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
 from gazelle.nodes.map_server.messages import message_of_grid
 from gazelle.nodes.parameter_reading import node_reader
 
@@ -248,7 +248,7 @@ def test_wrong_parameters_are_told_all_at_once() -> None:
     tree = {"laser_model_type": "likelyhood_field", "odom_model_type": "diferential",
             "min_particles": 900, "max_particles": 100, "update_mind": 0.1,
             "gui_publish_rate": 10}  # fmt: skip
-    settings = node_reader(amcl_table(1), tree, "/amcl", found)
+    settings = node_reader(AMCL, tree, "/amcl", found)
     settings.report_unknown()
     options = _checked(settings, settings.fill(AmclOptions), 1)
     assert (options.laser_model_type, options.odom_model_type) == ("likelihood_field", "diff")
@@ -261,9 +261,19 @@ def test_wrong_parameters_are_told_all_at_once() -> None:
     assert "'gui_publish_rate' (10) has no effect here" in text
 
 
+def test_slips_in_the_initial_pose_are_told_and_its_height_counts_for_nothing() -> None:
+    found = Diagnostics()
+    tree = {"initial_pose": {"x": 1.0, "yow": 2.0, "z": 0.5}}
+    node_reader(NAV2_AMCL, tree, "/amcl", found).report_unknown()
+    assert [item.message for item in found] == [
+        "/amcl: parameter 'initial_pose.yow' is not one of nav2_amcl; it has no effect",
+        "/amcl: parameter 'initial_pose.z' (0.5) has no effect here: the ground is flat",
+    ]
+
+
 def test_nav2s_names_and_defaults_are_known() -> None:
     found = Diagnostics()
-    settings = node_reader(amcl_table(2), {"alpha1": 0.5, "max_beams": 20}, "/amcl", found)
+    settings = node_reader(NAV2_AMCL, {"alpha1": 0.5, "max_beams": 20}, "/amcl", found)
     options = settings.fill(AmclOptions)
     assert (options.odom_alpha1, options.laser_max_beams) == (0.5, 20)
     assert (options.max_particles, options.laser_z_hit) == (2000, 0.5)

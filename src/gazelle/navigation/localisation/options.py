@@ -53,7 +53,8 @@ class AmclOptions:
                                               1e-3)  # fmt: skip
     laser_model_type: str = text("likelihood_field", "beam, likelihood_field or "
                                  "likelihood_field_prob")  # fmt: skip
-    odom_model_type: str = text("diff", "diff, omni, diff-corrected or omni-corrected",
+    odom_model_type: str = text("diff", "diff, omni, diff-corrected or omni-corrected; "
+                                "nav2_amcl::DifferentialMotionModel or nav2_amcl::OmniMotionModel",
                                 aliases=("robot_model_type",))  # fmt: skip
     odom_alpha1: float = number(0.2, _NOISE.format("turns", "turns"), "", 0, aliases=("alpha1",))
     odom_alpha2: float = number(0.2, _NOISE.format("turns", "ways"), "", 0, aliases=("alpha2",))

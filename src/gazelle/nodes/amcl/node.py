@@ -22,7 +22,7 @@ from gazelle.navigation.localisation import MOTION_MODELS, Amcl, AmclOptions, Es
 from gazelle.nodes.amcl.outputs import Outputs
 from gazelle.nodes.amcl.scans import scan_of_message
 from gazelle.nodes.amcl.spawned import SpawnHint
-from gazelle.nodes.amcl.tables import amcl_table
+from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.lifecycle import Lifecycle
@@ -86,8 +86,9 @@ class AmclNode:
         """Read the parameters; nothing is listened to before `start`."""
         found = Diagnostics()
         self._node, self._generation = node, generation
-        self._settings = node_reader(amcl_table(generation), tree, node.resolve_name("~"), found)
-        self._settings.report_unknown("initial_pose")
+        table = NAV2_AMCL if generation == 2 else AMCL
+        self._settings = node_reader(table, tree, node.resolve_name("~"), found)
+        self._settings.report_unknown()
         self._options = _checked(self._settings, self._settings.fill(AmclOptions), generation)
         s = self._settings
         self._map_frame = s.text("global_frame_id").removeprefix("/")
@@ -180,15 +181,16 @@ class AmclNode:
             )
 
     def _was_given(self) -> bool:
-        names = ("initial_pose_x", "initial_pose_y", "initial_pose_a", "set_initial_pose")
+        if self._generation == 2:
+            return self._settings.has("set_initial_pose")
+        names = ("initial_pose_x", "initial_pose_y", "initial_pose_a")
         return any(self._settings.has(name) for name in names)
 
     def _reconfigure(self, values: dict[str, Any]) -> None:
         found = Diagnostics()
         tree = {**self._settings.tree, **values}
-        self._settings = node_reader(
-            amcl_table(self._generation), tree, self._node.resolve_name("~"), found
-        )
+        table = self._settings.table
+        self._settings = node_reader(table, tree, self._node.resolve_name("~"), found)
         with self._lock:
             options = self._settings.fill(AmclOptions)
             self._options = _checked(self._settings, options, self._generation)

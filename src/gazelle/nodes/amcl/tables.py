@@ -6,7 +6,7 @@ from gazelle.navigation.localisation import AmclOptions
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.options import table_of
 
-__all__ = ["amcl_table"]
+__all__ = ["AMCL", "NAV2_AMCL"]
 
 _LIVE = (
     "min_particles",
@@ -81,20 +81,36 @@ _ROS2 = (
     Parameter("initial_pose.yaw", "number", 0.0, "where it looks at the start", "rad"),
 )
 
+_SUMMARY = "Finds the robot in a map by its lidar, with a particle filter."
+_NAV2_NAMES = {
+    "initial_pose_x": "initial_pose.x",
+    "initial_pose_y": "initial_pose.y",
+    "initial_pose_a": "initial_pose.yaw",
+}
+_CLOUDS = refused("the cloud is published at every update", "gui_publish_rate")
+_IDLE_ROS1 = refused("set the parameters themselves", "restore_defaults")
+_IDLE_ROS2 = (
+    *refused("services are not introspected", "introspection_mode", "service_introspection_mode"),
+    *refused("random poses come from all free cells", "freespace_downsampling"),
+    *refused("the ground is flat", "initial_pose.z"),
+    *refused("activating goes on with the particles", "always_reset_initial_pose"),
+    *refused("the node's name is the seed, so two runs are alike", "random_seed"),
+)
 
-def amcl_table(generation: int) -> ParameterTable:
-    """Return the table of ``amcl`` (1) or ``nav2_amcl`` (2)."""
-    defaults = AmclOptions.NAV2_DEFAULTS if generation == 2 else {}
-    types = ("nav2_amcl/amcl",) if generation == 2 else ("amcl/amcl",)
-    summary = "Finds the robot in a map by its lidar, with a particle filter."
-    own = table_of(AmclOptions, "amcl", summary, types, defaults=defaults, live=_LIVE)
-    rows = (*_SHARED, *(_ROS2 if generation == 2 else _ROS1))
-    idle = (
-        *refused("the cloud is published at every update", "gui_publish_rate"),
-        *refused("services are not introspected", "service_introspection_mode"),
-        *refused("random poses come from all free cells", "freespace_downsampling"),
-        *refused("set the parameters themselves", "restore_defaults"),
-        *refused("the ground is flat", "initial_pose.z"),
-        *refused("activating goes on with the particles", "always_reset_initial_pose"),
-    )
-    return own.plus((*rows, *idle))
+AMCL = table_of(AmclOptions, "amcl", _SUMMARY, ("amcl/amcl",), live=_LIVE).plus(
+    (*_SHARED, *_ROS1, *_CLOUDS, *_IDLE_ROS1)
+)
+_NAV2 = table_of(AmclOptions, "nav2_amcl", "", defaults=AmclOptions.NAV2_DEFAULTS, live=_LIVE)
+NAV2_AMCL = ParameterTable(
+    "nav2_amcl",
+    f"{_SUMMARY} A managed node.",
+    ("nav2_amcl/amcl",),
+    (
+        *(row for row in _NAV2.rows if row.key not in _NAV2_NAMES),
+        *_SHARED,
+        *_ROS2,
+        *_CLOUDS,
+        *_IDLE_ROS2,
+        *(Parameter(key, "refused", None, f"Nav2 reads {own}") for key, own in _NAV2_NAMES.items()),
+    ),
+)

@@ -4,11 +4,6 @@
 below its name where it has none; ``_filtered`` is added where the topic that comes has that word.
 Force and torque are turned only, as ``tf2`` does it: the torque is about the same point as before.
 
-| parameter | default | meaning |
-| --- | --- | --- |
-| target_frames | the node's own words | frames |
-| tf_timeout | 0.1 | s, how long a transform is waited for |
-
 Names and texts are those of ros2_controllers (Rolling).
 """
 
@@ -30,20 +25,22 @@ from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
 
-_WRENCH = "geometry_msgs/msg/WrenchStamped"
 _WHY = "the original declares it and does not read it; topics are remapped"
-_TABLE = ParameterTable(
+
+PARAMETERS = ParameterTable(
     "wrench_transformer_node",
-    "turns wrenches into other frames",
+    "Turns wrenches into other frames.",
     ("force_torque_sensor_broadcaster/wrench_transformer_node",),
     (
-        Parameter("target_frames", "words", (), "frames"),
+        Parameter("target_frames", "words", (), "frames; the node's own words count more"),
         Parameter("tf_timeout", "number", 0.1, "how long a transform is waited for", "s", low=0),
         *refused(_WHY, "broadcaster_namespace", "use_filtered_input", "output_topic_prefix"),
     ),
 )
+
+_WRENCH = "geometry_msgs/msg/WrenchStamped"
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -54,7 +51,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """
     node, tree = start(arguments, graph)
     found = Diagnostics()
-    settings = node_reader(_TABLE, tree, node.name, found)
+    settings = node_reader(PARAMETERS, tree, node.name, found)
     frames = arguments.rest or settings.texts("target_frames")
     timeout_s = settings.number("tf_timeout")
     settings.report_unknown()
