@@ -136,6 +136,7 @@ DRIVING = (
         entry="gazelle.nodes.twist_mux.mux:run",
         does="passes on one of several velocity commands, by priorities, time-outs and locks",
         is_light=True,
+        parameters="gazelle.nodes.twist_mux.mux:PARAMETERS",
         topics=(
             publishes("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"),
             publishes("cmd_vel_out", "geometry_msgs/msg/Twist"),
@@ -159,6 +160,7 @@ DRIVING = (
         entry="gazelle.nodes.twist_mux.relay:run",
         does="makes velocities of a joystick's shares, in steps, while it has priority",
         is_light=True,
+        parameters="gazelle.nodes.twist_mux.relay:PARAMETERS",
         aliases=(NodeName("twist_mux", "joystick_relay", ROS_2),),
         name="joystick_relay",
         topics=(

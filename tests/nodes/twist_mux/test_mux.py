@@ -150,6 +150,16 @@ def test_a_mux_without_topics_says_why_nothing_comes(bench: Any, capsys: Any) ->
     assert "/mux: no topic is given, so nothing will ever come on cmd_vel_out" in told
 
 
+def test_slips_in_groups_and_flags_that_are_none_are_told(bench: Any, capfd: Any) -> None:
+    words = ("topic:=nav_vel", "timeout:=0.5", "priority:=10", "name:=nav")
+    given = [word for one in words for word in ("-p", f"topics.navigation.{one}")]
+    bench.start("twist_mux/twist_mux", "--ros-args", "-p", "use_stamped:=maybe", *given)
+    assert bench.stop() == [0]
+    told = capfd.readouterr().err
+    assert "parameter 'use_stamped' is 'maybe', not true or false; False is used" in told
+    assert "parameter 'topics.navigation.name' is not one of twist_mux; it has no effect" in told
+
+
 def test_a_file_of_ros2_counts_in_ros1_too(bench: Any, capsys: Any) -> None:
     inner = {"topics": {"navigation": {"topic": "nav_vel", "timeout": 0.5, "priority": 10}}}
     bench.node.parameters.set("/mux", {"twist_mux": {"ros__parameters": inner}})

@@ -7,17 +7,23 @@ from typing import Any
 import pytest
 from tests.patience import stretched
 
+from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
 from gazelle.graph.actions import ActionClient
 from gazelle.interfaces import message_type
-from gazelle.nodes.twist_mux.relay import Steps
+from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.twist_mux.relay import PARAMETERS, Steps
 
 _TWIST: Any = message_type("geometry_msgs/msg/Twist")
 
 
+def _steps(turbo: dict[str, Any], found: Diagnostics) -> Steps:
+    return Steps(node_reader(PARAMETERS, {"turbo": turbo}, "/relay", found))
+
+
 def test_steps_lie_evenly_between_least_and_most() -> None:
     turbo = {"steps": 3, "linear_forward_min": 0.5, "linear_forward_max": 1.5, "init_step": 1}
-    steps = Steps(turbo)
+    steps = _steps(turbo, Diagnostics())
     speeds = []
     for _ in range(4):
         speeds.append(steps.speed("forward", 1.0))
@@ -30,8 +36,18 @@ def test_steps_lie_evenly_between_least_and_most() -> None:
 
 
 def test_a_speed_that_is_not_positive_is_refused() -> None:
-    with pytest.raises(LaunchError, match="'turbo/angular_min' is 0, not a number greater than 0"):
-        Steps({"angular_min": 0})
+    with pytest.raises(
+        LaunchError, match=r"'turbo\.angular_min' is 0, not a number greater than 0"
+    ):
+        _steps({"angular_min": 0}, Diagnostics())
+
+
+def test_a_first_step_that_is_no_number_is_told_and_the_middle_one_is_taken() -> None:
+    found = Diagnostics()
+    assert _steps({"steps": 5, "init_step": "slow"}, found).step == 3
+    assert [item.message for item in found] == [
+        "/relay: parameter 'turbo.init_step' is 'slow', not a number; 3.0 is used"
+    ]
 
 
 @pytest.mark.parametrize("generation", [1, 2])

@@ -1,13 +1,6 @@
 """``twist_mux twist_marker``: an arrow of a velocity, for RViz (``twist`` to ``marker``).
 
-| name | default | meaning |
-| --- | --- | --- |
-| ~frame_id | base_footprint | frame of the arrow |
-| ~scale | 1 | of its shaft, 5 cm wide |
-| ~vertical_position | 2 | metres above the frame |
-| ~use_stamped | false, true from Jazzy on | hear ``TwistStamped`` |
-
-ROS 1's has no parameters; these are its values.
+ROS 1's has no parameters; the defaults are its values.
 """
 
 from __future__ import annotations
@@ -20,7 +13,7 @@ from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.twist_mux.stamped import is_stamped
+from gazelle.nodes.twist_mux.stamped import USE_STAMPED, is_stamped
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["PARAMETERS", "run"]
@@ -30,12 +23,10 @@ PARAMETERS = ParameterTable(
     "Shows velocities as an arrow.",
     ("twist_mux/twist_marker",),
     (
-        Parameter("scale", "number", 1.0, "how wide the arrow is"),
-        Parameter("frame_id", "text", "base_footprint", "the robot's frame"),
-        Parameter("vertical_position", "number", 2.0, "where the arrow begins", "m"),
-        Parameter(
-            "use_stamped", "any", None, "velocities have stamps; from Jazzy on they have by default"
-        ),
+        Parameter("scale", "number", 1.0, "of the arrow's shaft, which is 5 cm wide at 1"),
+        Parameter("frame_id", "text", "base_footprint", "the arrow's frame"),
+        Parameter("vertical_position", "number", 2.0, "how far above the frame it begins", "m"),
+        USE_STAMPED,
     ),
 )
 
@@ -51,11 +42,11 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         scale = own.number("scale")
         marker.header.frame_id = own.text("frame_id")
         marker.pose.position.z = own.number("vertical_position")
+        stamped = is_stamped(own)
     marker.type = _ARROW
     marker.pose.orientation.w = 1.0
     marker.scale.x, marker.scale.y = 0.05 * scale, 0.1 * scale
     marker.color.a = marker.color.g = 1.0
-    stamped = is_stamped(node, arguments)
     out = node.create_publisher("marker", type(marker), latch=True, queue_size=1)
 
     def show(message: Any) -> None:

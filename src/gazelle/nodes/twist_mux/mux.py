@@ -1,13 +1,7 @@
 """``twist_mux twist_mux``: passes on the velocities of the highest topic that is not held.
 
 Each message is decided on its own when it comes: topics whose last message is too old, and those
-below the highest lock that holds, do not count. Nothing is sent between messages. Parameters:
-
-| name | meaning |
-| --- | --- |
-| topics | ROS 1: a list of ``{name, topic, timeout, priority}``; ROS 2: groups by name |
-| locks | the same, topics of ``std_msgs/Bool``; one with a time-out holds when it falls silent |
-| use_stamped | ``TwistStamped`` in and out; true by default from Jazzy on |
+below the highest lock that holds, do not count. Nothing is sent between messages.
 
 Names, limits and texts are those of ros-teleop's ``twist_mux`` (noetic, humble, rolling).
 """
@@ -18,34 +12,49 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
-from gazelle.nodes.parameters import parameter_tree, start_node, ticks
+from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameters import start_node, ticks
 from gazelle.nodes.twist_mux.inputs import Choice, Input, read_inputs
-from gazelle.nodes.twist_mux.stamped import is_stamped
+from gazelle.nodes.twist_mux.stamped import USE_STAMPED, is_stamped
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
+
+_LISTED = "ROS 1: a list of `{name, topic, timeout, priority}`"
+PARAMETERS = ParameterTable(
+    "twist_mux",
+    "Passes on the velocities of the topic with the highest priority that is not held.",
+    ("twist_mux/twist_mux",),
+    (
+        Parameter("topics", "any", None, f"{_LISTED} of velocities"),
+        Parameter("topics.<name>.topic", "text", None, "ROS 2: a topic of velocities"),
+        Parameter("topics.<name>.timeout", "number", None, "its last one is too old; 0 never", "s"),
+        Parameter("topics.<name>.priority", "integer", None, "1 to 255, the highest passes"),
+        Parameter("locks", "any", None, f"{_LISTED} of locks"),
+        Parameter("locks.<name>.topic", "text", None, "ROS 2: a topic of `std_msgs/Bool`"),
+        Parameter("locks.<name>.timeout", "number", None, "silent so long it holds; 0 never", "s"),
+        Parameter("locks.<name>.priority", "integer", None, "0 to 255, holds topics below it"),
+        USE_STAMPED,
+    ),
+)
 
 _SECOND_NS = 1_000_000_000
-_KNOWN = ("topics", "locks", "use_stamped", "use_sim_time", "qos_overrides")
 _BOOL = "std_msgs/msg/Bool"
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Choose until told to stop."""
     node = start_node(arguments, graph)
-    tree = parameter_tree(node, arguments)
-    if tree.get("use_sim_time") in (True, "true", "True"):
-        node.clock.use(True)
-    found = Diagnostics()
-    choice = Choice(*(read_inputs(kind, tree.get(kind), node.name, found) for kind in _KNOWN[:2]))
-    _look(node, tree, choice, found)
-    log_findings(node, found)
-    _Mux(node, choice, stamped=is_stamped(node, arguments))
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        if own.raw("use_sim_time") in (True, "true", "True"):
+            node.clock.use(True)
+        choice, stamped = _choice(own), is_stamped(own)
+    _Mux(node, choice, stamped=stamped)
     tell = _diagnostics(node, choice)
     arguments.ready()
     for now_ns in ticks(node, _SECOND_NS, stop):
@@ -54,15 +63,15 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     return 0
 
 
-def _look(node: Node, tree: dict[str, Any], choice: Choice, found: Diagnostics) -> None:
-    for key in tree:
-        if key not in _KNOWN:
-            text = f"{node.name}: parameter '{key}' is not one of twist_mux; it has no effect"
-            found.report("parameter.unknown", text, fix=f"it has {', '.join(_KNOWN)}")
-    if not choice.topics:
-        text = f"{node.name}: no topic is given, so nothing will ever come on cmd_vel_out"
-        fix = f"give 'topics'; a file of ROS 2 begins with the node's name, {node.name}, or /**"
-        found.report("parameter.bad-value", text, fix=fix)
+def _choice(own: ParameterReader) -> Choice:
+    topics, locks = (
+        read_inputs(kind, own.raw(kind), own.name, own.diagnostics) for kind in ("topics", "locks")
+    )
+    if not topics:
+        text = "no topic is given, so nothing will ever come on cmd_vel_out"
+        fix = f"give 'topics'; a file of ROS 2 begins with the node's name, {own.name}, or /**"
+        own.report("parameter.bad-value", text, fix=fix)
+    return Choice(topics, locks)
 
 
 class _Mux:

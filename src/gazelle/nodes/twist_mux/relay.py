@@ -3,22 +3,12 @@
 ``joy_vel_in`` to ``joy_vel_out`` while the joystick has priority, which ``joy_priority`` tells and
 the action ``joy_priority_action`` toggles; ``joy_turbo_increase``, ``joy_turbo_decrease``, the two
 ``joy_turbo_angular_…`` and ``joy_turbo_reset`` go up and down the steps.
-
-| name | default | meaning |
-| --- | --- | --- |
-| ~priority | true | as it begins |
-| ~turbo/steps | 1 | how many steps |
-| ~turbo/init_step | the middle one | as it begins |
-| ~turbo/linear_forward_min, _max | 1 | m/s at the first and the last step |
-| ~turbo/linear_backward_min, _max | those forward | |
-| ~turbo/linear_lateral_min, _max | 1 | |
-| ~turbo/angular_min, _max | 1 | rad/s |
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, Literal
 
 from gazelle.errors import LaunchError
@@ -26,9 +16,37 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionServer, ServerGoal
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import parameter_tree, start_node, ticks
+from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameters import start_node, ticks
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["Steps", "run"]
+__all__ = ["PARAMETERS", "Steps", "run"]
+
+_FIRST, _LAST = "{} at full deflection at the first step", "{} at full deflection at the last step"
+
+
+def _speeds(name: str, default: float | None, what: str, unit: str) -> tuple[Parameter, Parameter]:
+    return (
+        Parameter(f"turbo.{name}_min", "number", default, _FIRST.format(what), unit),
+        Parameter(f"turbo.{name}_max", "number", default, _LAST.format(what), unit),
+    )
+
+
+PARAMETERS = ParameterTable(
+    "joystick_relay",
+    "Makes velocities of a joystick's shares, in steps. A speed must be greater than 0.",
+    ("twist_mux/joystick_relay.py",),
+    (
+        Parameter("priority", "flag", True, "whether the joystick has it at the start"),
+        Parameter("turbo.steps", "number", 1, "how many steps there are"),
+        Parameter("turbo.init_step", "integer", None, "the first one; the middle when absent"),
+        *_speeds("linear_forward", 1.0, "forward", "m/s"),
+        *_speeds("linear_backward", None, "backward (as forward when absent)", "m/s"),
+        *_speeds("linear_lateral", 1.0, "sideways", "m/s"),
+        *_speeds("angular", 1.0, "turning", "rad/s"),
+    ),
+)
 
 _SECOND_NS = 1_000_000_000
 _TEXT_VIEW_FACING = 9
@@ -39,7 +57,7 @@ class Steps:
     """How fast full deflection is.
 
     Args:
-        turbo: the group of parameters of this name.
+        own: the parameters; those below ``turbo`` are read.
 
     Attributes:
         step, angular_step: 1 to the number of steps.
@@ -48,18 +66,18 @@ class Steps:
         LaunchError: a speed or the number of steps is not greater than 0.
     """
 
-    def __init__(self, turbo: Mapping[str, Any]) -> None:
+    def __init__(self, own: ParameterReader) -> None:
         """Begin at ``init_step``."""
-        self._count = int(_positive(turbo, "steps", 1))
-        forward = _range(turbo, "linear_forward", (1.0, 1.0))
+        self._count = int(_positive(own, "turbo.steps"))
+        forward = _range(own, "linear_forward")
         self._ranges = {
             "forward": forward,
-            "backward": _range(turbo, "linear_backward", forward),
-            "lateral": _range(turbo, "linear_lateral", (1.0, 1.0)),
-            "angular": _range(turbo, "angular", (1.0, 1.0)),
+            "backward": _range(own, "linear_backward", forward),
+            "lateral": _range(own, "linear_lateral"),
+            "angular": _range(own, "angular"),
         }
         middle = (self._count + 1) // 2
-        wanted = int(turbo.get("init_step", middle))
+        wanted = own.integer("turbo.init_step", middle)
         self.refused = wanted if not 1 <= wanted <= self._count else 0
         self._first = middle if self.refused else wanted
         self.step = self.angular_step = self._first
@@ -82,25 +100,26 @@ class Steps:
         self.step = self.angular_step = self._first
 
 
-def _positive(turbo: Mapping[str, Any], key: str, default: float) -> float:
-    value = turbo.get(key, default)
+def _positive(own: ParameterReader, key: str, default: float | None = None) -> float:
+    value = own.raw(key, own.default(key, default, None))
     if isinstance(value, bool) or not isinstance(value, int | float) or value <= 0:
-        raise LaunchError(f"parameter 'turbo/{key}' is {value!r}, not a number greater than 0")
+        raise LaunchError(f"parameter '{key}' is {value!r}, not a number greater than 0")
     return float(value)
 
 
-def _range(turbo: Mapping[str, Any], key: str, default: tuple[float, float]) -> tuple[float, float]:
-    low, high = default
-    return _positive(turbo, f"{key}_min", low), _positive(turbo, f"{key}_max", high)
+def _range(
+    own: ParameterReader, key: str, default: tuple[float, float] | None = None
+) -> tuple[float, float]:
+    low, high = default or (None, None)
+    return _positive(own, f"turbo.{key}_min", low), _positive(own, f"turbo.{key}_max", high)
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Relay until told to stop."""
     node = start_node(arguments, graph)
-    tree = parameter_tree(node, arguments)
-    turbo = tree.get("turbo")
-    steps = Steps(turbo if isinstance(turbo, dict) else {})
-    relay = _Relay(node, steps, tree.get("priority"), arguments.generation)
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        steps, has_priority = Steps(own), own.flag("priority")
+    relay = _Relay(node, steps, arguments.generation, has_priority=has_priority)
     arguments.ready()
     for _now_ns in ticks(node, _SECOND_NS, stop):
         relay.show()
@@ -110,10 +129,12 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 
 class _Relay:
-    def __init__(self, node: Node, steps: Steps, priority: Any, generation: Literal[1, 2]) -> None:
+    def __init__(
+        self, node: Node, steps: Steps, generation: Literal[1, 2], *, has_priority: bool
+    ) -> None:
         self._node, self._steps, self._generation = node, steps, generation
         self._servers: list[ActionServer] = []
-        self._has_priority = priority is None or str(priority).lower() == "true"
+        self._has_priority = has_priority
         if steps.refused:
             node.log("warn", f"Initial step {steps.refused} outside of the range! Falling back to "
                              f"default {steps.step}")  # fmt: skip

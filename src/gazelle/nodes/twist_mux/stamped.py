@@ -5,18 +5,21 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from gazelle.nodes.parameters import private
+from gazelle.parameters import Parameter
 
 if TYPE_CHECKING:
-    from gazelle.graph import Node
-    from gazelle.nodes.arguments import NodeArguments
+    from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["is_stamped"]
+__all__ = ["USE_STAMPED", "is_stamped"]
+
+USE_STAMPED = Parameter(
+    "use_stamped", "flag", None, "velocities have stamps; from Jazzy on they have by default"
+)
 
 _STAMPED = frozenset({"jazzy", "kilted", "rolling"})
 
 
-def is_stamped(node: Node, arguments: NodeArguments) -> bool:
+def is_stamped(own: ParameterReader) -> bool:
     """Tell what ``~use_stamped`` says; from Jazzy on it is true unless told otherwise."""
-    newer = arguments.generation == 2 and os.environ.get("ROS_DISTRO", "") in _STAMPED
-    return str(private(node, arguments, "use_stamped", newer)).lower() == "true"
+    newer = own.generation == 2 and os.environ.get("ROS_DISTRO", "") in _STAMPED
+    return own.flag("use_stamped", newer)
