@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import re
 from pathlib import Path
 
@@ -32,6 +33,19 @@ def test_page_of_nodes_is_generated_from_their_rows() -> None:
     assert page == nodes_markdown(), f"run: {command}"
 
 
+def test_one_command_writes_every_page_that_is_generated() -> None:
+    script = ROOT / ".ci" / "pages.py"
+    spec = importlib.util.spec_from_file_location("pages", script)
+    assert spec is not None and spec.loader is not None
+    pages = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(pages)
+    heads = {path.name: path.read_text(encoding="utf-8")[:600] for path in ROOT.glob("docs/*.md")}
+    generated = {name for name, text in heads.items() if re.search("[Gg]enerated", text)}
+    assert generated <= set(pages.PAGES)
+    for module in pages.PAGES.values():
+        assert importlib.util.find_spec(module) is not None
+
+
 def test_every_code_is_used_in_the_source_and_named_in_a_test() -> None:
     catalogue = ROOT / "src" / "gazelle" / "diagnostics" / "catalogue"
     source = _text(ROOT / "src", skip=catalogue)
@@ -55,6 +69,16 @@ def test_tests_that_pages_name_are_there() -> None:
     named = {(page, name) for page, text in pages.items() for name in _TEST.findall(text)}
     assert len(named) > 40
     assert not [one for one in sorted(named) if not (ROOT / one[1]).exists()]
+
+
+def test_places_to_add_something_are_there() -> None:
+    named = set()
+    for page in ("CONTRIBUTING.md", "docs/howto/extending.md"):
+        tables = (ROOT / page).read_text(encoding="utf-8").partition("| touch |")[2]
+        named |= set(re.findall(r"`([a-z][\w.]*/[\w./]+)`", tables.partition("\n\n")[0]))
+    assert len(named) > 25
+    roots = (ROOT, ROOT / "src" / "gazelle")
+    assert not [one for one in sorted(named) if not any((root / one).exists() for root in roots)]
 
 
 def _named(code: str, text: str) -> bool:
