@@ -3,8 +3,8 @@
 
     python .ci/pages.py [--check]
 
-That is the generated pages of docs/ and the TypeScript of the page that Python declares. With
---check nothing is written: what is out of date is named, and the exit code is 1.
+That is the generated pages and pictures of docs/, and the TypeScript of the page that Python
+declares. With --check nothing is written: what is out of date is named, and the exit code is 1.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from pathlib import Path
 __all__ = ["PAGES"]
 
 _ROOT = Path(__file__).resolve().parents[1]
-_TYPESCRIPT = _ROOT / "studio" / "src" / "generated"
+_TYPESCRIPT = ["-m", "gazelle.studio.typescript"]
+_PICTURES = [str(_ROOT / ".ci" / "pictures.py")]
 
 # The page and the module that prints it.
 PAGES = {
@@ -47,16 +48,21 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _generated() -> dict[Path, bytes]:
-    pages = {_ROOT / "docs" / name: _printed(module) for name, module in PAGES.items()}
+    docs = _ROOT / "docs"
+    pages = {docs / name: _run(["-m", module]) for name, module in PAGES.items()}
+    pictures = _written(_PICTURES, docs / "pictures")
+    return pages | pictures | _written(_TYPESCRIPT, _ROOT / "studio" / "src" / "generated")
+
+
+def _written(command: list[str], place: Path) -> dict[Path, bytes]:
     with tempfile.TemporaryDirectory() as folder:
-        _printed("gazelle.studio.typescript", folder)
-        written = {_TYPESCRIPT / path.name: path.read_bytes() for path in Path(folder).iterdir()}
-    return pages | written
+        _run([*command, folder])
+        return {place / path.name: path.read_bytes() for path in Path(folder).iterdir()}
 
 
-def _printed(module: str, *arguments: str) -> bytes:
-    command = [sys.executable, "-m", module, *arguments]
-    return subprocess.run(command, cwd=_ROOT, check=True, stdout=subprocess.PIPE).stdout
+def _run(command: list[str]) -> bytes:
+    whole = [sys.executable, *command]
+    return subprocess.run(whole, cwd=_ROOT, check=True, stdout=subprocess.PIPE).stdout
 
 
 def _is_old(path: Path, text: bytes, *, check: bool) -> bool:
