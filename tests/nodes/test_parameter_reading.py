@@ -7,9 +7,14 @@ from typing import Any
 import pytest
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.errors import LaunchError
 from gazelle.nodes import parameter_reading
 from gazelle.nodes.arguments import read_arguments
-from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameter_reading import (
+    namespace_parameters,
+    number_or_end,
+    private_parameters,
+)
 from gazelle.nodes.parameters import start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 
@@ -90,3 +95,34 @@ def test_a_file_of_ros2_counts_in_every_node_of_ros1(bench: Any, capfd: Any, nod
         return "parameter 'slip' is not one of" in "".join(told)
 
     bench.eventually(has_said)
+def test_parameters_of_the_namespace_are_read_there_and_told_below_the_node(
+    bench: Any, said: list[str]
+) -> None:
+    arguments = read_arguments(["_rate:=7", "_raet:=7"], "thing", namespace="/here")
+    node = start_node(arguments, bench.graph)
+    bench.graph.parameters.set("/here/rate", 5)
+    with namespace_parameters(node, arguments, _TABLE) as beside:
+        assert beside.number("rate") == 5.0
+    assert said == [
+        "parameter.idle /here/thing: parameter 'rate' (7) has no effect here: the node reads"
+        " /here/rate",
+        "parameter.unknown /here/thing: parameter 'raet' is not one of thing; it has no effect",
+    ]
+
+
+def test_a_number_that_is_none_may_end_a_node(bench: Any) -> None:
+    arguments = read_arguments(["_rate:=fast"], "thing")
+    node = start_node(arguments, bench.graph)
+    wrong = "^parameter '/thing/rate' is 'fast', not a number$"
+    with (
+        private_parameters(node, arguments, _TABLE) as own,
+        pytest.raises(LaunchError, match=wrong),
+    ):
+        number_or_end(own, "rate")
+    bench.graph.parameters.set("/rate", True)
+    wrong = "^parameter '/rate' is True, not a number$"
+    with (
+        namespace_parameters(node, arguments, _TABLE) as beside,
+        pytest.raises(LaunchError, match=wrong),
+    ):
+        number_or_end(beside, "rate")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.errors import LaunchError
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.parameters import parameter_tree
 from gazelle.parameters import ParameterTable
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
     from gazelle.graph import Node
     from gazelle.nodes.arguments import NodeArguments
 
-__all__ = ["node_reader", "private_parameters"]
+__all__ = ["namespace_parameters", "node_reader", "number_or_end", "private_parameters"]
 
 # Nav2's launch files give autostart to all nodes of a container; lifecycle_manager reads it.
 _EVERYWHERE = frozenset(
@@ -62,10 +64,53 @@ def private_parameters(
     """
     found = Diagnostics()
     tree = parameter_tree(node, arguments)
-    generation = 2 if arguments.generation == 2 else 1
-    reader = node_reader(table, tree, node.name, found, generation=generation)
+    reader = node_reader(table, tree, node.name, found, generation=arguments.generation)
     try:
         yield reader
         reader.report_unknown()
     finally:
         log_findings(node, found)
+
+
+@contextmanager
+def namespace_parameters(
+    node: Node, arguments: NodeArguments, table: ParameterTable
+) -> Iterator[ParameterReader]:
+    """Give typed access to parameters beside a node, in its namespace, as some of ROS 1 read them.
+
+    At the end the node logs what could not be read, and that what lies below ``~`` has no effect.
+
+    Args:
+        node: the owner.
+        arguments: of the command line; their values lie below ``~``.
+        table: what there is.
+    """
+    found = Diagnostics()
+    store, generation = node.parameters, arguments.generation
+    beside = {row.key: store.get(row.key) for row in table.rows if store.has(row.key)}
+    source = TreeSource(beside, full_name=node.resolve_name)
+    owner = ParameterOwner(node.name, managed=_EVERYWHERE)
+    try:
+        yield ParameterReader(table, source, owner, found, generation=generation)
+        places = {row.key: node.resolve_name(row.key) for row in table.rows if generation == 1}
+        misplaced = {key: f"the node reads {place}" for key, place in places.items()}
+        below = TreeSource(parameter_tree(node, arguments))
+        owner = replace(owner, refused=misplaced)
+        ParameterReader(table, below, owner, found, generation=generation).report_unknown()
+    finally:
+        log_findings(node, found)
+
+
+def number_or_end(own: ParameterReader, key: str, default: float | None = None) -> float:
+    """Return a number of a node that ends where it is none; `default` in place of the table's.
+
+    Raises:
+        LaunchError: it is none, nor is a text that could be read as one.
+    """
+    value = own.raw(key)
+    if not own.has(key) or (isinstance(value, int | float) and not isinstance(value, bool)):
+        return own.number(key, default)
+    name = own.full_name(key)
+    raise LaunchError(
+        f"parameter '{f'{own.name}/{key}' if name == key else name}' is {value!r}, not a number"
+    )

@@ -104,3 +104,20 @@ def test_speed_that_is_no_number_is_named_and_the_terminal_put_back(bench, keybo
     with pytest.raises(LaunchError, match="'/teleop_twist_keyboard/speed' is 'fast', not a number"):
         run_node({"node": _NODE, "argv": ["_speed:=fast"]}, bench.graph, threading.Event())
     assert keyboard.settings == keyboard.before
+
+
+def test_stamped_that_is_the_text_false_is_false(bench, keyboard) -> None:
+    twists = bench.listen("/cmd_vel", "geometry_msgs/msg/Twist")
+    bench.start(_ROS2_NODE, "--ros-args", "-p", "stamped:='false'", "-p", "repeat_rate:=50.0")
+    bench.eventually(lambda: _is_taken(keyboard))
+    keyboard.type("i")
+    bench.eventually(lambda: any(one.linear.x == 0.5 for one in twists))
+
+
+def test_unknown_parameters_are_told(bench, keyboard, capfd) -> None:
+    bench.start(_NODE, "_spede:=0.4")
+    bench.eventually(lambda: _is_taken(keyboard))
+    keyboard.type("\x03")
+    assert bench.wait() == [0]
+    text = "parameter 'spede' is not one of teleop_twist_keyboard; it has no effect"
+    assert text in "".join(capfd.readouterr())

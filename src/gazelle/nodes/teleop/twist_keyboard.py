@@ -1,15 +1,5 @@
 """``teleop_twist_keyboard``: letters around k drive, any other key stops.
 
-Private parameters:
-
-| name | default | meaning |
-| --- | --- | --- |
-| ~speed, ~turn | 0.5, 1.0 | m/s and rad/s |
-| ~speed_limit, ~turn_limit | 1000 | the most they can become |
-| ~repeat_rate | 0 | Hz, sends the last command again; 0 for never |
-| ~key_timeout | 0.5 (ROS 1), 0 (ROS 2) | s without a key until the robot stops; 0 for never |
-| ~stamped, ~frame_id | false, "" | send ``TwistStamped`` |
-
 Keys and factors are those of ros-teleop's ``teleop_twist_keyboard``.
 """
 
@@ -21,11 +11,39 @@ from dataclasses import dataclass
 
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, private_number, start_node
+from gazelle.nodes.parameter_reading import number_or_end, private_parameters
+from gazelle.nodes.parameters import start_node
 from gazelle.nodes.teleop.terminal import CTRL_C, Keys, say
 from gazelle.nodes.teleop.twists import TwistSender, twist_sender
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["Driving", "run", "run_ros2"]
+__all__ = ["PARAMETERS", "Driving", "run", "run_ros2"]
+
+PARAMETERS = ParameterTable(
+    "teleop_twist_keyboard",
+    "Drives any robot from the keyboard. What should be a number and is none ends it.",
+    (
+        "teleop_twist_keyboard/teleop_twist_keyboard.py",
+        "teleop_twist_keyboard/teleop_twist_keyboard",
+    ),
+    (
+        Parameter("speed", "number", 0.5, "how fast it drives at the start", "m/s"),
+        Parameter("turn", "number", 1.0, "how fast it turns at the start", "rad/s"),
+        Parameter("speed_limit", "number", 1000.0, "the most that `speed` becomes", "m/s"),
+        Parameter("turn_limit", "number", 1000.0, "the most that `turn` becomes", "rad/s"),
+        Parameter("repeat_rate", "number", 0.0, "sends the last again; 0 for never", "Hz"),
+        Parameter(
+            "key_timeout",
+            "number",
+            0.5,
+            "the robot stops after so long without a key; 0 for never",
+            "s",
+            ros2_default=0.0,
+        ),
+        Parameter("stamped", "flag", False, "send TwistStamped"),
+        Parameter("frame_id", "text", "", "frame of TwistStamped"),
+    ),
+)
 
 _HEAD = """
 Reading from the keyboard  and Publishing to Twist!"""
@@ -159,21 +177,17 @@ def _drive(arguments: NodeArguments, graph: Graph, stop: threading.Event, *, is_
         return 0
     with Keys("teleop_twist_keyboard", takes_ctrl_c=True) as keys:
         node = start_node(arguments, graph)
-
-        def number(name: str, default: float) -> float:
-            return private_number(node, arguments, name, default)
-
-        driving = Driving(
-            number("speed", 0.5),
-            number("turn", 1.0),
-            number("speed_limit", 1000.0),
-            number("turn_limit", 1000.0),
-        )
-        rate = number("repeat_rate", 0.0)
-        key_s = number("key_timeout", 0.0 if is_ros2 else 0.5)
+        with private_parameters(node, arguments, PARAMETERS) as own:
+            driving = Driving(
+                number_or_end(own, "speed"),
+                number_or_end(own, "turn"),
+                number_or_end(own, "speed_limit"),
+                number_or_end(own, "turn_limit"),
+            )
+            rate = number_or_end(own, "repeat_rate")
+            key_s = number_or_end(own, "key_timeout", 0.0 if is_ros2 else None)
+            stamped, frame_id = own.flag("stamped"), own.text("frame_id")
         times = _Times(key_s, 1 / rate if rate > 0 else 0.0)
-        stamped = bool(private(node, arguments, "stamped", False))
-        frame_id = str(private(node, arguments, "frame_id", ""))
         send = twist_sender(node, is_stamped=stamped, frame_id=frame_id)
         if is_ros2 or _wait_for_listener(send, keys, stop):
             say(f"{_ROS2_HEAD if is_ros2 else _HEAD}{_HELP}\n{driving.text}")
