@@ -95,6 +95,8 @@ def test_a_file_of_ros2_counts_in_every_node_of_ros1(bench: Any, capfd: Any, nod
         return "parameter 'slip' is not one of" in "".join(told)
 
     bench.eventually(has_said)
+
+
 def test_parameters_of_the_namespace_are_read_there_and_told_below_the_node(
     bench: Any, said: list[str]
 ) -> None:

@@ -23,6 +23,7 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.fake:run",
         does="a TurtleBot3 that drives without physics",
         is_light=True,
+        parameters="gazelle.nodes.turtlebot3.fake:PARAMETERS",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),
             publishes("joint_states", "sensor_msgs/msg/JointState"),
@@ -43,6 +44,7 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.fake:run_ros2",
         does="a TurtleBot3 that drives without physics, ROS 2's package",
         is_light=True,
+        parameters="gazelle.nodes.turtlebot3.fake:ROS2_PARAMETERS",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),
             publishes("joint_states", "sensor_msgs/msg/JointState"),
@@ -51,10 +53,7 @@ DRIVING = (
         ),
         is_complete=True,
         frames=(FrameRow("{~odom_frame|odom}", "{~base_frame|base_footprint}"),),
-        joints=(
-            "{~wheel_left_joint_name|wheel_left_joint}",
-            "{~wheel_right_joint_name|wheel_right_joint}",
-        ),
+        joints=("wheel_left_joint", "wheel_right_joint"),
     ),
     NodeSpec(
         package="turtlebot3_gazebo",
@@ -62,6 +61,7 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.drive:run",
         does="wanders about without bumping into things",
         is_light=True,
+        parameters="gazelle.nodes.turtlebot3.drive:PARAMETERS",
         topics=(
             publishes("{cmd_vel_topic_name|cmd_vel}", "geometry_msgs/msg/Twist"),
             listens("odom", "nav_msgs/msg/Odometry"),
@@ -89,6 +89,7 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.teleop:run",
         does="drives a TurtleBot3 from the keyboard",
         is_light=False,
+        parameters="gazelle.nodes.turtlebot3.teleop:PARAMETERS",
         name="turtlebot3_teleop",
         topics=(publishes("cmd_vel", "geometry_msgs/msg/Twist"),),
         is_complete=True,
@@ -100,6 +101,7 @@ DRIVING = (
         entry="gazelle.nodes.turtlebot3.teleop:run_ros2",
         does="drives a TurtleBot3 from the keyboard, ROS 2's name",
         is_light=False,
+        parameters="gazelle.nodes.turtlebot3.teleop:PARAMETERS",
         topics=(publishes("cmd_vel", "geometry_msgs/msg/Twist"),),
         is_complete=True,
     ),

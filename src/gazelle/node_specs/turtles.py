@@ -13,6 +13,7 @@ TURTLES = (
         entry="gazelle.nodes.turtlesim.teleop:run",
         does="drives a turtle from the keyboard",
         is_light=False,
+        parameters="gazelle.nodes.turtlesim.teleop:PARAMETERS",
         name="teleop_turtle",
         topics=(publishes("turtle1/cmd_vel", "geometry_msgs/msg/Twist"),),
         is_complete=True,
@@ -50,6 +51,7 @@ TURTLES = (
         entry="gazelle.studio.views.companions:turtlesim",
         does="turtles that draw",
         is_light=False,
+        parameters="gazelle.nodes.turtlesim.settings:PARAMETERS",
         name="turtlesim",
         topics=(
             publishes("turtle1/color_sensor", "turtlesim/msg/Color"),

@@ -9,6 +9,7 @@ import pytest
 
 from gazelle.errors import LaunchError
 from gazelle.interfaces import message_type
+from gazelle.node_specs.all_specs import node_spec
 from gazelle.nodes.host import run_node
 from gazelle.nodes.turtlebot3.fake import FakeBase
 
@@ -100,6 +101,9 @@ def test_ros2_wheels_come_from_a_parameter_file(bench, tmp_path, capfd) -> None:
     bench.eventually(lambda: joints and joints[-1].velocity[0] == pytest.approx(0.1 / 0.05))
     assert bench.eventually(lambda: odometry)[-1].header.frame_id == "world"
     assert set(odometry[-1].pose.covariance) == {0.0}
+    spec = node_spec("turtlebot3_fake_node", "turtlebot3_fake_node")
+    assert spec is not None
+    assert tuple(joints[-1].name) == spec.joints
     found = bench.call("/turtlebot3_fake_node/list_parameters", "rcl_interfaces/ListParameters")
     assert "wheels.radius" in found.result.names
     assert "Turtlebot3 fake node has been initialised" in capfd.readouterr().err
@@ -132,3 +136,21 @@ def _twist(linear: float, angular: float):
 def _same(messages, other):
     stamp = other.header.stamp
     return next((one for one in messages if one.header.stamp == stamp), None)
+
+
+def test_model_below_the_node_has_no_effect_and_that_is_told(bench, capfd) -> None:
+    bench.start("turtlebot3_fake/turtlebot3_fake_node", "_tb3_model:=waffle")
+    bench.eventually(lambda: "/odom" in dict(bench.graph.topic_names_and_types()))
+    bench.stop()
+    text = "parameter 'tb3_model' ('waffle') has no effect here: the node reads /tb3_model"
+    assert text in "".join(capfd.readouterr())
+
+
+def test_ros2_unknown_parameters_are_told(bench, capfd) -> None:
+    words = ("wheels.separation:=0.16", "wheels.radius:=0.05", "odm_frame:=world")
+    rules = [word for rule in words for word in ("-p", rule)]
+    bench.start("turtlebot3_fake_node/turtlebot3_fake_node", "--ros-args", *rules)
+    bench.eventually(lambda: "/odom" in dict(bench.graph.topic_names_and_types()))
+    bench.stop()
+    text = "parameter 'odm_frame' is not one of turtlebot3_fake_node (ROS 2); it has no effect"
+    assert text in "".join(capfd.readouterr())

@@ -244,3 +244,12 @@ def test_ros2_value_that_does_not_fit_ends_it(bench, rule: str, text: str) -> No
 def test_unknown_argument_shows_the_usage(bench) -> None:
     with pytest.raises(LaunchError, match=r"does not know '--pgn x'\nusage: turtlesim_node"):
         run_node({"node": _NODE, "argv": ["--pgn", "x"]}, bench.graph, threading.Event())
+
+
+def test_unknown_parameters_and_those_of_the_other_ros_are_told(bench, capfd) -> None:
+    bench.start(_NODE, "_backgruond_r:=5", "_holonomic:=true")
+    bench.call("/clear", "std_srvs/Empty")
+    text = "".join(capfd.readouterr())
+    assert "parameter 'backgruond_r' is not one of turtlesim; it has no effect" in text
+    assert "did you mean 'background_r'" in text
+    assert bench.stop() == [0]

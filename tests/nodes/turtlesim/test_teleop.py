@@ -112,3 +112,28 @@ def test_mimic_passes_velocities_on(bench, rules) -> None:
     out.publish(pose(linear_velocity=1.5, angular_velocity=-0.5))
     twist = bench.eventually(lambda: twists)[0]
     assert (twist.linear.x, twist.angular.z) == (1.5, -0.5)
+
+
+def test_scale_below_the_node_of_ros1_has_no_effect_and_that_is_told(
+    bench, keyboard, capfd
+) -> None:
+    bench.start(_NODE, "_scale_linear:=0.5")
+    bench.eventually(lambda: _is_taken(keyboard))
+    keyboard.type("q")
+    assert bench.wait() == [0]
+    text = "parameter 'scale_linear' (0.5) has no effect here: the node reads /scale_linear"
+    assert text in "".join(capfd.readouterr())
+
+
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [((), "/scale_linear"), (("--ros-args", "-p", "scale_linear:=fast"), "/teleop_turtle/scale_l")],
+    ids=["ros1", "ros2"],
+)
+def test_scale_that_is_no_number_ends_it(bench, keyboard, words, name) -> None:
+    from threading import Event
+
+    bench.node.parameters.set("/scale_linear", "fast")
+    with pytest.raises(LaunchError, match=f"'{name}.*' is 'fast', not a number"):
+        run_node({"node": _NODE, "argv": list(words)}, bench.graph, Event())
+    assert keyboard.settings == keyboard.before

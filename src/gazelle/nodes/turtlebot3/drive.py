@@ -1,7 +1,6 @@
 """``turtlebot3_drive``: wanders about, turning away from what the scan shows.
 
-Ahead is free from 0.7 m, 30° to the sides from 0.6 m; a turn takes 30°. Parameter
-``cmd_vel_topic_name`` of the namespace (default ``cmd_vel``). Numbers are those of
+Ahead is free from 0.7 m, 30° to the sides from 0.6 m; a turn takes 30°. Numbers are those of
 ``turtlebot3_gazebo`` (turtlebot3_simulations, noetic).
 """
 
@@ -18,9 +17,22 @@ from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import quat_xyzw_of
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameter_reading import namespace_parameters
 from gazelle.nodes.parameters import start_node, ticks
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["Ranges", "Wanderer", "ranges_of", "run"]
+__all__ = ["PARAMETERS", "Ranges", "Wanderer", "ranges_of", "run"]
+
+PARAMETERS = ParameterTable(
+    "turtlebot3_drive",
+    "Wanders about without bumping into things. The parameter is one of the namespace.",
+    ("turtlebot3_gazebo/turtlebot3_drive",),
+    (
+        Parameter(
+            "cmd_vel_topic_name", "text", "cmd_vel", "where commands are sent", generations=(1,)
+        ),
+    ),
+)
 
 _PERIOD_NS = 8_000_000
 _LINEAR_M_S = 0.3
@@ -113,8 +125,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     def on_odometry(odometry: Any) -> None:
         wanderer.yaw_rad = yaw_from_quat_xyzw(quat_xyzw_of(odometry.pose.pose.orientation))
 
-    name = "cmd_vel_topic_name"
-    topic = str(node.parameters.get(name) if node.parameters.has(name) else "") or "cmd_vel"
+    with namespace_parameters(node, arguments, PARAMETERS) as beside:
+        topic = beside.text("cmd_vel_topic_name") or "cmd_vel"
     twist: Any = message_type("geometry_msgs/msg/Twist")
     out = node.create_publisher(topic, twist, queue_size=10)
     node.create_subscription("scan", "sensor_msgs/msg/LaserScan", on_scan, queue_size=10)

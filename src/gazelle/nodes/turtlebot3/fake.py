@@ -1,19 +1,11 @@
 """``turtlebot3_fake_node``: a TurtleBot3 that drives without physics.
 
 It hears ``cmd_vel`` and sends ``odom``, ``joint_states`` and the transform from odom to the base,
-30 times a second; a command holds for one second. Parameters of the namespace:
-
-| name | default | meaning |
-| --- | --- | --- |
-| tb3_model | – | burger, waffle or waffle_pi: how far the wheels are apart |
-| wheel_left_joint_name, wheel_right_joint_name | wheel_left_joint, wheel_right_joint | joints |
-| joint_states_frame | base_footprint | frame of the joint states |
-| odom_frame, base_frame | odom, base_footprint | ends of the transform |
+30 times a second; a command holds for one second.
 
 In ROS 2 it is ``turtlebot3_fake_node/turtlebot3_fake_node``: 100 times a second, without
-covariances, with parameters of its own: ``wheels.separation`` and ``wheels.radius``, which must be
-given, and the three frames. Numbers are those of ``turtlebot3_fake`` and ``turtlebot3_fake_node``
-(turtlebot3_simulations, noetic and humble).
+covariances, with parameters of its own. Numbers are those of ``turtlebot3_fake`` and
+``turtlebot3_fake_node`` (turtlebot3_simulations, noetic and humble).
 """
 
 from __future__ import annotations
@@ -33,9 +25,11 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_plane_pose, set_transform
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameter_reading import namespace_parameters, private_parameters
 from gazelle.nodes.parameters import node_parameters, start_node, ticks
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["FakeBase", "run", "run_ros2"]
+__all__ = ["PARAMETERS", "ROS2_PARAMETERS", "FakeBase", "run", "run_ros2"]
 
 _PERIOD_NS = 1_000_000_000 // 30
 _ROS2_PERIOD_NS = 10_000_000
@@ -45,6 +39,37 @@ _SEPARATIONS_M = {"burger": 0.160, "waffle": 0.287, "waffle_pi": 0.287}
 _DIAGONAL = (0.1, 0.1, 1e6, 1e6, 1e6, 0.2)
 _COVARIANCE = [value if column == row else 0.0 for row, value in enumerate(_DIAGONAL)
                for column in range(6)]  # fmt: skip
+
+_FRAMES = (
+    Parameter("joint_states_frame", "text", "base_footprint", "frame of the joint states"),
+    Parameter("odom_frame", "text", "odom", "frame of the odometry"),
+    Parameter("base_frame", "text", "base_footprint", "the robot's frame"),
+)
+PARAMETERS = ParameterTable(
+    "turtlebot3_fake (ROS 1)",
+    "A TurtleBot3 that drives without physics. The parameters are those of its namespace.",
+    ("turtlebot3_fake/turtlebot3_fake_node",),
+    (
+        Parameter(
+            "tb3_model", "text", None, "burger, waffle or waffle_pi: how far its wheels are apart"
+        ),
+        Parameter("wheel_left_joint_name", "text", "wheel_left_joint", "joint of the left wheel"),
+        Parameter(
+            "wheel_right_joint_name", "text", "wheel_right_joint", "joint of the right wheel"
+        ),
+        *_FRAMES,
+    ),
+)
+ROS2_PARAMETERS = ParameterTable(
+    "turtlebot3_fake_node (ROS 2)",
+    "A TurtleBot3 that drives without physics. Without its wheels it does not start.",
+    ("turtlebot3_fake_node/turtlebot3_fake_node",),
+    (
+        Parameter("wheels.separation", "number", None, "how far they are apart, above 0", "m"),
+        Parameter("wheels.radius", "number", None, "their radius, above 0", "m"),
+        *_FRAMES,
+    ),
+)
 
 
 @dataclass(slots=True)
@@ -121,21 +146,16 @@ class _Setup:
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """ROS 1: drive until told to stop."""
     node = start_node(arguments, graph, offers_parameters=False)
-
-    def name(key: str, default: str) -> str:
-        return str(_parameter(node, key, default))
-
-    setup = _Setup(
-        _PERIOD_NS,
-        (
-            name("wheel_left_joint_name", "wheel_left_joint"),
-            name("wheel_right_joint_name", "wheel_right_joint"),
-        ),
-        name("joint_states_frame", "base_footprint"),
-        (name("odom_frame", "odom"), name("base_frame", "base_footprint")),
-        _COVARIANCE,
-    )
-    _drive(node, FakeBase(_separation(node)), setup, stop)
+    with namespace_parameters(node, arguments, PARAMETERS) as beside:
+        setup = _Setup(
+            _PERIOD_NS,
+            (beside.text("wheel_left_joint_name"), beside.text("wheel_right_joint_name")),
+            beside.text("joint_states_frame"),
+            (beside.text("odom_frame"), beside.text("base_frame")),
+            _COVARIANCE,
+        )
+        model = beside.text("tb3_model")
+    _drive(node, FakeBase(_separation(node, model)), setup, stop)
     return 0
 
 
@@ -154,9 +174,8 @@ def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
             "  fix: -p wheels.separation:=0.16 -p wheels.radius:=0.033, or --params-file"
         )
     node = start_node(arguments, graph, offers_parameters=False)
-    names = {"joint_states_frame": "base_footprint", "odom_frame": "odom"}
-    names["base_frame"] = "base_footprint"
-    values = {name: str(given.get(name, default)) for name, default in names.items()}
+    with private_parameters(node, arguments, ROS2_PARAMETERS) as own:
+        values = {row.key: own.text(row.key) for row in _FRAMES}
     separation, radius = (float(value) for value in wheels if value is not None)
     numbers = {"wheels.separation": separation, "wheels.radius": radius}
     declared = {**values, **numbers}
@@ -199,8 +218,7 @@ def _drive(node: Node, base: FakeBase, setup: _Setup, stop: threading.Event) -> 
     node.shutdown()
 
 
-def _separation(node: Node) -> float:
-    model = str(_parameter(node, "tb3_model", ""))
+def _separation(node: Node, model: str) -> float:
     if model in _SEPARATIONS_M:
         return _SEPARATIONS_M[model]
     said = f"'{model}' is no TurtleBot3" if model else "the parameter tb3_model is not set"
@@ -254,7 +272,3 @@ def _transform(base: FakeBase, setup: _Setup, now_ns: int) -> Any:
     set_header(message, now_ns, setup.frames[0])
     set_transform(message.transform, Pose.from_xy_yaw(base.x_m, base.y_m, base.yaw_rad))
     return message
-
-
-def _parameter(node: Node, name: str, default: Any) -> Any:
-    return node.parameters.get(name) if node.parameters.has(name) else default

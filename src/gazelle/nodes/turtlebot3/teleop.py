@@ -12,13 +12,32 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameter_reading import namespace_parameters
 from gazelle.nodes.parameters import start_node
 from gazelle.nodes.teleop.terminal import CTRL_C, Keys, say
 from gazelle.nodes.teleop.twists import twist_sender
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["Limits", "Speeds", "limits_of", "run", "run_ros2"]
+__all__ = ["PARAMETERS", "Limits", "Speeds", "limits_of", "run", "run_ros2"]
+
+PARAMETERS = ParameterTable(
+    "turtlebot3_teleop",
+    "Drives a TurtleBot3 from the keyboard. The parameter is one of the namespace; in ROS 2 the"
+    " variable `TURTLEBOT3_MODEL` has its place.",
+    ("turtlebot3_teleop/turtlebot3_teleop_key", "turtlebot3_teleop/teleop_keyboard"),
+    (
+        Parameter(
+            "model",
+            "text",
+            "burger",
+            "burger, waffle or waffle_pi: how fast it may go",
+            generations=(1,),
+        ),
+    ),
+)
 
 _HELP = """
 Control Your TurtleBot3!
@@ -100,8 +119,8 @@ class Speeds:
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """ROS 1: drive until Ctrl-C, or told to stop; the robot is stopped."""
 
-    def model_of(node: Node) -> str:
-        return str(node.parameters.get("model")) if node.parameters.has("model") else "burger"
+    def model_of(beside: ParameterReader) -> str:
+        return beside.text("model")
 
     words = "currently:\tlinear vel %s\t angular vel %s "
     return _drive(arguments, graph, stop, model_of, words, is_stamped=False)
@@ -112,7 +131,7 @@ def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
     is_stamped = os.environ.get("ROS_DISTRO", "") in _STAMPED
     words = "currently:\tlinear velocity %s\t angular velocity %s "
 
-    def model_of(_node: Node) -> str:
+    def model_of(_beside: ParameterReader) -> str:
         return os.environ.get("TURTLEBOT3_MODEL", "burger")
 
     return _drive(arguments, graph, stop, model_of, words, is_stamped=is_stamped)
@@ -122,7 +141,7 @@ def _drive(
     arguments: NodeArguments,
     graph: Graph,
     stop: threading.Event,
-    model_of: Callable[[Node], str],
+    model_of: Callable[[ParameterReader], str],
     words: str,
     *,
     is_stamped: bool,
@@ -132,7 +151,8 @@ def _drive(
         return 0
     with Keys("turtlebot3_teleop_key", takes_ctrl_c=True) as keys:
         node = start_node(arguments, graph)
-        speeds = Speeds(limits_of(model_of(node)))
+        with namespace_parameters(node, arguments, PARAMETERS) as beside:
+            speeds = Speeds(limits_of(model_of(beside)))
         send = twist_sender(node, is_stamped=is_stamped)
         say(_HELP)
         lines = 0

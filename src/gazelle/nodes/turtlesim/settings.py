@@ -1,4 +1,7 @@
-"""Parameters of the turtles: ROS 1's store, or those of a ROS 2 node."""
+"""Parameters of the turtles: ROS 1's store, or those of a ROS 2 node.
+
+A new background counts from the next ``clear`` (ROS 1) or at once (ROS 2).
+"""
 
 from __future__ import annotations
 
@@ -12,14 +15,48 @@ from gazelle.graph.parameter_values import parameter_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import node_parameters
 from gazelle.nodes.turtlesim.canvas import BACKGROUND
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["Settings", "settings_of"]
+__all__ = ["PARAMETERS", "Settings", "settings_of"]
 
 Color = tuple[int, int, int]
 
 _CHANNELS = ("background_r", "background_g", "background_b")
 _DEFAULTS = dict(zip(_CHANNELS, BACKGROUND, strict=True))
 _WORDS = dict(zip(_CHANNELS, ("Red", "Green", "Blue"), strict=True))
+_HIGHEST = 255
+
+PARAMETERS = ParameterTable(
+    "turtlesim",
+    "Turtles that draw. In ROS 2 a value that does not fit ends it.",
+    ("turtlesim/turtlesim_node",),
+    (
+        *(
+            Parameter(
+                name,
+                "integer",
+                _DEFAULTS[name],
+                f"{word.lower()} of the colour below the lines; in ROS 1 from the next `clear`, and"
+                f" `{name}` of the namespace counts, too, as up to Melodic",
+                low=0,
+                high=_HIGHEST,
+                live=True,
+            )
+            for name, word in _WORDS.items()
+        ),
+        Parameter(
+            "holonomic",
+            "flag",
+            False,
+            "turtles go sideways, too, as they always do in ROS 1",
+            generations=(2,),
+            live=True,
+        ),
+        Parameter(
+            "png", "text", "", "file for the picture, at the end and by `~save_image`, as `--png`"
+        ),
+    ),
+)
 
 
 class Settings(Protocol):
@@ -70,10 +107,10 @@ class _Ros1Settings:
         store = self._node.parameters
         own = store.get(f"~{name}") if store.has(f"~{name}") else default
         value = store.get(name) if own == default and store.has(name) else own
-        if isinstance(value, int) and 0 <= value <= 255:
+        if isinstance(value, int) and 0 <= value <= _HIGHEST:
             return int(value)
-        text = f"parameter '{name}' is {value!r}, no whole number from 0 to 255; {default} is taken"
-        self._node.log("warn", text)
+        text = f"parameter '{name}' is {value!r}, no whole number from 0 to {_HIGHEST}"
+        self._node.log("warn", f"{text}; {default} is taken")
         return default
 
 
@@ -85,7 +122,7 @@ class _Ros2Settings:
         for name in values.keys() & arguments.params.keys():
             values[name] = _declared(name, arguments.params[name], values[name])
         descriptors = {
-            name: Descriptor(f"{word} channel of the background color", lowest=0, highest=255)
+            name: Descriptor(f"{word} channel of the background color", lowest=0, highest=_HIGHEST)
             for name, word in _WORDS.items()
         }
         descriptors["holonomic"] = Descriptor("If true, then turtles will be holonomic")
@@ -131,9 +168,9 @@ def _declared(name: str, value: Any, default: Any) -> Any:
             f"parameter '{name}' is {value!r}; it must be like {default!r}\n"
             f"  ROS says: parameter '{name}' has invalid type: expected [{wanted}] got [{got}]"
         )
-    if name in _DEFAULTS and not 0 <= value <= 255:
+    if name in _DEFAULTS and not 0 <= value <= _HIGHEST:
         raise LaunchError(
-            f"parameter '{name}' is {value}; it must be from 0 to 255\n"
+            f"parameter '{name}' is {value}; it must be from 0 to {_HIGHEST}\n"
             f"  ROS says: Parameter {{{name}}} doesn't comply with integer range."
         )
     return value

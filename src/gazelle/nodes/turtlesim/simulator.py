@@ -1,17 +1,5 @@
 """``turtlesim_node``: turtles, the services that make and remove them, and the picture.
 
-Parameters:
-
-| name | default | meaning |
-| --- | --- | --- |
-| ~background_r, ~background_g, ~background_b | 69, 86, 255 | colour below the lines |
-| background_r, … | – | the same under the name it had up to Melodic |
-| holonomic | false | turtles go sideways too (ROS 2; ROS 1's always do) |
-| ~png | – | where the picture is written at the end, and by ``~save_image`` |
-
-A new background counts from the next ``clear`` (ROS 1) or at once (ROS 2). ``--png FILE`` is the
-same as ``_png:=FILE``.
-
 There is no window: the picture is on ``~_canvas`` while somebody looks; the
 underscore hides it from lists and from recordings of everything. ROS 2's newer turtlesim
 says white for ``color_sensor`` where nothing is drawn; here both say the background.
@@ -29,10 +17,11 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node, ServiceRefusedError
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameters import start_node
 from gazelle.nodes.turtlesim.canvas import Canvas, write_png
 from gazelle.nodes.turtlesim.member import Member, all_finite
-from gazelle.nodes.turtlesim.settings import settings_of
+from gazelle.nodes.turtlesim.settings import PARAMETERS, settings_of
 from gazelle.nodes.turtlesim.turtle import PERIOD_S, SIZE_PX, WORLD_M, Turtle, single
 
 __all__ = ["Simulator", "run"]
@@ -48,8 +37,9 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Simulate turtles until told to stop."""
     word = _png_of(arguments.rest)
     node = start_node(arguments, graph, offers_parameters=False)
-    png = word or str(private(node, arguments, "png", ""))
     try:
+        with private_parameters(node, arguments, PARAMETERS) as own:
+            png = word or own.text("png")
         simulator = Simulator(node, arguments, png)
         next_s = time.monotonic() + PERIOD_S
         while not stop.wait(max(0.0, next_s - time.monotonic())):

@@ -1,8 +1,4 @@
-"""``turtle_teleop_key``: arrow keys drive ``turtle1``; in ROS 2 letters turn it to headings.
-
-Parameters: ``scale_linear`` and ``scale_angular``, 2.0 each; those of the namespace in ROS 1, the
-node's own in ROS 2.
-"""
+"""``turtle_teleop_key``: arrow keys drive ``turtle1``; in ROS 2 letters turn it to headings."""
 
 from __future__ import annotations
 
@@ -10,15 +6,32 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.errors import GazelleError, LaunchError
+from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import node_parameters, private_number, start_node
+from gazelle.nodes.parameter_reading import (
+    namespace_parameters,
+    number_or_end,
+    private_parameters,
+)
+from gazelle.nodes.parameters import node_parameters, start_node
 from gazelle.nodes.teleop.terminal import Keys, say
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
+
+PARAMETERS = ParameterTable(
+    "turtle_teleop_key",
+    "Drives a turtle from the keyboard. In ROS 1 the parameters are those of its namespace. What"
+    " is no number ends it.",
+    ("turtlesim/turtle_teleop_key",),
+    (
+        Parameter("scale_linear", "number", 2.0, "how fast an arrow drives", "m/s", live=True),
+        Parameter("scale_angular", "number", 2.0, "how fast an arrow turns", "rad/s", live=True),
+    ),
+)
 
 _PROMPT = """\
 Reading from keyboard
@@ -55,7 +68,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     with Keys("turtle_teleop_key", takes_ctrl_c=False) as keys:
         node = start_node(arguments, graph, offers_parameters=False)
         is_ros2 = arguments.generation == 2
-        scales = _ros2_scales(node, arguments) if is_ros2 else _scales(node)
+        scales = (_ros2_scales if is_ros2 else _scales)(node, arguments)
         drive = _driver(node, scales)
         turner = _Turner(node) if is_ros2 else None
         say(_ROS2_PROMPT if is_ros2 else _PROMPT)
@@ -85,20 +98,15 @@ def _driver(node: Node, scales: Callable[[], tuple[float, float]]) -> Callable[.
     return drive
 
 
-def _scales(node: Node) -> Callable[[], tuple[float, float]]:
-    found = [_scale(node, name) for name in _SCALES]
-    return lambda: (found[0], found[1])
-
-
-def _scale(node: Node, name: str) -> float:
-    value = node.parameters.get(name) if node.parameters.has(name) else 2.0
-    if isinstance(value, int | float):
-        return float(value)
-    raise LaunchError(f"parameter '{node.resolve_name(name)}' is {value!r}, not a number")
+def _scales(node: Node, arguments: NodeArguments) -> Callable[[], tuple[float, float]]:
+    with namespace_parameters(node, arguments, PARAMETERS) as beside:
+        linear, angular = (number_or_end(beside, name) for name in _SCALES)
+    return lambda: (linear, angular)
 
 
 def _ros2_scales(node: Node, arguments: NodeArguments) -> Callable[[], tuple[float, float]]:
-    values = {name: private_number(node, arguments, name, 2.0) for name in _SCALES}
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        values = {name: number_or_end(own, name) for name in _SCALES}
     parameters = node_parameters(node, values)
     return lambda: (parameters.values["scale_linear"], parameters.values["scale_angular"])
 
