@@ -33,7 +33,7 @@ from gazelle.navigation.planners import PLANNERS
 from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
 from gazelle.nodes.filters.ekf import config_of, matrix_of
 from gazelle.nodes.filters.laser_filters import chain_of
-from gazelle.nodes.filters.tables import report_ekf
+from gazelle.nodes.filters.tables import ekf_table
 from gazelle.nodes.joy.options import read_options
 from gazelle.nodes.nav2.collision.reading import read_sources, read_zones, report_others
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
@@ -142,7 +142,7 @@ def _small_nodes(path: Path, diagnostics: Diagnostics, _workspace: Workspace) ->
         own = _group(tree, "teleop")
         read_driving(own, "/teleop", diagnostics, is_ros2=generation == 2)
     ekf = _group(tree, "ekf")
-    report_ekf(ekf, "/ekf", diagnostics)
+    node_reader(ekf_table(ekf), ekf, "/ekf", diagnostics).report_unknown()
     for key, value in ekf.items():
         if key.endswith("_config"):
             config_of(key, value)

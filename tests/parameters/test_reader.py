@@ -27,6 +27,7 @@ _TABLE = ParameterTable(
         Parameter("inner", "group", None, "more"),
         Parameter("<any>.plugin", "text", "", "of each"),
         *refused("there is no such thing here", "ghost"),
+        *refused("nobody is told", "verbose", unless=False),
     ),
 )
 
@@ -97,6 +98,13 @@ def test_unknown_and_idle_parameters_are_told_with_what_is_near() -> None:
     assert "rate" in unknown.fix
     assert idle.code == "parameter.idle"
     assert "'ghost' (2) has no effect here: there is no such thing here" in idle.message
+
+
+@pytest.mark.parametrize(("value", "told"), [(False, 0), (True, 1), ("true", 1)])
+def test_what_asks_for_nothing_is_not_told(value: Any, told: int) -> None:
+    settings, diagnostics = _settings({"verbose": value})
+    settings.report_unknown()
+    assert len(list(diagnostics)) == told
 
 
 def test_a_long_value_is_told_by_its_beginning() -> None:

@@ -227,6 +227,7 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.ekf:run",
         does="fuses odometry, IMU and poses",
         is_light=False,
+        parameters="gazelle.nodes.filters.tables:EKF",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),
             publishes("odometry/filtered", "nav_msgs/msg/Odometry"),
@@ -242,6 +243,7 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.ekf:run",
         does="fuses odometry, IMU and poses, ROS 2's name",
         is_light=False,
+        parameters="gazelle.nodes.filters.tables:EKF",
         name="ekf_filter_node",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),

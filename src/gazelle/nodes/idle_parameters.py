@@ -19,7 +19,7 @@ from gazelle.navigation.costmap.options import (
 from gazelle.navigation.planners import PLANNERS
 from gazelle.node_specs.all_specs import node_specs
 from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
-from gazelle.nodes.filters.tables import POSE_EKF, SWITCHES, ekf_table
+from gazelle.nodes.filters.tables import EKF, POSE_EKF, ekf_table
 from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
 from gazelle.nodes.move_base.local import local_planner_tables
 from gazelle.nodes.move_base.planner import planner_tables
@@ -63,7 +63,7 @@ def idle_parameters(
         generation: of ROS.
     """
     tree = nested(values)
-    if node in _EKF:
+    if node in EKF.types:
         table: ParameterTable | None = ekf_table(tree)
     else:
         table = costmap_table(generation) if node == "costmap" else _tables(generation).get(node)
@@ -94,7 +94,7 @@ def _walk(
                 continue
         for name, leaf in values_only(flattened({key: value})):
             row = table.row_for(name)
-            if row is not None and row.kind == "refused" and (leaf or name not in SWITCHES):
+            if row is not None and row.asks_in_vain(leaf):
                 yield IdleParameter(f"{prefix}{name}", row.meaning)
 
 
@@ -127,10 +127,10 @@ def _tables(generation: Generation) -> dict[str, ParameterTable]:
     """Return the tables of nodes by ``package/type``."""
     slam = [flavour.table for flavour in FLAVOURS.values()]
     if generation == 1:
-        tables = [*slam, AMCL, MOVE_BASE, EXPLORE, EXPLORE_SERVER, POSE_EKF, ekf_table({})]
+        tables = [*slam, AMCL, MOVE_BASE, EXPLORE, EXPLORE_SERVER, POSE_EKF, EKF]
     else:
         tables = [
-            *slam, NAV2_AMCL, EXPLORE, ekf_table({}), COLLISION_MONITOR, nav2.PLANNER_SERVER,
+            *slam, NAV2_AMCL, EXPLORE, EKF, COLLISION_MONITOR, nav2.PLANNER_SERVER,
             nav2.CONTROLLER_SERVER, nav2.BEHAVIOR_SERVER, nav2.BT_NAVIGATOR, nav2.SMOOTHER_SERVER,
             nav2.WAYPOINT_FOLLOWER, nav2.VELOCITY_SMOOTHER, nav2.LIFECYCLE_MANAGER,
         ]  # fmt: skip
@@ -148,6 +148,3 @@ def _plugins(generation: Generation) -> dict[str, ParameterTable]:
         tables += [nav2.controller_table(name) for name in CONTROLLERS if "::" in name]
         tables += [*nav2.GOAL_CHECKERS.values(), *nav2.PROGRESS_CHECKERS.values(), nav2.SMOOTHER]
     return {_plain(name): table for table in tables for name in table.types}
-
-
-_EKF = frozenset(ekf_table({}).types)

@@ -30,6 +30,7 @@ class Parameter:
             spaces for ``words``; ``vector`` is three numbers; ``any`` is read by other means and
             so is ``group``, a subtree; ``refused`` is known and has no effect here.
         default: value when it is absent; None when it is required or the absence means something.
+            Of a refused one the value that asks for nothing, so that it is not told.
         meaning: what it does; of a refused one why it does nothing.
         unit: SI unit, empty for none.
         low: smallest value, None for none.
@@ -63,6 +64,10 @@ class Parameter:
         """True when it is known and has no effect."""
         return self.kind == "refused"
 
+    def asks_in_vain(self, value: Any) -> bool:
+        """Tell whether a value asks for something that does not happen here."""
+        return self.is_refused and (self.default is None or value != self.default)
+
     @property
     def is_exact(self) -> bool:
         """True when it stands for one name, no pattern and no branch."""
@@ -93,9 +98,15 @@ class Parameter:
         return self.default
 
 
-def refused(why: str, *keys: str) -> tuple[Parameter, ...]:
-    """Return rows of parameters that have no effect, for one reason."""
-    return tuple(Parameter(key, "refused", None, why) for key in keys)
+def refused(why: str, *keys: str, unless: Any = None) -> tuple[Parameter, ...]:
+    """Return rows of parameters that have no effect, for one reason.
+
+    Args:
+        why: the reason.
+        *keys: the names.
+        unless: the value that asks for nothing, None where every value asks for something.
+    """
+    return tuple(Parameter(key, "refused", unless, why) for key in keys)
 
 
 @lru_cache(maxsize=4096)

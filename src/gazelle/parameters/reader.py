@@ -232,7 +232,8 @@ class ParameterReader:
             if why:
                 self._report_idle(name, value, why)
             elif row is not None and row.is_refused:
-                self._report_idle(name, value, row.meaning)
+                if row.asks_in_vain(value):
+                    self._report_idle(name, value, row.meaning)
             elif row is None and value != {}:
                 self._report_unknown(name, others)
             elif row is not None and self.generation not in (0, *row.generations):

@@ -57,6 +57,39 @@ def test_ekf_follows_odometry(bench: Any) -> None:
     assert bench.stop() == [0]
 
 
+def test_an_ekf_tells_of_values_of_the_wrong_kind_and_goes_on(bench: Any) -> None:
+    said = bench.listen("/rosout", "rcl_interfaces/msg/Log")
+    words = ["_frequency:=often", "_odom0_pose_rejection_threshold:=far",
+             "_transform_time_offset:=soon", "_initial_state:=[1, 2]"]  # fmt: skip
+    bench.start("robot_localization/ekf_localization_node", "_odom0:=/wheels", *words)
+    expected = [
+        "parameter 'frequency' is 'often', not a number; 30.0 is used",
+        "parameter 'odom0_pose_rejection_threshold' is 'far', not a number; inf is used",
+        "parameter 'transform_time_offset' is 'soon', not a number; 0.0 is used",
+        "parameter 'initial_state' has 2 numbers, not 15; it is left out",
+    ]
+    bench.eventually(lambda: all(any(t in one.msg for one in said) for t in expected))
+    assert bench.stop() == [0]
+
+
+def test_a_text_that_says_false_is_false_to_an_ekf(bench: Any) -> None:
+    config = "[" + ", ".join(["false"] * 6 + ["true"] * 6 + ["false"] * 3) + "]"
+    words = ["_odom0:=/wheels", f"_odom0_config:={config}", "_frequency:=50"]
+    bench.start("robot_localization/ekf_localization_node", *words, "_publish_tf:='False'")
+    got = bench.listen("/odometry/filtered", "nav_msgs/msg/Odometry")
+    tf = bench.listen("/tf", "tf2_msgs/msg/TFMessage")
+    kind = message_type("nav_msgs/msg/Odometry")
+    out = bench.node.create_publisher("/wheels", kind)
+    bench.eventually(lambda: out.matched)
+    message = kind()
+    message.header.stamp.sec, message.twist.twist.linear.x = 1, 0.5
+    message.twist.covariance = np.diag([1e-4] * 6).ravel().tolist()
+    out.publish(message)
+    bench.eventually(lambda: len(got) > 3)
+    assert bench.stop() == [0]
+    assert not tf
+
+
 def test_depth_images_of_both_encodings() -> None:
     image = message_type("sensor_msgs/msg/Image")()
     image.height, image.width, image.step, image.encoding = 1, 2, 4, "16UC1"

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.filters.tables import report_ekf, report_pose_ekf, threshold_owners
+from gazelle.nodes.filters.tables import POSE_EKF, ekf_inputs, ekf_table, threshold_owners
+from gazelle.nodes.parameter_reading import node_reader
 
 _CONFIG = "[" + ", ".join(["false"] * 6 + ["true"] * 6 + ["false"] * 3) + "]"
 
@@ -25,7 +26,7 @@ def test_settings_of_the_filters_inside_are_idle_and_slips_are_unknown() -> None
         "odom0_pose_rejection_threshold": 5.0, "pose0": "/p", "pose0_rejection_threshold": 2.0,
         "imu3": "/imu", "imu3_linear_acceleration_rejection_threshold": 1.0, "two_d_mod": True,
     }  # fmt: skip
-    report_ekf(tree, "/ekf", found)
+    node_reader(ekf_table(tree), tree, "/ekf", found).report_unknown()
     idle, unknown = "parameter.idle", "parameter.unknown"
     assert _codes(found) == [
         (idle, "sensor_timeout"), (idle, "debug"), (idle, "odom0_queue_size"),
@@ -34,8 +35,14 @@ def test_settings_of_the_filters_inside_are_idle_and_slips_are_unknown() -> None
     ]  # fmt: skip
     assert "odom0_relative" in found.by_code(unknown)[0].fix
     found = Diagnostics()
-    report_pose_ekf({"gps_used": True, "vo_used": False, "debug": False}, "/ekf", found)
+    tree = {"gps_used": True, "vo_used": False, "debug": False}
+    node_reader(POSE_EKF, tree, "/ekf", found).report_unknown()
     assert _codes(found) == [(idle, "gps_used")]
+
+
+def test_inputs_are_the_topics_of_a_tree_in_the_order_of_their_numbers() -> None:
+    tree = {"imu0": "/i", "odom10": "/b", "odom2": "/a", "odom3_config": [], "odom_frame": "odom"}
+    assert ekf_inputs(tree) == ["odom2", "odom10", "imu0"]
 
 
 def test_thresholds_of_a_pose_or_twist_have_no_part_in_their_names() -> None:

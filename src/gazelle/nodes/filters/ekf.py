@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import threading
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
@@ -26,19 +25,43 @@ from gazelle.nodes.filters.measuring import (
     measure_pose,
     measure_twist,
 )
-from gazelle.nodes.filters.tables import report_ekf, threshold_owners
-from gazelle.nodes.findings import log_findings
+from gazelle.nodes.filters.tables import ekf_inputs, ekf_table, threshold_owners
+from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import parameter_tree, start_node, ticks
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["config_of", "matrix_of", "run"]
 
-_INPUTS = {
+_TYPES = {
     "odom": "nav_msgs/msg/Odometry",
     "pose": "geometry_msgs/msg/PoseWithCovarianceStamped",
     "twist": "geometry_msgs/msg/TwistWithCovarianceStamped",
     "imu": "sensor_msgs/msg/Imu",
 }
-_MOST = 20
+_STATES = 15
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Input:
+    """A topic that is fused.
+
+    Attributes:
+        name, kind: such as ``odom0`` and ``odom``.
+        config: which states count, (15,).
+        thresholds: see `Ekf.update`, by ``pose`` and ``twist``.
+        is_differential: poses count as velocities between them.
+        is_relative: poses count from the first one.
+        without_gravity: gravity is no part of an IMU's accelerations.
+    """
+
+    name: str
+    kind: str
+    topic: str
+    config: NDArray[np.bool_]
+    thresholds: Mapping[str, float]
+    is_differential: bool
+    is_relative: bool
+    without_gravity: bool
 
 
 def config_of(name: str, value: Any) -> NDArray[np.bool_]:
@@ -82,93 +105,108 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         LaunchError: a parameter cannot be used.
     """
     node = start_node(arguments, graph)
-    tree = parameter_tree(node, arguments)
+    table = ekf_table(parameter_tree(node, arguments))
     try:
-        filter_ = _Localization(node, tree)
+        with private_parameters(node, arguments, table) as own:
+            filter_ = _Localization(node, own)
+            period_ns = int(1e9 / own.number("frequency"))
     except LaunchError:
         node.shutdown()
         raise
     arguments.ready()
-    period_ns = int(1e9 / max(float(tree.get("frequency", 30.0)), 0.1))
     for _now_ns in ticks(node, period_ns, stop):
         filter_.publish()
     node.shutdown()
     return 0
 
 
+def _input(own: ParameterReader, name: str) -> _Input:
+    kind = name.rstrip("0123456789")
+    key = f"{name}_config"
+    return _Input(
+        name,
+        kind,
+        own.text(name),
+        config_of(key, own.raw(key, [False] * _STATES)),
+        {
+            part: own.number(f"{owner}_rejection_threshold")
+            for owner, part in threshold_owners(name).items()
+        },
+        is_differential=kind != "twist" and own.flag(f"{name}_differential"),
+        is_relative=kind != "twist" and own.flag(f"{name}_relative"),
+        without_gravity=kind == "imu" and own.flag(f"{name}_remove_gravitational_acceleration"),
+    )
+
+
+def _filter(own: ParameterReader) -> Ekf:
+    noise, start = (
+        matrix_of(key, own.raw(key))
+        for key in ("process_noise_covariance", "initial_estimate_covariance")
+    )
+    ekf = Ekf(noise, start, planar=own.flag("two_d_mode"))
+    state = own.numbers("initial_state")
+    if len(state) == _STATES:
+        ekf.state[:] = state
+    elif state:
+        text = f"parameter 'initial_state' has {len(state)} numbers, not {_STATES}; it is left out"
+        own.report("parameter.bad-value", text, key="initial_state")
+    return ekf
+
+
 class _Localization:
-    def __init__(self, node: Node, tree: Mapping[str, Any]) -> None:
-        self._tree = tree
-        noise = matrix_of("process_noise_covariance", tree.get("process_noise_covariance"))
-        start = matrix_of("initial_estimate_covariance", tree.get("initial_estimate_covariance"))
-        ekf = Ekf(noise, start, planar=bool(tree.get("two_d_mode", False)))
-        state = tree.get("initial_state")
-        if isinstance(state, list) and len(state) == 15:
-            ekf.state[:] = state
-        self._fusion = Fusion(node, ekf)
-        self._odom = str(tree.get("odom_frame", "odom"))
-        self._base = str(tree.get("base_link_frame", "base_link"))
-        self._map = str(tree.get("map_frame", "map"))
-        self._world = str(tree.get("world_frame", self._odom))
-        self._offset_ns = int(float(tree.get("transform_time_offset", 0.0)) * 1e9)
-        told = Diagnostics()
-        report_ekf(tree, node.name, told)
-        log_findings(node, told)
-        found = [f"{kind}{k}" for kind in _INPUTS for k in range(_MOST) if f"{kind}{k}" in tree]
-        if not found:
+    def __init__(self, node: Node, own: ParameterReader) -> None:
+        self._fusion = Fusion(node, _filter(own))
+        self._odom, self._base = own.text("odom_frame"), own.text("base_link_frame")
+        self._map = own.text("map_frame")
+        self._world = own.text("world_frame", self._odom)
+        self._offset_ns = int(own.number("transform_time_offset") * 1e9)
+        self._sends_tf = own.flag("publish_tf")
+        inputs = [_input(own, name) for name in ekf_inputs(own.tree)]
+        if not inputs:
             node.log("error", "no input is given: set odom0, imu0, pose0 or twist0 to a topic, and "
                      "odom0_config … to what counts")  # fmt: skip
-        for name in found:
-            self._connect(node, name)
+        for one in inputs:
+            self._connect(node, one)
         odometry = message_type("nav_msgs/msg/Odometry")
         self._out = node.create_publisher("odometry/filtered", odometry)
         kind = "geometry_msgs/msg/PoseWithCovarianceStamped"
         node.create_subscription("set_pose", kind, self._on_set_pose, queue_size=1)
 
-    def _connect(self, node: Node, name: str) -> None:
-        kind = name.rstrip("0123456789")
-        config = config_of(f"{name}_config", self._tree.get(f"{name}_config", [False] * 15))
-        if not config.any():
-            node.log("warn", f"{name}_config is all false: {self._tree[name]} does not count")
-
-        thresholds = {
-            part: float(self._tree.get(f"{owner}_rejection_threshold", math.inf))
-            for owner, part in threshold_owners(name).items()
-        }
+    def _connect(self, node: Node, one: _Input) -> None:
+        if not one.config.any():
+            node.log("warn", f"{one.name}_config is all false: {one.topic} does not count")
 
         def on_message(message: Any) -> None:
-            for found, part in self._measurements(name, kind, message):
-                key, poses = f"{name}_{part}", part == "pose"
+            for found, part in self._measurements(one, message):
                 self._fusion.take(
-                    key,
+                    f"{one.name}_{part}",
                     found,
-                    config,
-                    by_difference=poses and bool(self._tree.get(f"{name}_differential")),
-                    relative=poses and bool(self._tree.get(f"{name}_relative")),
-                    threshold=thresholds[part],
+                    one.config,
+                    by_difference=part == "pose" and one.is_differential,
+                    relative=part == "pose" and one.is_relative,
+                    threshold=one.thresholds[part],
                 )
 
-        node.create_subscription(str(self._tree[name]), _INPUTS[kind], on_message, queue_size=10)
+        node.create_subscription(one.topic, _TYPES[one.kind], on_message, queue_size=10)
 
-    def _measurements(self, name: str, kind: str, message: Any) -> list[tuple[Measurement, str]]:
+    def _measurements(self, one: _Input, message: Any) -> list[tuple[Measurement, str]]:
         stamp_ns = ns_of(message.header.stamp)
-        if kind == "odom":
+        if one.kind == "odom":
             return [
                 (measure_pose(message.pose, stamp_ns), "pose"),
                 (measure_twist(message.twist, stamp_ns), "twist"),
             ]
-        if kind == "pose":
+        if one.kind == "pose":
             return [(measure_pose(message.pose, stamp_ns), "pose")]
-        if kind == "twist":
+        if one.kind == "twist":
             return [(measure_twist(message.twist, stamp_ns), "twist")]
         frame = str(message.header.frame_id).removeprefix("/")
         T_base_imu = self._fusion.frames.between(self._base, frame)
         if isinstance(T_base_imu, str):
-            text = f"{name}: an IMU in frame '{frame}' is left out: {T_base_imu}"
-            self._fusion.frames.say("warn", text, key=name)
+            text = f"{one.name}: an IMU in frame '{frame}' is left out: {T_base_imu}"
+            self._fusion.frames.say("warn", text, key=one.name)
             return []
-        gravity = bool(self._tree.get(f"{name}_remove_gravitational_acceleration", False))
-        found = measure_imu(message, stamp_ns, T_base_imu, without_gravity=gravity)
+        found = measure_imu(message, stamp_ns, T_base_imu, without_gravity=one.without_gravity)
         turning = Measurement(stamp_ns, found.values, found.covariance, found.measured.copy())
         turning.measured[:6] = False
         found.measured[6:] = False
@@ -194,7 +232,7 @@ class _Localization:
         set_xyz(angular, state[9:12])
         message.twist.covariance = covariance[6:12, 6:12].ravel().tolist()
         self._out.publish(message)
-        if self._tree.get("publish_tf", True):
+        if self._sends_tf:
             self._send(pose, stamp_ns + self._offset_ns)
 
     def _send(self, pose: Pose, stamp_ns: int) -> None:

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
@@ -17,10 +16,9 @@ from gazelle.navigation.filters.ekf import Ekf
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.filters.fusing import Fusion
 from gazelle.nodes.filters.measuring import measure_imu, measure_pose
-from gazelle.nodes.filters.tables import POSE_EKF, report_pose_ekf
-from gazelle.nodes.findings import log_findings
-from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import parameter_tree, start_node, ticks
+from gazelle.nodes.filters.tables import POSE_EKF
+from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameters import start_node, ticks
 
 __all__ = ["run"]
 
@@ -34,14 +32,10 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Fuse measurements until told to stop."""
     node = start_node(arguments, graph)
     fusion = Fusion(node, Ekf())
-    told = Diagnostics()
-    tree = parameter_tree(node, arguments)
-    own = node_reader(POSE_EKF, tree, node.name, told)
-    base, parent = own.text("base_footprint_frame"), own.text("output_frame")
-    period_ns = int(1e9 / max(own.number("freq"), 0.1))
-    used = frozenset(key for key in _INPUTS if own.flag(key))
-    report_pose_ekf(tree, node.name, told)
-    log_findings(node, told)
+    with private_parameters(node, arguments, POSE_EKF) as own:
+        base, parent = own.text("base_footprint_frame"), own.text("output_frame")
+        period_ns = int(1e9 / own.number("freq"))
+        used = frozenset(key for key in _INPUTS if own.flag(key))
     _connect(node, used, fusion, base)
     kind: Any = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")
     out = node.create_publisher("~/odom_combined", kind)
