@@ -256,3 +256,38 @@ def test_robot_that_is_none_ends_the_node(bench: Any) -> None:
     words = ["--ros-args", "-p", "robot_description:='<robot'"]
     bench.start(_NODE, *words)
     assert bench.wait() == [1]
+
+
+def test_unknown_parameters_are_told_and_those_of_controllers_are_none(
+    bench: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "controllers.yaml"
+    file.write_text(
+        _PARAMETERS.replace("update_rate: 200", "upd_rate: 200\n    arm.params_file: [a.yaml]")
+        .replace("arm: {type:", "slow: {tpye:")
+    )  # fmt: skip
+    _publish(bench, "mock_components/GenericSystem")
+    bench.start(_NODE, "--ros-args", "--params-file", str(file), "-p", "lock_memory:=false")
+    _hardware(bench)
+    assert bench.stop() == [0]
+    captured = capsys.readouterr()
+    told = [
+        line for line in (captured.out + captured.err).splitlines() if "it has no effect" in line
+    ]
+    assert len(told) == 2
+    assert "parameter 'upd_rate' is not one of ros2_control_node; it has no effect" in told[0]
+    assert "parameter 'slow.tpye' is not one of ros2_control_node; it has no effect" in told[1]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [("fast", "'/controller_manager/update_rate' is 'fast', not a number"),
+                        ("0", "parameter 'update_rate' is 0 Hz; it must be more than 0")],
+)  # fmt: skip
+def test_update_rate_that_is_none_ends_the_node(
+    bench: Any, value: str, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    _publish(bench, "mock_components/GenericSystem")
+    bench.start(_NODE, "--ros-args", "-p", f"update_rate:={value}")
+    assert bench.wait() == [1]
+    captured = capsys.readouterr()
+    assert text in captured.out + captured.err

@@ -26,6 +26,7 @@ CONTROL = (
         entry="gazelle.nodes.ros2_control_node:run",
         does="runs controllers on mock hardware, without a simulation",
         is_light=False,
+        parameters="gazelle.nodes.ros2_control_node:PARAMETERS",
         name="controller_manager",
         services=(
             offers("~cleanup_controller", "controller_manager_msgs/srv/CleanupController"),

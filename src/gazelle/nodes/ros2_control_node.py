@@ -3,16 +3,6 @@
 MoveIt's demo launch files start it. Of hardware it has ``mock_components/GenericSystem``; drivers
 of real robots are compiled code, whose place it takes where ``GAZELLE_MOCK_HARDWARE`` is 1, and
 Gazebo's systems live in a world.
-
-| parameter | default | meaning |
-| --- | --- | --- |
-| update_rate | 100 | Hz |
-| robot_description | | else the topics ``robot_description`` and ``~/robot_description`` |
-| hardware_components_initial_state.unconfigured | | components that are only loaded |
-| hardware_components_initial_state.inactive | | components that are read, not written |
-| defaults.allow_controller_activation_with_inactive_hardware | false | they take commands |
-
-Those of the controllers are in the same files.
 """
 
 from __future__ import annotations
@@ -36,8 +26,10 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private_number, start_node
+from gazelle.nodes.parameter_reading import number_or_end, private_parameters
+from gazelle.nodes.parameters import start_node
 from gazelle.nodes.tree import DESCRIPTION, read_description
+from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.simulator.commands import CommandQueue, telling
 from gazelle.simulator.control_ports import make_ports, offer_manager
 from gazelle.simulator.control_registry import ControlRegistry
@@ -45,9 +37,76 @@ from gazelle.simulator.inputs import Inputs
 from gazelle.simulator.plugins.context import Resources
 from gazelle.workspace import Workspace
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
 
-_RATE_HZ = 100.0
+_ALLOW_INACTIVE = "defaults.allow_controller_activation_with_inactive_hardware"
+_NAMED = "read for the controller before those of the node's own files"
+
+PARAMETERS = ParameterTable(
+    "ros2_control_node",
+    "Runs controllers on mock hardware, without a simulation. Parameters of the"
+    " [controllers](controllers.md) are in the same files, below their own names.",
+    ("controller_manager/ros2_control_node",),
+    (
+        Parameter(
+            "update_rate", "number", 100.0, "how often controllers run; none ends the node", "Hz"
+        ),
+        Parameter(
+            "robot_description",
+            "text",
+            None,
+            "the robot; else the topics `robot_description` and `~/robot_description`",
+        ),
+        Parameter(
+            "hardware_components_initial_state.unconfigured",
+            "texts",
+            (),
+            "components that are only loaded",
+        ),
+        Parameter(
+            "hardware_components_initial_state.inactive",
+            "texts",
+            (),
+            "components that are read, not written",
+        ),
+        Parameter(
+            "configure_components_on_start",
+            "texts",
+            None,
+            "components that are read, not written, as in Humble",
+        ),
+        Parameter(
+            "activate_components_on_start",
+            "texts",
+            None,
+            "components that are active, others are only loaded, as in Humble",
+        ),
+        Parameter(
+            _ALLOW_INACTIVE, "flag", False, "controllers claim commands of inactive hardware"
+        ),
+        Parameter("<controller>.type", "text", None, "class of a controller"),
+        Parameter("<controller>.params_file", "texts", (), f"files that are {_NAMED}"),
+        Parameter("<controller>.node_options_args", "texts", (), f"`--ros-args` that are {_NAMED}"),
+        *refused(
+            "a controller that fails is stopped, no other takes its place",
+            "<controller>.fallback_controllers",
+        ),
+        *refused("a controller that fails is stopped, others go on", "handle_exceptions"),
+        *refused("`<limits enable>` of the description says it", "enforce_command_limits"),
+        *refused(
+            "the loop has no priority of its own", "cpu_affinity", "lock_memory", "thread_priority"
+        ),
+        *refused("updates that are late are left out", "overruns"),
+        *refused("times of the loop are not published", "diagnostics"),
+        *refused(
+            "mock hardware does not fail",
+            "defaults.deactivate_controllers_on_hardware_self_deactivate",
+            "hardware_components_initial_state.shutdown_on_initial_state_failure",
+        ),
+        *refused("a switch happens at once, as it was asked for", "defaults.switch_controller"),
+    ),
+)
+
 _LOOK_S = 0.1
 
 
@@ -126,7 +185,11 @@ def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading
     commands = CommandQueue(telling(node.log))
     host: Any = _Host(_Clock(node), node, Diagnostics(), Workspace.discover(), commands)
     name = node.name.rpartition("/")[2]
-    rate_hz = private_number(node, arguments, "update_rate", _RATE_HZ)
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        rate_hz = number_or_end(own, "update_rate")
+        takes_inactive = own.flag(_ALLOW_INACTIVE)
+    if not rate_hz > 0:
+        raise LaunchError(f"parameter 'update_rate' is {rate_hz:g} Hz; it must be more than 0")
     given = {key.replace("/", "."): value for key, value in arguments.params.items()}
     source = FileSource(
         arguments.parameter_files,
@@ -151,6 +214,7 @@ def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading
         clock=node.clock.now_ns,
     )
     resources = Resources(host)
+    robot.lifecycle.takes_inactive = takes_inactive
     _set_initial_states(node, robot, source.manager_tree())
     offer_manager(manager, host, resources, name=name)
     render([one for one in host.diagnostics if one.severity >= Severity.WARNING])
@@ -162,10 +226,6 @@ def _control(node: Node, arguments: NodeArguments, model: Model, stop: threading
 
 def _set_initial_states(node: Node, robot: Robot, tree: Mapping[str, Any]) -> None:
     """Bring the components into the states that the manager's parameters name."""
-    defaults = tree.get("defaults")
-    if isinstance(defaults, Mapping):
-        allowed = defaults.get("allow_controller_activation_with_inactive_hardware")
-        robot.lifecycle.takes_inactive = allowed is True
     for name, state in initial_states(tree, [one.name for one in robot.components]):
         if state is None and name in robot.absent.values():
             # Its class is not here, which is an error of its own.
