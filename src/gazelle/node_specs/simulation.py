@@ -102,6 +102,7 @@ SIMULATION = (
         entry="gazelle.nodes.ros_gz.create:run",
         does="puts a model into the running world, the new Gazebo's way",
         is_light=True,
+        parameters="gazelle.nodes.ros_gz.create:PARAMETERS",
         aliases=(NodeName("ros_ign_gazebo", "create", ROS_2),),
         name="ros_gz_sim",
     ),
@@ -112,6 +113,7 @@ SIMULATION = (
         entry="gazelle.nodes.ros_gz.remove:run",
         does="takes a model out of the running world, the new Gazebo's way",
         is_light=True,
+        parameters="gazelle.nodes.ros_gz.remove:PARAMETERS",
         name="ros_gz_sim_remove_entity",
     ),
     NodeSpec(
@@ -121,6 +123,7 @@ SIMULATION = (
         entry="gazelle.nodes.ros_gz.server:run",
         does="a world of the new Gazebo",
         is_light=False,
+        parameters="gazelle.nodes.ros_gz.server:PARAMETERS",
         name="gazebo",
         role=NodeRole.SIMULATOR,
         topics=(
@@ -139,6 +142,7 @@ SIMULATION = (
         entry="gazelle.nodes.ros_gz.parameter_bridge:run",
         does="passes topics of the new Gazebo on under names of ROS",
         is_light=True,
+        parameters="gazelle.nodes.ros_gz.parameter_bridge:PARAMETERS",
         aliases=(
             NodeName("ros_ign_bridge", "parameter_bridge", ROS_2),
             NodeName("ros_gz_bridge", "bridge_node", ROS_2),
@@ -154,6 +158,7 @@ SIMULATION = (
         entry="gazelle.nodes.ros_gz.parameter_bridge:run_image",
         does="passes images of the new Gazebo on",
         is_light=True,
+        parameters="gazelle.nodes.ros_gz.parameter_bridge:IMAGE_PARAMETERS",
         aliases=(NodeName("ros_ign_image", "image_bridge", ROS_2),),
         name="ros_gz_image",
     ),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 
+from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.ros2_console import print_ros2
@@ -12,7 +13,12 @@ __all__ = ["run"]
 
 
 def run(
-    arguments: NodeArguments, graph: Graph, stop: threading.Event, *, falls_back: bool = True
+    arguments: NodeArguments,
+    graph: Graph,
+    stop: threading.Event,
+    *,
+    falls_back: bool = True,
+    found: Diagnostics | None = None,
 ) -> int:
     """Run a world until told to stop.
 
@@ -21,9 +27,10 @@ def run(
         graph: where topics and services go.
         stop: set to end it.
         falls_back: run the empty world where the named one is not found.
+        found: what is wrong with its parameters already, to be told with the rest.
     """
     from gazelle.simulator.server_main import serve
 
     if arguments.generation == 2:
         graph.console = print_ros2
-    return serve(arguments, graph, stop, falls_back=falls_back)
+    return serve(arguments, graph, stop, falls_back=falls_back, found=found)

@@ -61,7 +61,12 @@ class _Arguments(Protocol):
 
 
 def serve(
-    arguments: _Arguments, graph: Graph, stop: threading.Event, *, falls_back: bool = True
+    arguments: _Arguments,
+    graph: Graph,
+    stop: threading.Event,
+    *,
+    falls_back: bool = True,
+    found: Diagnostics | None = None,
 ) -> int:
     """Run a world on a graph until told to stop.
 
@@ -70,11 +75,12 @@ def serve(
         graph: where topics and services go.
         stop: set from outside (signals) to end.
         falls_back: run the empty world where the named one is not found, as Gazebo Classic does.
+        found: of whoever calls, to be told with the rest.
 
     Returns:
         the exit code: 0, or 1 when the world cannot be read or the physics diverged.
     """
-    diagnostics = Diagnostics()
+    diagnostics = Diagnostics() if found is None else found
     options = read_server_options(arguments.rest, diagnostics)
     if options.shows_help or options.shows_version:
         sys.stdout.write(HELP if options.shows_help else f"Gazelle {__version__}\n")

@@ -133,6 +133,22 @@ def test_lazy_bridge_listens_only_while_somebody_listens_to_it(bench: Any) -> No
     bench.eventually(lambda: got)
 
 
+def test_a_text_that_says_false_is_no_laziness_and_slips_are_told(bench: Any) -> None:
+    said = _logged(bench)
+    bench.start(
+        _BRIDGE, "/a@std_msgs/msg/String[gz.msgs.StringMsg",
+        "--ros-args", "-r", "/a:=/b", "-p", "lazy:='false'", "-p", "config_fil:=b.yaml",
+        "-p", "override_timestamps_with_wall_time:=true", "-p", "override_frame_id:=''",
+    )  # fmt: skip
+    expected = [
+        "parameter 'config_fil' is not one of parameter_bridge; it has no effect",
+        "'override_timestamps_with_wall_time' (True) has no effect here: stamps stay",
+        "Creating GZ->ROS Bridge: [/a (gz.msgs.StringMsg) -> /b (std_msgs/msg/String)] (Lazy 0)",
+    ]
+    bench.eventually(lambda: all(any(text in one.msg for one in said) for text in expected))
+    assert not any("override_frame_id" in one.msg for one in said)
+
+
 def test_service_of_a_world_is_offered(bench: Any) -> None:
     kind: Any = service_type("ros_gz_interfaces/srv/ControlWorld")
     asked: list[Any] = []

@@ -69,6 +69,27 @@ def test_renaming_is_allowed_in_every_spelling_of_gflags(
     assert sim.model("crate_1").name == "crate_1"
 
 
+def test_a_text_that_says_false_allows_no_renaming(bench: Any, sim: Simulation) -> None:
+    assert _run(bench, "-name", "crate", "-string", _BOX) == [0]
+    flags = ["-name", "crate", "-string", _BOX, "--ros-args", "-p", "allow_renaming:='false'"]
+    assert _run(bench, *flags) == [0, 1]
+    assert not any(model.name == "crate_1" for model in sim.server.engine.world.models)
+
+
+def test_parameters_are_told_by_name_where_they_are_unknown_or_no_numbers(
+    bench: Any, sim: Simulation
+) -> None:
+    said = bench.listen("/rosout", "rcl_interfaces/msg/Log")
+    assert _run(bench, "-string", _BOX, "--ros-args", "-p", "x:=east") == [1]
+    assert _run(bench, "-string", _BOX, "--ros-args", "-p", "nam:=crate") == [1, 0]
+    expected = [
+        "the parameter 'x' is no number: 'east'",
+        "parameter 'nam' is not one of create; it has no effect",
+    ]
+    bench.eventually(lambda: all(any(text in one.msg for one in said) for text in expected))
+    assert [model.name for model in sim.server.engine.world.models] == ["ground_plane", "box"]
+
+
 def test_remove_takes_a_model_out_of_the_world(bench: Any, sim: Simulation) -> None:
     assert _run(bench, "-name", "crate", "-string", _BOX) == [0]
     bench.start("ros_gz_sim/remove", "--ros-args", "-p", "entity_name:=crate")

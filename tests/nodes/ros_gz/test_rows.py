@@ -55,10 +55,12 @@ def test_wrong_entries_are_told_with_their_place_and_the_rest_is_read(tmp_path: 
         f"- {{topic_name: a, ros_topic_name: b, {types}}}\n- {{topic_name: a}}\n- 3\n"
         f"- {{topic_name: a, {types}, direction: GZ_TO_ROSE}}\n- {{{types}}}\n"
         f"- {{topic_name: a, {types}, publisher_queue: many}}\n- {{topic_nam: a, {types}}}\n"
-        f"- {{topic_name: good, {types}}}\n"
+        f"- {{topic_name: a, {types}, lazy: seldom}}\n"
+        f"- {{topic_name: good, {types}, lazy: 'false'}}\n"
     )
     rows, wrong = read_file(path)
-    assert [row.gz_topic for row in rows if isinstance(row, TopicRow)] == ["good"]
+    topics = [row for row in rows if isinstance(row, TopicRow)]
+    assert [(row.gz_topic, row.lazy) for row in topics] == [("good", False)]
     expected = [
         "topic_name and ros_topic_name are mutually exclusive",
         "both ros_type_name and gz_type_name must be set",
@@ -67,6 +69,7 @@ def test_wrong_entries_are_told_with_their_place_and_the_rest_is_read(tmp_path: 
         "one of topic_name, ros_topic_name and gz_topic_name must be set",
         "publisher_queue is a whole number, not 'many'",
         "'topic_nam' is not read; did you mean 'topic_name'",
+        "lazy is true or false, not 'seldom'",
     ]
     for number, text in enumerate(expected, 1):
         assert any(text in line and f"entry {number}" in line for line in wrong), text

@@ -1,8 +1,7 @@
 """``ros_gz_sim/create``: puts a model into the running world.
 
-Its options are flags (`gazelle.nodes.gflags`) or parameters of the same names:
-world, file, string, topic, name, allow_renaming, x, y, z, R, P, Y; ``-param`` names a parameter
-that holds the model.
+Its options are flags (`gazelle.nodes.gflags`) or parameters of the same names; ``-param`` names a
+parameter that holds the model.
 """
 
 from __future__ import annotations
@@ -19,19 +18,38 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import set_pose
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.gflags import Kind, read_flags
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.nodes.ros_gz.models import model_text
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.coercion import number_of
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
 
-_TEXTS = ("world", "file", "param", "string", "topic", "name")
-_NUMBERS = ("x", "y", "z", "R", "P", "Y")
-_RENAMING = "allow_renaming"
-_FLAGS: dict[str, Kind] = {
-    **dict.fromkeys(_TEXTS, "string"),
-    **dict.fromkeys(_NUMBERS, "double"),
-    _RENAMING: "bool",
-}
+PARAMETERS = ParameterTable(
+    "create",
+    "Puts a model into the running world, and ends. Flags of the same names count where these are"
+    " empty, 0 or false. What should be a number and is none ends it with an error.",
+    ("ros_gz_sim/create",),
+    (
+        Parameter("world", "text", "", "the world's name, of which there is one"),
+        Parameter("file", "text", "", "the model: a file, a folder or an address"),
+        Parameter("param", "text", "", "the parameter of this node that holds the model"),
+        Parameter("string", "text", "", "the model itself"),
+        Parameter("topic", "text", "", "the topic that tells the model"),
+        Parameter("name", "text", "", "what the model is called here"),
+        Parameter("allow_renaming", "flag", False, "a number is added where the name is taken"),
+        Parameter("x", "number", 0.0, "where it stands in the world", "m"),
+        Parameter("y", "number", 0.0, "the same to the left", "m"),
+        Parameter("z", "number", 0.0, "the same upwards", "m"),
+        Parameter("R", "number", 0.0, "how it is turned about x", "rad"),
+        Parameter("P", "number", 0.0, "how it is turned about y", "rad"),
+        Parameter("Y", "number", 0.0, "how it is turned about z", "rad"),
+    ),
+)
+
+_KINDS: dict[str, Kind] = {"text": "string", "number": "double", "flag": "bool"}
+_FLAGS = {row.key: _KINDS[row.kind] for row in PARAMETERS.rows}
 _USAGE = (
     "usage: create -world [arg] [-file FILE] [-param PARAM] [-topic TOPIC] [-string STRING] "
     "[-name NAME] [-allow_renaming RENAMING] [-x X] [-y Y] [-z Z] [-R ROLL] [-P PITCH] [-Y YAW]"
@@ -52,7 +70,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
             _USAGE,
             on_unknown=lambda message: node.log("warn", f"{message}; it has no effect"),
         )
-        return _create(node, _options(node, arguments, flags), arguments, stop)
+        options = _options(node, arguments, flags)
+        return _create(node, options, stop)
     except GazelleError as error:
         node.log("error", str(error))
         return 1
@@ -61,26 +80,23 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 
 def _options(node: Node, arguments: NodeArguments, flags: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what parameters say, and flags where they say nothing."""
-    found: dict[str, Any] = {}
-    for name in _TEXTS:
-        found[name] = str(private(node, arguments, name, "") or flags.get(name, ""))
-    for name in _NUMBERS:
-        given = private(node, arguments, name, 0.0) or flags.get(name, 0.0)
-        try:
-            found[name] = float(given)
-        except (TypeError, ValueError):
-            raise LaunchError(f"the parameter '{name}' is no number: '{given}'") from None
-    found[_RENAMING] = bool(private(node, arguments, _RENAMING, False)) or bool(
-        flags.get(_RENAMING, False)
-    )
-    return found
+    """Return what parameters say, and flags where they say nothing; ``model`` is what one holds."""
+    place = str(parameter_tree(node, arguments).get("param") or flags.get("param") or "")
+    key = place.replace("/", ".")
+    rows = (Parameter(key, "text", "", "the model"),) if key else ()
+    with private_parameters(node, arguments, PARAMETERS.plus(rows)) as own:
+        for row in PARAMETERS.rows:
+            given = own.raw(row.key, row.default)
+            if row.kind == "number" and number_of(given) is None:
+                raise LaunchError(f"the parameter '{row.key}' is no number: '{given}'")
+        found = {
+            row.key: own.value(row) or flags.get(row.key, row.default) for row in PARAMETERS.rows
+        }
+        return {**found, "param": place, "model": own.text(key) if key else ""}
 
 
-def _create(
-    node: Node, options: Mapping[str, Any], arguments: NodeArguments, stop: threading.Event
-) -> int:
-    text = _text(node, options, arguments, stop)
+def _create(node: Node, options: Mapping[str, Any], stop: threading.Event) -> int:
+    text = _text(node, options, stop)
     # A world's services come one after the other; both are called.
     for service, its_kind in (_SPAWN, _PROPERTIES):
         if not _wait(node, service, its_kind, stop):
@@ -101,16 +117,13 @@ def _create(
     return 0
 
 
-def _text(
-    node: Node, options: Mapping[str, Any], arguments: NodeArguments, stop: threading.Event
-) -> str:
+def _text(node: Node, options: Mapping[str, Any], stop: threading.Event) -> str:
     if options["file"]:
         return model_text(options["file"])
     if options["param"]:
-        text = str(private(node, arguments, options["param"], ""))
-        if not text:
+        if not options["model"]:
             raise LaunchError(f"Failed to get XML from param [{options['param']}].")
-        return text
+        return str(options["model"])
     if options["string"]:
         return str(options["string"])
     if options["topic"]:
@@ -139,7 +152,7 @@ def _from_topic(node: Node, topic: str, stop: threading.Event) -> str:
 def _name(node: Node, options: Mapping[str, Any]) -> str:
     """Return the model's name, with a number behind it where it is taken and may be changed."""
     wanted = str(options["name"])
-    if not wanted or not options[_RENAMING]:
+    if not wanted or not options["allow_renaming"]:
         return wanted
     kind: Any = service_type(_PROPERTIES[1])
     client = node.create_client(offered_name(node.graph, _PROPERTIES[0]), kind)

@@ -4,9 +4,6 @@ In Gazelle both live on one graph: what a plug-in of the new Gazebo publishes ha
 Gazebo and the type of ROS that the bridge pairs with it. So a topic that keeps its name needs
 nothing; one that is renamed (``-r``, or two names in the file) is passed on, but for a world's
 clock, which is on ``/clock`` anyway.
-
-Parameters: ``config_file``, ``lazy`` (false), ``expand_gz_topic_names`` (false);
-``override_timestamps_with_wall_time`` is told to have no effect.
 """
 
 from __future__ import annotations
@@ -17,13 +14,42 @@ from pathlib import Path
 
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameters import start_node
 from gazelle.nodes.ros_gz.pairs import full_ros_type, is_pair, pair_error
 from gazelle.nodes.ros_gz.relay import End, Relay
 from gazelle.nodes.ros_gz.rows import Direction, ServiceRow, TopicRow, read_file, read_word
 from gazelle.nodes.ros_gz.services import offer
+from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["run", "run_image"]
+__all__ = ["IMAGE_PARAMETERS", "PARAMETERS", "run", "run_image"]
+
+_ROWS = (
+    Parameter("lazy", "flag", False, "listen only while somebody listens to what comes out"),
+    Parameter(
+        "expand_gz_topic_names", "flag", False, "names of Gazebo begin with the node's namespace"
+    ),
+    *refused("stamps stay", "override_timestamps_with_wall_time", unless=False),
+    *refused("frames stay", "override_frame_id", unless=""),
+)
+PARAMETERS = ParameterTable(
+    "parameter_bridge",
+    "Passes topics of the new Gazebo on under names of ROS, and services.",
+    ("ros_gz_bridge/parameter_bridge",),
+    (
+        Parameter("config_file", "text", "", "a YAML file of what is bridged, besides the words"),
+        *_ROWS,
+        *refused("messages are passed on as they come", "subscription_heartbeat", unless=1000),
+        *refused("write them in config_file, or as words", "bridge_names", "bridges.<name>"),
+    ),
+)
+IMAGE_PARAMETERS = ParameterTable(
+    "image_bridge",
+    "Passes images of the new Gazebo on.",
+    ("ros_gz_image/image_bridge",),
+    (*_ROWS, *refused("publishers suit whoever listens", "qos", unless="default")),
+)
 
 _LOOK_S = 0.2
 _CLOCK = "/clock"
@@ -34,32 +60,30 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Bridge what the words and the file say until told to stop."""
     rows = [read_word(word) for word in arguments.rest]
     node = start_node(arguments, graph)
-    file = str(private(node, arguments, "config_file", ""))
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        file, gz, lazy = own.text("config_file"), _gazebo_side(node, own), own.flag("lazy")
     if file:
         found, wrong = read_file(Path(file))
         rows += found
         for text in wrong:
             node.log("error", text)
-    return _bridge(node, arguments, rows, stop)
+    return _bridge(node, gz, [_with_laziness(row, lazy=lazy) for row in rows], stop)
 
 
 def run_image(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Bridge the topics of images that the words name (``ros_gz_image/image_bridge``)."""
     node = start_node(arguments, graph)
     rows = [TopicRow(word, word, *_IMAGE, Direction.GZ_TO_ROS) for word in arguments.rest]
-    return _bridge(node, arguments, list(rows), stop)
+    with private_parameters(node, arguments, IMAGE_PARAMETERS) as own:
+        gz, lazy = _gazebo_side(node, own), own.flag("lazy")
+    return _bridge(node, gz, [_with_laziness(row, lazy=lazy) for row in rows], stop)
 
 
-def _bridge(
-    node: Node,
-    arguments: NodeArguments,
-    rows: list[TopicRow | ServiceRow],
-    stop: threading.Event,
-) -> int:
-    if private(node, arguments, "override_timestamps_with_wall_time", False):
-        node.log("warn", "override_timestamps_with_wall_time has no effect: stamps stay")
-    lazy = bool(private(node, arguments, "lazy", False))
-    gz = _gazebo_side(node, bool(private(node, arguments, "expand_gz_topic_names", False)))
+def _with_laziness(row: TopicRow | ServiceRow, *, lazy: bool) -> TopicRow | ServiceRow:
+    return row if isinstance(row, ServiceRow) else replace(row, lazy=row.lazy or lazy)
+
+
+def _bridge(node: Node, gz: Node, rows: list[TopicRow | ServiceRow], stop: threading.Event) -> int:
     relays: list[Relay] = []
     for row in rows:
         if isinstance(row, ServiceRow):
@@ -67,7 +91,7 @@ def _bridge(
         elif not is_pair(row.ros_type, row.gz_type):
             node.log("error", f"Failed to create a bridge: {pair_error(row.ros_type, row.gz_type)}")
         else:
-            relays += _relays(node, gz, replace(row, lazy=row.lazy or lazy))
+            relays += _relays(node, gz, row)
     if not rows:
         node.log("warn", "nothing to bridge: neither words nor config_file name a topic")
     while not stop.wait(_LOOK_S):
@@ -78,9 +102,9 @@ def _bridge(
     return 0
 
 
-def _gazebo_side(node: Node, expands: bool) -> Node:
+def _gazebo_side(node: Node, own: ParameterReader) -> Node:
     """Return a hidden node for the names of Gazebo, which remaps do not change."""
-    space = node.namespace if expands else "/"
+    space = node.namespace if own.flag("expand_gz_topic_names") else "/"
     name = f"_{node.name.rpartition('/')[2]}_gz"
     return node.graph.create_node(name, namespace=space, rosout=False, is_ros2=True)
 

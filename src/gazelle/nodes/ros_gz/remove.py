@@ -1,7 +1,4 @@
-"""``ros_gz_sim/remove``: takes a model out of the running world.
-
-Parameters: ``entity_name``, ``world`` (there is one).
-"""
+"""``ros_gz_sim/remove``: takes a model out of the running world."""
 
 from __future__ import annotations
 
@@ -13,9 +10,21 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.world import offered_name
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameters import start_node
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
+
+PARAMETERS = ParameterTable(
+    "remove",
+    "Takes a model out of the running world, and ends.",
+    ("ros_gz_sim/remove",),
+    (
+        Parameter("entity_name", "text", "", "the model's name"),
+        Parameter("world", "text", "", "the world's name, of which there is one"),
+    ),
+)
 
 _SERVICE = "/gazebo/delete_model"
 _WAIT_S = 5.0
@@ -26,8 +35,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Remove a model, say how it went, and end."""
     node = start_node(arguments, graph)
     try:
-        private(node, arguments, "world", "")
-        name = str(private(node, arguments, "entity_name", ""))
+        with private_parameters(node, arguments, PARAMETERS) as own:
+            name = own.text("entity_name")
         if not name:
             node.log("info", "Entity to remove name is not provided, entity will not be removed.")
             return _NO_NAME

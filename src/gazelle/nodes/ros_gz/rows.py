@@ -13,6 +13,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.errors import LaunchError
+from gazelle.parameters.coercion import flag_of
 
 __all__ = ["Direction", "ServiceRow", "TopicRow", "read_file", "read_word"]
 
@@ -136,7 +137,7 @@ def _row(row: Any, wrong: list[str], place: str) -> TopicRow | ServiceRow:
         text["gz_type_name"],
         _direction(text["direction"]),
         _whole(row.get("publisher_queue", 10), "publisher_queue"),
-        bool(row.get("lazy", False)),
+        _truth(row.get("lazy", False), "lazy"),
     )
 
 
@@ -145,6 +146,13 @@ def _direction(word: str) -> Direction:
         known = ", ".join(Direction.__members__)
         raise ValueError(f"invalid direction [{word}]; there are {known}")
     return Direction[word] if word else Direction.BIDIRECTIONAL
+
+
+def _truth(value: Any, name: str) -> bool:
+    found = flag_of(value)
+    if found is None:
+        raise ValueError(f"{name} is true or false, not {value!r}")
+    return found
 
 
 def _whole(value: Any, name: str) -> int:
