@@ -86,6 +86,20 @@ def test_send_goal_prints_feedback_result_and_status(
     assert rest.replace(feedback, "").endswith(f"\n\n{result}")
 
 
+def test_send_goal_shows_long_texts_in_one_line(robot: Node, ros2_action: Any) -> None:
+    reason = "the hand did not come to where it was sent; " * 4 + "it stands"
+
+    def abort(goal: ServerGoal) -> None:
+        goal.accept()
+        goal.abort({"error_code": -4, "error_string": reason})
+
+    kind = "control_msgs/action/FollowJointTrajectory"
+    one = ActionServer(robot, "follow", kind, on_goal=abort, generation=2)
+    _, text, _ = ros2_action("send_goal", "follow", kind, "{}")
+    one.close()
+    assert f"Result:\n    error_code: -4\nerror_string: {reason}\n" in text
+
+
 def test_send_goal_tells_rejection_and_wrong_fields(server: ActionServer, ros2_action: Any) -> None:
     assert ros2_action("send_goal", "fibonacci", KIND, "{order: -1}")[1].endswith(
         "Goal was rejected.\n"

@@ -10,13 +10,13 @@ from typing import Any
 from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.text.ros2_filling import yaml_values
+from gazelle.cli.text.ros2_text import message_yaml
 from gazelle.cli.tool import ToolError
 from gazelle.diagnostics import did_you_mean
-from gazelle.documents.yaml import dump_yaml
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, ActionInfo, ClientGoal, CommState
-from gazelle.interfaces import action_type, fill, to_plain
+from gazelle.interfaces import action_type, fill
 
 __all__ = ["main"]
 
@@ -128,13 +128,13 @@ def _send_goal(options: argparse.Namespace, graph: Graph) -> int:
     client = ActionClient(node, options.action_name, kind)
     print("Waiting for an action server to become available...", flush=True)
     _wait_for_server(client, node)
-    print(f"Sending goal:\n     {_yaml(goal)}", flush=True)
+    print(f"Sending goal:\n     {message_yaml(goal)}", flush=True)
     is_told = threading.Event()
 
     def show(feedback: Any) -> None:
         # Feedback may overtake the answer that the goal was accepted.
         is_told.wait()
-        print(f"Feedback:\n    {_yaml(feedback)}", flush=True)
+        print(f"Feedback:\n    {message_yaml(feedback)}", flush=True)
 
     return _follow(client.send_goal(goal, on_feedback=show if options.feedback else None), is_told)
 
@@ -174,13 +174,9 @@ def _follow(goal: ClientGoal, is_told: threading.Event) -> int:
         return 0
     if goal.result is None:
         raise ToolError(f"Exception while getting result: {goal.text}")
-    print(f"Result:\n    {_yaml(goal.result)}")
+    print(f"Result:\n    {message_yaml(goal.result)}")
     print(f"Goal finished with status: {goal.status.name}")
     return 0
-
-
-def _yaml(message: Any) -> str:
-    return dump_yaml(to_plain(message), sort_keys=False, allow_unicode=True)
 
 
 def _global(name: str) -> str:
