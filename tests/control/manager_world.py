@@ -18,7 +18,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.simulator.control_ports import make_ports, offer_manager
 from gazelle.simulator.plugins.context import Resources
-from gazelle.simulator.world_server import WorldServer
+from gazelle.simulator.world_server import ServerSettings, WorldServer
 
 
 @contextmanager
@@ -34,7 +34,7 @@ def manager_world(
     monkeypatch.setattr(registry, "_by_type", lambda: {RECORDER: Recorder})
     wanted = controllers or {"left": {"joint": "left"}, "right": {"joint": "right"}}
     node = graph.create_node("gazebo")
-    server = WorldServer(World(), node=node, paused=True)
+    server = WorldServer(World(), node=node, settings=ServerSettings(paused=True))
     resources = Resources(server)
     source: Any
     if generation == 1:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from gazelle.errors import GraphError
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
+from gazelle.graph.node_parameters import Descriptor, NodeParameters, ParameterPolicy
 from gazelle.graph.parameter_values import (
     ParameterType,
     parameter_type,
@@ -158,7 +158,7 @@ def test_declaring_undeclaring_and_own_changes_are_announced() -> None:
 
 
 def test_undeclared_names_may_be_allowed() -> None:
-    _, parameters, events = _node(allow_undeclared=True)
+    _, parameters, events = _node(policy=ParameterPolicy(allow_undeclared=True))
     assert parameters.set({"fresh": [1.0]}) == ""
     assert parameters.values["fresh"] == [1.0]
     assert events[0].new_parameters[0].name == "fresh"

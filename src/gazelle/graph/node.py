@@ -17,7 +17,7 @@ from gazelle.graph.names import check_name, remap, resolve
 from gazelle.graph.parameters import ParameterStore
 from gazelle.graph.publisher import Publisher
 from gazelle.graph.service import ServiceClient, ServiceServer
-from gazelle.graph.subscription import Subscription
+from gazelle.graph.subscription import Delivery, Subscription
 from gazelle.interfaces.stamps import set_stamp
 
 if TYPE_CHECKING:
@@ -150,7 +150,7 @@ class Node:
         )
         return self._keep(made)
 
-    def create_subscription(
+    def create_subscription(  # noqa: PLR0913 - users give all by keyword
         self,
         topic: str,
         message_type: Any,
@@ -182,6 +182,7 @@ class Node:
         any_type = announced or ANY_TYPE
         type_name = any_type if message_class is None else wire.type_name_of(message_class)
         told = qos or Qos(depth=queue_size)
+        delivery = Delivery(raw, with_info, inline, queue_size, qos is None or qos.latched)
         entity = self._entity(Kind.SUBSCRIPTION, topic, type_name, message_class, qos=told)
         return self._keep(
             Subscription(
@@ -189,11 +190,7 @@ class Node:
                 entity,
                 message_class,
                 callback,
-                raw=raw,
-                with_info=with_info,
-                inline=inline,
-                queue_size=queue_size,
-                takes_latched=qos is None or qos.latched,
+                delivery=delivery,
                 on_error=self._on_error,
                 on_warning=self._on_warning,
                 is_mute=self._is_mute(),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import wire
@@ -17,7 +17,7 @@ from gazelle.graph.parameter_values import (
 )
 from gazelle.interfaces.stamps import set_stamp
 
-__all__ = ["Descriptor", "NodeParameters"]
+__all__ = ["Descriptor", "NodeParameters", "ParameterPolicy"]
 
 
 class _Closable(Protocol):
@@ -62,6 +62,23 @@ class Descriptor:
 _PLAIN = Descriptor()
 
 
+class ParameterPolicy(NamedTuple):
+    """What others may do with the parameters of a node.
+
+    Attributes:
+        allow_undeclared: setting a name that is not declared declares it.
+        is_strict: 3 is refused for 3.0, in rclpy's words.
+        has_services: others can ask and set; changes are told in any case.
+    """
+
+    allow_undeclared: bool = False
+    is_strict: bool = False
+    has_services: bool = True
+
+
+_USUAL_POLICY = ParameterPolicy()
+
+
 def _at_once(command: Callable[[], Any]) -> Any:
     return command()
 
@@ -82,11 +99,9 @@ class NodeParameters:
         on_set: Callable[[dict[str, Any]], str] = lambda changes: "",
         *,
         descriptors: Mapping[str, Descriptor] | None = None,
-        allow_undeclared: bool = False,
-        strict: bool = False,
+        policy: ParameterPolicy = _USUAL_POLICY,
         run: Callable[[Callable[[], Any]], Any] = _at_once,
         now_ns: Callable[[], int] = lambda: 0,
-        services: bool = True,
     ) -> None:
         """Offer the services.
 
@@ -96,24 +111,21 @@ class NodeParameters:
             values: declared parameters.
             on_set: hears changes before they count; returns why they are refused, or nothing.
             descriptors: what is said about them.
-            allow_undeclared: setting a name that is not declared declares it.
-            strict: refuse 3 for 3.0, in rclpy's words.
+            policy: what others may do with them.
             run: runs a request's work, for example in the thread that owns the parameters.
             now_ns: stamp of events.
-            services: let others ask and set; changes are told in any case.
         """
         self.node_name = node_name
         self.values: dict[str, Any] = dict(values)
         self._descriptors = dict(descriptors or {})
         self._on_set = on_set
-        self._allow_undeclared = allow_undeclared
-        self._strict = strict
+        self._policy = policy
         self._now_ns = now_ns
         self._closables: list[_Closable] = []
         with node.announced_together():
             self._events = node.create_publisher("/parameter_events", _message("ParameterEvent"))
             self._closables.append(self._events)
-            if services:
+            if policy.has_services:
                 self._offer(node, run)
 
     def declare(self, name: str, value: Any, descriptor: Descriptor = _PLAIN) -> None:
@@ -172,7 +184,7 @@ class NodeParameters:
     def _checked(self, name: str, value: Any) -> tuple[str, Any]:
         """Return why a value is refused, and the value in the parameter's type."""
         if name not in self.values:
-            if self._allow_undeclared:
+            if self._policy.allow_undeclared:
                 return "", value
             hint = did_you_mean(name, self.values)
             return f"parameter '{name}' cannot be set because it was not declared; {hint}", value
@@ -180,10 +192,10 @@ class NodeParameters:
         if known.read_only:
             return f"parameter '{name}' cannot be set because it is read-only", value
         now = parameter_type(self.values[name])
-        value = value if self._strict else _widened(value, now)
+        value = value if self._policy.is_strict else _widened(value, now)
         wanted = now if now.check(value) else parameter_type(value)
         if wanted is not now and not known.dynamic_typing and now is not ParameterType.NOT_SET:
-            if self._strict:
+            if self._policy.is_strict:
                 return f"Wrong parameter type, expected '{now}' got '{wanted}'", value
             text = f"Wrong parameter type, parameter {{{name}}} is of type {{{now.word}}}, setting"
             return f"{text} it to {{{wanted.word}}} is not allowed.", value

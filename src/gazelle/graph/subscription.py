@@ -17,7 +17,7 @@ from gazelle.graph.keys import Attachment, Entity, token, topic_selector, type_i
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph
 
-__all__ = ["MessageInfo", "RawMessage", "Subscription"]
+__all__ = ["Delivery", "MessageInfo", "RawMessage", "Subscription"]
 
 _MOST_WAITING_BYTES = 64 << 20
 # Of the mailbox: a message of this process and its attachment, or a sample of another.
@@ -51,6 +51,24 @@ class MessageInfo(NamedTuple):
     gid: bytes = bytes(16)
 
 
+class Delivery(NamedTuple):
+    """How messages reach the callback of a subscription.
+
+    Attributes:
+        raw: as `RawMessage`, not decoded.
+        with_info: with a `MessageInfo`.
+        inline: in the thread that publishes (same process) or receives.
+        queue_size: most messages that wait; 0 for no limit.
+        latched: with those that latched publishers sent before.
+    """
+
+    raw: bool = False
+    with_info: bool = False
+    inline: bool = False
+    queue_size: int = 0
+    latched: bool = True
+
+
 class _WaitingSample(NamedTuple):
     """What is taken of a sample while it waits.
 
@@ -80,11 +98,7 @@ class Subscription:
         message_class: Any,
         callback: Callable[..., None],
         *,
-        raw: bool,
-        with_info: bool,
-        inline: bool,
-        queue_size: int,
-        takes_latched: bool,
+        delivery: Delivery,
         on_error: Callable[[str], None],
         on_warning: Callable[[str], None],
         is_mute: bool,
@@ -95,9 +109,9 @@ class Subscription:
         self.entity = entity
         self._graph = graph
         self._callback = callback
-        self._raw = raw
+        self._raw = delivery.raw
         self._takes_any = message_class is None
-        self._with_info = with_info
+        self._with_info = delivery.with_info
         self._on_error = on_error
         self._on_warning = on_warning
         self._count_seq = wire.is_ros1_view(message_class)
@@ -106,15 +120,15 @@ class Subscription:
         self._closed = is_mute
         bound = Bound(_MOST_WAITING_BYTES, _weight, _packed, self._tell_full)
         name = f"sub {self.topic}"
-        self._mailbox = Mailbox(self._handle, size=queue_size, name=name, bound=bound)
-        self._take = self._handle if inline else self._mailbox.put
+        self._mailbox = Mailbox(self._handle, size=delivery.queue_size, name=name, bound=bound)
+        self._take = self._handle if delivery.inline else self._mailbox.put
         self._local = graph.local.topic(self.topic)
-        self._declare = _declare if takes_latched else _declare_plain
+        self._declare = _declare if delivery.latched else _declare_plain
         self._declaring = threading.Lock()
         self._subscriber: Any = None
         if is_mute:
             return
-        self._local.add_subscription(self, latched=takes_latched)
+        self._local.add_subscription(self, latched=delivery.latched)
         self.resume()
         self._token = graph.announcements.announce(token(graph.domain, entity))
 

@@ -108,15 +108,15 @@ def _python_number(value: Any) -> Any:
 
 
 def _quoted(text: str) -> str:
-    from gazelle.documents.yaml import dump_yaml
+    from gazelle.documents.yaml import PYTHON_STYLE, dump_yaml
 
-    return dump_yaml(text, quoted=True, objects=True).rstrip("\n")
+    return dump_yaml(text, PYTHON_STYLE._replace(is_quoted=True)).rstrip("\n")
 
 
 def _string_list(values: Iterable[Any], indent: str) -> str:
-    from gazelle.documents.yaml import dump_yaml
+    from gazelle.documents.yaml import PYTHON_STYLE, dump_yaml
 
-    text = dump_yaml(list(values), objects=True).rstrip("\n")
+    text = dump_yaml(list(values), PYTHON_STYLE).rstrip("\n")
     if text.startswith("["):
         return text
     return "\n" + "\n".join(indent + line for line in text.splitlines())

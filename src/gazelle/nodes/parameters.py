@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
+from gazelle.graph.node_parameters import Descriptor, NodeParameters, ParameterPolicy
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_file import keep_log
 from gazelle.nodes.ros2_console import print_ros2
@@ -87,7 +87,7 @@ def node_parameters(
         values,
         on_set,
         descriptors=descriptors,
-        allow_undeclared=allow_undeclared,
+        policy=ParameterPolicy(allow_undeclared=allow_undeclared),
         now_ns=node.clock.now_ns,
     )
 

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from gazelle.simulator.pace import Mode
     from gazelle.simulator.simulation import Simulation
-    from gazelle.simulator.world_server import WorldServer
+    from gazelle.simulator.world_server import ServerSettings, WorldServer
 
-__all__ = ["Mode", "Simulation", "WorldServer"]
+__all__ = ["Mode", "ServerSettings", "Simulation", "WorldServer"]
 
 _PLACES = {
     "Mode": "gazelle.simulator.pace",
+    "ServerSettings": "gazelle.simulator.world_server",
     "Simulation": "gazelle.simulator.simulation",
     "WorldServer": "gazelle.simulator.world_server",
 }

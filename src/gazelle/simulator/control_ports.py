@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from gazelle.control.ports import GoalPort, LiveParameter, LivePort, PublisherPort
-from gazelle.graph.actions import ActionServer
-from gazelle.graph.node_parameters import NodeParameters
+from gazelle.graph.actions import ActionServer, ActionTiming
+from gazelle.graph.node_parameters import NodeParameters, ParameterPolicy
 from gazelle.simulator.plugins.context import Host, Resources, join_names
 from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
 from gazelle.simulator.scheduler import ORDER_CONTROL, period_in_steps
@@ -158,8 +158,7 @@ class ControllerPorts:
             on_cancel=on_cancel,
             generation=1 if self._generation == 1 else 2,
             run=host.commands.post,
-            now_ns=lambda: host.engine.time_ns,
-            status_hz=_STATUS_HZ,
+            timing=ActionTiming(now_ns=lambda: host.engine.time_ns, status_hz=_STATUS_HZ),
         )
         actions[server.name] = server
         if self._generation == 1:
@@ -219,7 +218,7 @@ class ControllerPorts:
             self._node_name,
             {**{key: value for key, value in values.items() if value is not None}, **live},
             take,
-            allow_undeclared=True,
+            policy=ParameterPolicy(allow_undeclared=True),
             run=self._host.commands.call,
             now_ns=lambda: self._host.engine.time_ns,
         )

@@ -23,7 +23,7 @@ from gazelle.simulator.recovery import DIVERGENCE, OnDivergence
 from gazelle.simulator.server_options import HELP, ServerOptions, read_server_options
 from gazelle.simulator.sources import world_from
 from gazelle.simulator.viewing import offer_views
-from gazelle.simulator.world_server import WorldServer
+from gazelle.simulator.world_server import ServerSettings, WorldServer
 from gazelle.workspace import Workspace
 
 if TYPE_CHECKING:
@@ -131,11 +131,9 @@ def _serve_world(
         node=node,
         workspace=workspace,
         diagnostics=diagnostics,
-        seed=options.seed,
-        mode=options.mode,
-        paused=options.paused,
-        warm_cameras=True,
-        ros_version=ros_version,
+        settings=ServerSettings(
+            options.seed, options.mode, options.paused, warm_cameras=True, ros_version=ros_version
+        ),
     )
     server.on_divergence = on_divergence
     check_server_plugins(options, diagnostics)

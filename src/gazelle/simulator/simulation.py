@@ -23,11 +23,10 @@ from gazelle.simulator.handles import (
 )
 from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.names import full_name
-from gazelle.simulator.pace import Mode
 from gazelle.simulator.parameter_input import Parameters, give_parameters
 from gazelle.simulator.ports import NodePort, SubscriptionPort
 from gazelle.simulator.sources import Source, loaded_from, models_from, world_from
-from gazelle.simulator.world_server import WorldServer
+from gazelle.simulator.world_server import ServerSettings, WorldServer
 from gazelle.workspace import Workspace
 
 if TYPE_CHECKING:
@@ -80,14 +79,13 @@ class Simulation:
             node=node,
             workspace=self._workspace,
             diagnostics=self.diagnostics,
-            seed=seed,
-            mode=Mode.LOCKSTEP,
+            settings=ServerSettings(seed),
             controls=controls,
             progress=_say_to_person,
         )
 
     @classmethod
-    def load(
+    def load(  # noqa: PLR0913 - users give all by keyword
         cls,
         source: Source | None = None,
         *,

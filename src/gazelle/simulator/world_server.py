@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from gazelle.description.model import ContactSpec, Model, PluginTag, World
 from gazelle.description.xml import Tag
@@ -33,11 +33,35 @@ from gazelle.simulator.sensor_set import SensorSet, sensor_places
 if TYPE_CHECKING:
     from gazelle.workspace import Workspace
 
-__all__ = ["WorldServer"]
+__all__ = ["ServerSettings", "WorldServer"]
 
 # Without a real-time target, commands are looked for after so many steps at the latest.
 _FAST_SLICE = 50
 _NOWHERE = SourceSpan("<sensor>")
+
+
+class ServerSettings(NamedTuple):
+    """How a world is run.
+
+    Attributes:
+        seed: of all noise.
+        mode: of `WorldServer.run`; `WorldServer.step` is always as fast as possible, and waits for
+            frames in lock-step.
+        paused: `WorldServer.run` waits for `WorldServer.unpause` before the first step.
+        warm_cameras: load the cameras' kernels before the first picture that somebody wants, and
+            say so where they have to be compiled.
+        ros_version: of what started the simulator; it decides what plug-ins call their topics. 0
+            leaves it to each plug-in's keys.
+    """
+
+    seed: int = 0
+    mode: Mode = Mode.LOCKSTEP
+    paused: bool = False
+    warm_cameras: bool = False
+    ros_version: int = 0
+
+
+_USUAL_SETTINGS = ServerSettings()
 
 
 class WorldServer:
@@ -70,13 +94,9 @@ class WorldServer:
         node: NodePort | None = None,
         workspace: Workspace | None = None,
         diagnostics: Diagnostics | None = None,
-        seed: int = 0,
-        mode: Mode = Mode.LOCKSTEP,
-        paused: bool = False,
-        warm_cameras: bool = False,
+        settings: ServerSettings = _USUAL_SETTINGS,
         progress: Callable[[str], None] | None = None,
         controls: ControlRegistry | None = None,
-        ros_version: int = 0,
     ) -> None:
         """Build the engine and start the plug-ins of every model.
 
@@ -85,16 +105,9 @@ class WorldServer:
             node: None for topics and services inside this process only.
             workspace: for models spawned later.
             diagnostics: collects findings; a new list when None.
-            seed: of all noise.
-            mode: of `run`; `step` is always as fast as possible, and waits for frames in
-                lock-step.
-            paused: `run` waits for `unpause` before the first step.
-            warm_cameras: load the cameras' kernels before the first picture that somebody wants,
-                and say so where they have to be compiled.
+            settings: how it is run.
             progress: told before work that takes seconds; the node's log when None.
             controls: with parameters of controllers; an empty one when None.
-            ros_version: of what started the simulator; it decides what plug-ins call their
-                topics. 0 leaves it to each plug-in's keys.
         """
         from gazelle.engine import Engine
 
@@ -102,20 +115,20 @@ class WorldServer:
         self.node: NodePort = LocalNode() if node is None else node
         self._progress = progress or (lambda text: self.node.log("INFO", text))
         with announcing(self._progress):
-            self.engine = Engine(world, diagnostics=self.diagnostics, seed=seed)
+            self.engine = Engine(world, diagnostics=self.diagnostics, seed=settings.seed)
         self.workspace = workspace
-        self.seed = seed
-        self.ros_version = ros_version
-        self.mode = mode
-        self.paused = paused
+        self.seed = settings.seed
+        self.ros_version = settings.ros_version
+        self.mode = settings.mode
+        self.paused = settings.paused
         self.on_divergence: Callable[[], OnDivergence] = lambda: OnDivergence.PAUSE
         self._recovery = Recovery(self)
         self.scheduler = Scheduler(self.engine.step_ns)
         self.commands = CommandQueue(telling(self.node.log))
         self.inputs = Inputs()
         self.controls = ControlRegistry() if controls is None else controls
-        self.sensors = SensorSet(self.engine, seed)
-        self.frames = FrameWorker(self._warm_up) if warm_cameras else FrameWorker()
+        self.sensors = SensorSet(self.engine, self.seed)
+        self.frames = FrameWorker(self._warm_up) if settings.warm_cameras else FrameWorker()
         self.pace = Pace(self._wanted_factor())
         self._disturbances = Disturbances()
         self._stop = threading.Event()

@@ -262,7 +262,7 @@ class _ClockReading:
 
 
 @contextlib.contextmanager
-def launched(
+def launched(  # noqa: PLR0913 - users give all by keyword
     *words: str,
     args: Mapping[str, object] | None = None,
     lockstep: bool = False,

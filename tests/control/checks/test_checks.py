@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from gazelle.control.checks import (
+    LoopDynamics,
     MoveItController,
     check_control,
     configured_controllers,
@@ -138,7 +139,7 @@ def test_all_findings_are_reported_with_their_codes() -> None:
     joints = {"joint_1": joint("joint_1", effort=0.0), "left": joint("left", velocity=0.0)}
     hardware = {**_hardware("joint_1"), **_hardware("left", interface="velocity")}
     found = Diagnostics()
-    check_control(joints, hardware, _source(ARM), found, inertias={"joint_1": 1e-4})
+    check_control(joints, hardware, _source(ARM), found, loop=LoopDynamics({"joint_1": 1e-4}))
     codes = [item.code for item in found]
     assert codes == [
         "control.names-disagree",
@@ -164,7 +165,7 @@ def test_gains_of_a_controller_that_the_hardware_cannot_have_are_not_judged() ->
     for interface, codes in (("effort", ["control.unstable-gains"]), ("position", [])):
         found = Diagnostics()
         hardware = _hardware("joint_1", interface=interface)
-        check_control(joints, hardware, source, found, inertias={"joint_1": 1e-4})
+        check_control(joints, hardware, source, found, loop=LoopDynamics({"joint_1": 1e-4}))
         assert [item.code for item in found] == codes
 
 
@@ -227,7 +228,7 @@ def test_gains_without_damping_at_a_long_period_are_told_to_add_some() -> None:
     joints = {"j": Joint("j", JointType.REVOLUTE, "a", "b", axis=JointAxis())}
     found = Diagnostics()
     check_control(
-        joints, _hardware("j"), _source(tree), found, inertias={"j": 1e-3}, period_steps=4
+        joints, _hardware("j"), _source(tree), found, loop=LoopDynamics({"j": 1e-3}, period_steps=4)
     )
     (only,) = found
     assert only.fix == "every p needs some d at this period: try d 0.08"

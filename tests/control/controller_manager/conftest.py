@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import pytest
@@ -53,7 +53,6 @@ class Bench:
     diagnostics: Diagnostics
     store: LocalParameters
     ports: dict[str, FakePorts]
-    claims: list[frozenset[str]] = field(default_factory=list)
 
     def controller(self, name: str) -> Recorder:
         found = self.manager.controllers[name].controller
@@ -82,7 +81,6 @@ def make_bench(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Bench]:
             store.set(f"/mira/{name}", {"type": RECORDER, **values})
         robot, hardware = fake_robot(generation)
         ports: dict[str, FakePorts] = {}
-        claims: list[frozenset[str]] = []
 
         def make_ports(name: str) -> Any:
             ports[name] = FakePorts(name)
@@ -95,9 +93,8 @@ def make_bench(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Bench]:
             source=StoreSource(store, "/mira"),
             diagnostics=diagnostics,
             update_rate_hz=rate_hz,
-            on_claim=claims.append,
             **options,
         )
-        return Bench(manager, hardware, diagnostics, store, ports, claims)
+        return Bench(manager, hardware, diagnostics, store, ports)
 
     return make

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.control.hardware.gazebo_system import SystemOptions
-from gazelle.control.hardware.ros1_robot import build_ros1_robot
+from gazelle.control.hardware.ros1_robot import RobotParameters, build_ros1_robot
 from gazelle.control.hardware.ros2_robot import build_ros2_robot
 from gazelle.control.robot import Robot
 from gazelle.control.sources.store import StoreSource
@@ -142,7 +142,7 @@ def ros1_rig(
     if parameters:
         store.set("/rig", dict(parameters))
     source = StoreSource(store, "/rig")
-    rig.robot = build_ros1_robot(rig, rig.model, source, store, namespace="/rig", **options)
+    rig.robot = build_ros1_robot(rig, rig.model, source, RobotParameters(store, "/rig"), **options)
     return rig
 
 

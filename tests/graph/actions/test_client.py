@@ -14,6 +14,7 @@ from gazelle.graph.actions import (
     ActionInfo,
     ActionlibStatus,
     ActionServer,
+    ActionTiming,
     CommState,
     Ros2Status,
     ServerGoal,
@@ -201,7 +202,7 @@ def test_waiting_for_a_result_does_not_block_other_requests(
 
 
 def test_status_is_latched_for_late_listeners(served: Served, other: Graph, inbox: Any) -> None:
-    served.offer(1, status_hz=0)
+    served.offer(1, timing=ActionTiming(status_hz=0))
     assert served.server is not None
     served.server.submit({}, goal_id="mine")
     kind = message_type("actionlib_msgs/GoalStatusArray")

@@ -9,6 +9,7 @@ from gazelle.errors import GraphError, InterfaceError, NotFoundError
 from gazelle.graph.actions import (
     ActionlibStatus,
     ActionServer,
+    ActionTiming,
     GoalStateError,
     Ros2Status,
     ServerGoal,
@@ -61,7 +62,7 @@ class World:
             on_goal=self.owner.on_goal,
             on_cancel=self.owner.on_cancel,
             generation=generation,
-            now_ns=lambda: self.now_ns,
+            timing=ActionTiming(now_ns=lambda: self.now_ns),
             **options,
         )
 

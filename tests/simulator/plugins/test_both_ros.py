@@ -11,7 +11,7 @@ from gazelle.description.loader import load_models, load_world
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.dry_start.node import DryNode
 from gazelle.simulator.plugins.registry import all_tables
-from gazelle.simulator.world_server import WorldServer
+from gazelle.simulator.world_server import ServerSettings, WorldServer
 
 SENSORS = {
     "camera": "<camera><image><width>8</width><height>6</height></image></camera>",
@@ -108,7 +108,8 @@ def names(row: Row, ros_version: int, namespace: str = "") -> tuple[set[str], Di
     found, node = Diagnostics(), DryNode()
     world = load_world('<sdf version="1.6"><world name="w"/></sdf>', workspace=None,
                        diagnostics=found)  # fmt: skip
-    server = WorldServer(world, node=node, diagnostics=found, ros_version=ros_version)
+    settings = ServerSettings(ros_version=ros_version)
+    server = WorldServer(world, node=node, diagnostics=found, settings=settings)
     try:
         (made,) = load_models(model(row), workspace=None, diagnostics=found)
         server.spawn(made, namespace=namespace)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from gazelle.bag.records import BagError, Connection, Summary
-from gazelle.documents.yaml import YamlError, dump_yaml, load_yaml_file
+from gazelle.documents.yaml import YamlError, YamlStyle, dump_yaml, load_yaml_file
 
 __all__ = ["METADATA", "FileSummary", "Metadata", "read_metadata", "write_metadata"]
 
@@ -101,7 +101,7 @@ def write_metadata(
         "custom_data": custom_data or None,
         "ros_distro": os.environ.get("ROS_DISTRO", "unknown"),
     }
-    text = dump_yaml({_ROOT: root}, sort_keys=False)
+    text = dump_yaml({_ROOT: root}, YamlStyle(sort_keys=False))
     part = folder / f"{METADATA}.part"
     part.write_text(text, encoding="utf-8")
     part.replace(folder / METADATA)

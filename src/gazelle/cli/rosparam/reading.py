@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.cli.tool import ToolError, add_flag, global_name, hint, joined, option_parser
-from gazelle.documents.yaml import dump_yaml
+from gazelle.documents.yaml import PYTHON_STYLE, dump_yaml
 from gazelle.graph import Graph
 from gazelle.parameters.trees import leaves_at, values_only
 
@@ -50,7 +50,7 @@ def get(words: list[str]) -> int:
         print("\n".join(_pretty(value)))
     else:
         # A scalar's document is ended by "...", which the original takes off.
-        text = dump_yaml(value, objects=True).removesuffix("\n...\n")
+        text = dump_yaml(value, PYTHON_STYLE).removesuffix("\n...\n")
         print(text)
     return 0
 
@@ -70,7 +70,7 @@ def dump(words: list[str]) -> int:
         value = _value(graph, name)
     if options.verbose:
         print("\n".join(f"{leaf}={item}" for leaf, item in values_only(leaves_at(name, value))))
-    text = dump_yaml(value, objects=True)
+    text = dump_yaml(value, PYTHON_STYLE)
     if not file:
         sys.stdout.write(text)
         return 0
@@ -101,5 +101,5 @@ def _pretty(tree: dict[str, Any], indent: str = "") -> Iterator[str]:
         elif isinstance(value, str):
             yield f"{indent}{key}: {value}"
         else:
-            text = dump_yaml(value, objects=True).removesuffix("\n...\n").rstrip("\n")
+            text = dump_yaml(value, PYTHON_STYLE).removesuffix("\n...\n").rstrip("\n")
             yield f"{indent}{key}: {text}"

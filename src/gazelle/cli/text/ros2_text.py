@@ -41,7 +41,6 @@ class Shortening(NamedTuple):
 
 
 WHOLE = Shortening()
-_NO_WRAP = 2**31 - 1
 
 
 def message_yaml(message: Message, how: Shortening = WHOLE, *, flow_style: bool = False) -> str:
@@ -90,17 +89,11 @@ def value_text(value: Any, kind: FieldType | None) -> str:
 
 
 def _dumped(plain: dict[str, Any], *, flow_style: bool) -> str:
-    from gazelle.documents.yaml import dump_yaml
+    from gazelle.documents.yaml import MESSAGE_STYLE, Layout, dump_yaml
 
     # Each field has a line, also where lists are written in one.
-    return dump_yaml(
-        plain,
-        allow_unicode=True,
-        width=_NO_WRAP,
-        flow_style=flow_style,
-        blocks=True,
-        sort_keys=False,
-    )
+    layout = Layout.FLOW_LISTS if flow_style else Layout.BLOCK
+    return dump_yaml(plain, MESSAGE_STYLE._replace(layout=layout))
 
 
 def _plain(message: Message, how: Shortening) -> dict[str, Any]:

@@ -12,8 +12,6 @@ from typing import Any
 
 __all__ = ["NotSimpleError", "yaml_blocks"]
 
-_NO_WRAP = 2**31 - 1
-
 
 class NotSimpleError(Exception):
     """A text has several lines; how it is written depends on where it stands."""
@@ -80,9 +78,9 @@ def _float(value: float) -> str:
 
 @lru_cache(maxsize=4096)
 def _quoted(text: str) -> str:
-    from gazelle.documents.yaml import dump_yaml
+    from gazelle.documents.yaml import MESSAGE_STYLE, dump_yaml
 
-    dumped = dump_yaml([text], allow_unicode=True, width=_NO_WRAP)
+    dumped = dump_yaml([text], MESSAGE_STYLE)
     # YAML has more line breaks than the newline; splitlines knows them all.
     if len(dumped.splitlines()) != 1:
         raise NotSimpleError

@@ -11,7 +11,7 @@ from gazelle.compat.rospy.log import logerr, logwarn
 from gazelle.compat.rospy.rostime import Time
 from gazelle.compat.rospy.state import STATE
 from gazelle.graph.actions import ActionServer as _Server
-from gazelle.graph.actions import GoalStateError, ServerGoal, action_types
+from gazelle.graph.actions import ActionTiming, GoalStateError, ServerGoal, action_types
 
 __all__ = ["ActionServer", "ServerGoalHandle", "nop_cb"]
 
@@ -165,7 +165,7 @@ class ActionServer:
             self.ActionSpec,
             on_goal=self._on_goal,
             on_cancel=self._on_cancel,
-            status_hz=status_hz,
+            timing=ActionTiming(status_hz=status_hz),
         )
 
     def stop(self) -> None:

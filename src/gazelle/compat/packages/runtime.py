@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections import OrderedDict
 from typing import Any
 
 import numpy as np
 
-from gazelle.documents.yaml import dump_yaml
+from gazelle.documents.yaml import MESSAGE_STYLE, Layout, Writer, dump_yaml
 from gazelle.interfaces import (
     Message,
     action_type,
@@ -165,14 +164,8 @@ def message_to_yaml(
     plain = message_to_ordereddict(
         msg, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str
     )
-    return dump_yaml(
-        _as_dict(plain),
-        allow_unicode=True,
-        width=sys.maxsize,
-        flow_style=flow_style,
-        sort_keys=False,
-        objects=True,
-    )
+    layout = Layout.FLOW if flow_style else Layout.BLOCK
+    return dump_yaml(_as_dict(plain), MESSAGE_STYLE._replace(writer=Writer.PYTHON, layout=layout))
 
 
 def message_to_csv(

@@ -35,7 +35,7 @@ from gazelle.compat.rclpy.work import Once, Work
 from gazelle.errors import NotFoundError as NodeNameNonExistentError
 from gazelle.graph import ServiceRefusedError
 from gazelle.graph.names import resolve
-from gazelle.graph.node_parameters import NodeParameters
+from gazelle.graph.node_parameters import NodeParameters, ParameterPolicy
 from gazelle.interfaces import message_type
 
 __all__ = [
@@ -76,7 +76,7 @@ class Node(ParameterHolder, GraphQueries):
         IllegalNameError: the name is not legal.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - rclpy's signature
         self,
         node_name: str,
         *,
@@ -458,11 +458,9 @@ class Node(ParameterHolder, GraphQueries):
             self._rcl_full,
             {_SIM_TIME: overrides.get(_SIM_TIME) is True},
             self._rcl_on_set,
-            allow_undeclared=allow_undeclared,
-            strict=True,
+            policy=ParameterPolicy(allow_undeclared, is_strict=True, has_services=services),
             run=self.__run_parameters,
             now_ns=self._clock.now_ns,
-            services=services,
         )
         self._rcl_take_effect({_SIM_TIME: self._parameters.values[_SIM_TIME]})
 

@@ -42,7 +42,7 @@ class ROSLaunchParent:
         sigint_timeout, sigterm_timeout: seconds that nodes have to end.
     """
 
-    def __init__(  # noqa: PLR0917 - the original's order
+    def __init__(  # noqa: PLR0913, PLR0917 - the original's signature
         self,
         run_id: str,
         roslaunch_files: Sequence[File],

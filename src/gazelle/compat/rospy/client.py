@@ -60,7 +60,7 @@ TIMEOUT_READY = 15.0
 _MISSING: Any = object()
 
 
-def init_node(  # noqa: PLR0917 - rospy's signature
+def init_node(  # noqa: PLR0913, PLR0917 - rospy's signature
     name: str,
     argv: Sequence[str] | None = None,
     anonymous: bool = False,

@@ -27,7 +27,7 @@ class TransformListener:
         tf_topic, tf_static_topic: of rclpy: where frames come from.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - tf2_ros's signature, in both versions
         self,
         buffer: Buffer,
         node: Any = None,

@@ -167,7 +167,7 @@ class Joint(Object):
         tag="joint",
     )
 
-    def __init__(  # noqa: PLR0917 - the original takes them by position
+    def __init__(  # noqa: PLR0913, PLR0917 - the original takes them by position
         self,
         name: str | None = None,
         parent: str | None = None,

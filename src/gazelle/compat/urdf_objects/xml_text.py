@@ -7,7 +7,7 @@ from typing import Any
 from xml.etree import ElementTree as ET
 from xml.sax.saxutils import escape, quoteattr
 
-from gazelle.documents.yaml import dump_yaml
+from gazelle.documents.yaml import PYTHON_STYLE, dump_yaml
 
 __all__ = [
     "SelectiveReflection",
@@ -112,4 +112,4 @@ class YamlReflection(SelectiveReflection):
         return to_yaml({name: getattr(self, name) for name in self.get_refl_vars()})
 
     def __str__(self) -> str:
-        return dump_yaml(self.to_yaml(), objects=True).rstrip()
+        return dump_yaml(self.to_yaml(), PYTHON_STYLE).rstrip()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.control.checks.all_checks import check_control
+from gazelle.control.checks.all_checks import LoopDynamics, check_control
 from gazelle.control.checks.configured import ConfiguredController, configured_controllers
 from gazelle.control.checks.gains import largest_stable_factor, spectral_radius
 from gazelle.control.checks.inertia import joint_inertias
@@ -12,6 +12,7 @@ from gazelle.control.checks.names import Disagreement, disagreements, table_text
 __all__ = [
     "ConfiguredController",
     "Disagreement",
+    "LoopDynamics",
     "MoveItController",
     "check_control",
     "configured_controllers",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 
 from gazelle.control.checks.configured import ConfiguredController, Gains, configured_controllers
 from gazelle.control.checks.gains import largest_stable_factor
@@ -13,10 +14,25 @@ from gazelle.control.sources.source import ParameterSource
 from gazelle.description.model import Joint
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
-__all__ = ["check_control"]
+__all__ = ["LoopDynamics", "check_control"]
 
 # Below this factor it is the proportion of p to d that is unstable, not their size.
 _ALL_UNSTABLE = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class LoopDynamics:
+    """What decides which gains are stable.
+
+    Attributes:
+        inertias: by joint name, see `joint_inertias`; gains of other joints are not checked.
+        step_s: of the physics.
+        period_steps: physics steps between two updates of the controllers.
+    """
+
+    inertias: Mapping[str, float]
+    step_s: float = 1e-3
+    period_steps: int = 1
 
 
 def check_control(
@@ -27,9 +43,7 @@ def check_control(
     *,
     moveit: Sequence[MoveItController] = (),
     absent: Collection[str] = (),
-    inertias: Mapping[str, float] | None = None,
-    step_s: float = 1e-3,
-    period_steps: int = 1,
+    loop: LoopDynamics | None = None,
     span: SourceSpan | None = None,
 ) -> None:
     """Report what can be known before the first step.
@@ -41,9 +55,7 @@ def check_control(
         diagnostics: receives the findings.
         moveit: what MoveIt sends trajectories to.
         absent: joints of hardware that was not loaded, which is reported by itself.
-        inertias: by joint name, see `joint_inertias`; gains are not checked without.
-        step_s: of the physics.
-        period_steps: physics steps between two updates of the controllers.
+        loop: what the gains act on; they are not checked without.
         span: the plug-in's place, for findings that have no better one.
     """
     controllers = configured_controllers(source)
@@ -66,12 +78,9 @@ def check_control(
             if resource is not None and "effort" not in resource.command_interfaces:
                 # Configured for another hardware interface, as files for several have it.
                 continue
-            if joint is not None and inertias and gains.joint in inertias:
-                inertia = inertias[gains.joint]
+            if joint is not None and loop is not None and gains.joint in loop.inertias:
                 place = source.place(item.name, gains.key) or item.place or span
-                _check_gains(
-                    item, gains, joint, inertia, (step_s, period_steps), place, diagnostics
-                )
+                _check_gains(item, gains, joint, loop, place, diagnostics)
 
 
 def _check_limits(joint: Joint, resource: JointResource, diagnostics: Diagnostics) -> None:
@@ -95,29 +104,26 @@ def _check_gains(
     controller: ConfiguredController,
     gains: Gains,
     joint: Joint,
-    inertia: float,
-    timing: tuple[float, int],
+    loop: LoopDynamics,
     place: SourceSpan | None,
     diagnostics: Diagnostics,
 ) -> None:
-    step_s, period_steps = timing
+    inertia, period_s = loop.inertias[gains.joint], loop.step_s * loop.period_steps
     factor = largest_stable_factor(
         gains.p,
         gains.d,
         inertia,
-        step_s,
-        period_steps=period_steps,
+        loop.step_s,
+        period_steps=loop.period_steps,
         of_velocity=gains.of_velocity,
         damping=joint.axis.damping if joint.axis is not None else 0.0,
     )
     if factor < 1.0:
         text = f"controller '{controller.name}': gains p {gains.p:g}, d {gains.d:g} of joint "
         text += f"'{gains.joint}' are unstable: it has an inertia of {inertia:.3g} and efforts "
-        text += f"change every {step_s * period_steps * 1e3:g} ms. Gazebo shakes such a joint or "
+        text += f"change every {period_s * 1e3:g} ms. Gazebo shakes such a joint or "
         text += "throws it; here its feedback acts within each step"
         fix = f"use at most p {gains.p * factor:.3g}, d {gains.d * factor:.3g}, or a smaller step"
         if factor < _ALL_UNSTABLE:
-            fix = (
-                f"every p needs some d at this period: try d {gains.p * step_s * period_steps:.3g}"
-            )
+            fix = f"every p needs some d at this period: try d {gains.p * period_s:.3g}"
         diagnostics.report("control.unstable-gains", text, place, fix=fix)

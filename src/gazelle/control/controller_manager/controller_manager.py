@@ -50,7 +50,6 @@ class ControllerManager:
         diagnostics: Diagnostics,
         update_rate_hz: float,
         workspace: Workspace | None = None,
-        on_claim: Callable[[frozenset[str]], None] | None = None,
         clock: Callable[[], int] | None = None,
     ) -> None:
         """Take over a robot; nothing is loaded yet.
@@ -63,7 +62,6 @@ class ControllerManager:
             diagnostics: receives findings.
             update_rate_hz: how often `update` is called.
             workspace: where controllers written in Python are looked for.
-            on_claim: hears which command interfaces are newly claimed.
             clock: gives the time in ns for what happens between updates; the time of the last
                 update when None.
         """
@@ -75,7 +73,6 @@ class ControllerManager:
         self._maker = ControllerMaker(
             robot, source, make_ports, diagnostics, workspace, self.namespace
         )
-        self._on_claim = on_claim
         self._clock = clock
         self._records: dict[str, ControllerRecord] = {}
         self._running: tuple[ControllerRecord, ...] = ()
@@ -268,8 +265,6 @@ class ControllerManager:
         for record in plan.start:
             record.state, record.has_run, record.last_update_ns = ControllerState.ACTIVE, True, now
         self._list_running()
-        if self._on_claim is not None and plan.claims:
-            self._on_claim(plan.claims)
         failed = [record.name for record in plan.start if not self._call(record, "start", now)]
         if failed:
             raise ControllerError(f"Unable to activate controllers: [ {' '.join(failed)} ]")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from gazelle.control.bank import InterfaceBank
 from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
 from gazelle.control.hardware.description import ControlDescription, description_of
@@ -14,17 +16,41 @@ from gazelle.control.robot import Robot
 from gazelle.control.sources.source import ParameterSource
 from gazelle.description.model import Model
 
-__all__ = ["build_ros1_robot"]
+__all__ = ["RobotParameters", "build_ros1_robot"]
+
+
+@dataclass(frozen=True, slots=True)
+class RobotParameters:
+    """Where the parameters of a robot lie.
+
+    Attributes:
+        store: the parameter store.
+        namespace: of the robot, absolute; empty or ``/`` for none.
+        gains_namespace: where ``gazebo_ros_control/pid_gains`` lies; the robot's when None.
+    """
+
+    store: ParameterStore
+    namespace: str = ""
+    gains_namespace: str | None = None
+
+    @property
+    def prefix(self) -> str:
+        """The robot's namespace without a slash at its end."""
+        return "/" + self.namespace.strip("/") if self.namespace.strip("/") else ""
+
+    @property
+    def gains_prefix(self) -> str:
+        """The same of its gains."""
+        given = self.gains_namespace
+        return self.prefix if given is None else given.rstrip("/")
 
 
 def build_ros1_robot(
     host: HardwareHost,
     model: Model,
     source: ParameterSource,
-    parameters: ParameterStore,
+    parameters: RobotParameters,
     *,
-    namespace: str = "",
-    gains_namespace: str | None = None,
     description: ControlDescription | None = None,
     sensors: SensorSource | None = None,
     plugin: str = "gazebo_ros_control/DefaultRobotHWSim",
@@ -35,18 +61,14 @@ def build_ros1_robot(
         host: the physics, and where to report.
         model: as it is in the world.
         source: configured controllers: the joints they name are held.
-        parameters: the parameter store.
-        namespace: of the robot, absolute; empty or ``/`` for none.
-        gains_namespace: where ``gazebo_ros_control/pid_gains`` lies; the robot's when None.
+        parameters: the parameter store, and where in it the robot's lie.
         description: joints and transmissions; the model's own when None.
         sensors: what the model can measure; None for nothing.
         plugin: class of the hardware that the file names.
     """
-    prefix = "/" + namespace.strip("/") if namespace.strip("/") else ""
     described = description or description_of(model)
-    joints = read_ros1_joints(host, model, described, parameters, prefix)
-    place = prefix if gains_namespace is None else gains_namespace.rstrip("/")
-    gains = gains_parameters(parameters, place, host.diagnostics)
+    joints = read_ros1_joints(host, model, described, parameters.store, parameters.prefix)
+    gains = gains_parameters(parameters.store, parameters.gains_prefix, host.diagnostics)
     bank = InterfaceBank()
     parts = () if sensors is None else sensor_parts(sensors)
     measured = SensorStates(parts, bank, sensors, host.diagnostics)

@@ -17,11 +17,10 @@ from gazelle.errors import GazelleError, NotFoundError, UserFileError
 from gazelle.geometry import without_splitting
 from gazelle.graph.names import resolve
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
-from gazelle.simulator.pace import Mode
 from gazelle.simulator.server_main import check_server_plugins, ros2_plugins_of, ros_version_of
 from gazelle.simulator.server_options import ServerOptions, read_server_options
 from gazelle.simulator.sources import world_from
-from gazelle.simulator.world_server import WorldServer
+from gazelle.simulator.world_server import ServerSettings, WorldServer
 from gazelle.workspace import Workspace
 
 __all__ = ["dry_start"]
@@ -103,8 +102,7 @@ def _server(
             node=node,
             workspace=workspace,
             diagnostics=diagnostics,
-            mode=Mode.LOCKSTEP,
-            ros_version=ros_version_of(options, plan.started_by),
+            settings=ServerSettings(ros_version=ros_version_of(options, plan.started_by)),
         )
     except NotFoundError as error:
         text = f"the simulator '{node.full_name}' cannot start: {error}"

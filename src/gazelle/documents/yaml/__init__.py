@@ -34,18 +34,30 @@ from gazelle.documents.yaml.problems import (
     YamlProblem,
     problem_of,
 )
-from gazelle.documents.yaml.writing import TaggedMapping, dump_yaml
+from gazelle.documents.yaml.writing import (
+    MESSAGE_STYLE,
+    PYTHON_STYLE,
+    Layout,
+    TaggedMapping,
+    Writer,
+    YamlStyle,
+    dump_yaml,
+)
 
 __all__ = [
+    "MESSAGE_STYLE",
     "MOST_CHARACTERS",
+    "PYTHON_STYLE",
     "RCL",
     "ROSPARAM",
     "YAML_1_1",
     "Dialect",
+    "Layout",
     "PlacedMapping",
     "ProblemKind",
     "PyYamlError",
     "TaggedMapping",
+    "Writer",
     "YamlDocument",
     "YamlEntry",
     "YamlError",
@@ -54,6 +66,7 @@ __all__ = [
     "YamlProblem",
     "YamlScalar",
     "YamlSequence",
+    "YamlStyle",
     "dump_yaml",
     "duplicates",
     "entries",

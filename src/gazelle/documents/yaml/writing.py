@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from enum import Enum
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
-__all__ = ["TaggedMapping", "dump_yaml"]
+__all__ = [
+    "MESSAGE_STYLE",
+    "PYTHON_STYLE",
+    "Layout",
+    "TaggedMapping",
+    "Writer",
+    "YamlStyle",
+    "dump_yaml",
+]
 
 _MAP = "tag:yaml.org,2002:map"
+_NO_WRAP = 2**31 - 1
 
 
 class TaggedMapping(dict[str, Any]):
@@ -25,52 +35,82 @@ class TaggedMapping(dict[str, Any]):
         self.tag = tag
 
 
-def dump_yaml(
-    value: Any,
-    *,
-    flow_style: bool = False,
-    blocks: bool = False,
-    sort_keys: bool = True,
-    allow_unicode: bool = False,
-    width: int | None = None,
-    quoted: bool = False,
-    objects: bool = False,
-    libyaml: bool = False,
-) -> str:
+class Layout(Enum):
+    """How lists and mappings stand.
+
+    BLOCK gives an item a line, FLOW puts them in brackets, FLOW_LISTS only the lists.
+    """
+
+    BLOCK = "block"
+    FLOW = "flow"
+    FLOW_LISTS = "flow lists"
+
+
+class Writer(Enum):
+    """Who writes.
+
+    SAFE is ``yaml.safe_dump``. PYTHON is ``yaml.dump``, which writes objects of classes with tags
+    of Python. LIBYAML is the library in C, where it is installed.
+    """
+
+    SAFE = "safe"
+    PYTHON = "python"
+    LIBYAML = "libyaml"
+
+
+class YamlStyle(NamedTuple):
+    """How values are written; without a word as ``yaml.safe_dump`` does.
+
+    Attributes:
+        writer: decides what is written as what.
+        layout: of lists and mappings.
+        sort_keys: keys are sorted.
+        allow_unicode: what is not ASCII is not escaped.
+        is_wrapped: lines are broken after 80 characters.
+        is_quoted: every scalar stands in double quotes.
+    """
+
+    writer: Writer = Writer.SAFE
+    layout: Layout = Layout.BLOCK
+    sort_keys: bool = True
+    allow_unicode: bool = False
+    is_wrapped: bool = True
+    is_quoted: bool = False
+
+
+_SAFE_STYLE = YamlStyle()
+PYTHON_STYLE = YamlStyle(writer=Writer.PYTHON)
+MESSAGE_STYLE = YamlStyle(sort_keys=False, allow_unicode=True, is_wrapped=False)
+
+
+def dump_yaml(value: Any, style: YamlStyle = _SAFE_STYLE) -> str:
     """Return a value as YAML, as PyYAML writes it.
 
     Args:
         value: plain values, and `TaggedMapping`.
-        flow_style: lists and mappings stand in brackets.
-        blocks: mappings do not.
-        sort_keys: keys are sorted.
-        allow_unicode: what is not ASCII is not escaped.
-        width: where lines are broken, PyYAML's 80 characters when None.
-        quoted: every scalar stands in double quotes.
-        objects: objects of Python's classes are written with tags of Python, as ``yaml.dump``
-            does and ``yaml.safe_dump`` does not.
-        libyaml: by the library in C, where it is installed.
+        style: how; as ``yaml.safe_dump`` by default, ``PYTHON_STYLE`` as ``yaml.dump``,
+            ``MESSAGE_STYLE`` as ROS 2 shows messages: fields in order, a line each.
     """
     text: str = yaml.dump(
         value,
-        Dumper=_dumper(blocks, objects, libyaml),
-        default_flow_style=flow_style,
-        sort_keys=sort_keys,
-        allow_unicode=allow_unicode,
-        width=width,
-        default_style='"' if quoted else None,
+        Dumper=_dumper(style.writer, style.layout),
+        default_flow_style=style.layout is not Layout.BLOCK,
+        sort_keys=style.sort_keys,
+        allow_unicode=style.allow_unicode,
+        width=None if style.is_wrapped else _NO_WRAP,
+        default_style='"' if style.is_quoted else None,
     )
     return text
 
 
 @cache
-def _dumper(blocks: bool, objects: bool, libyaml: bool) -> Any:
-    base: Any = yaml.Dumper if objects else yaml.SafeDumper
-    if libyaml:
+def _dumper(writer: Writer, layout: Layout) -> Any:
+    base: Any = yaml.Dumper if writer is Writer.PYTHON else yaml.SafeDumper
+    if writer is Writer.LIBYAML:
         base = getattr(yaml, "CSafeDumper", base)
     made: Any = type("Dumper", (base,), {})
     made.add_representer(TaggedMapping, _tagged)
-    if blocks:
+    if layout is Layout.FLOW_LISTS:
         made.add_representer(dict, _in_block)
     return made
 

@@ -7,7 +7,7 @@ from gazelle.graph.actions.client_goal import ClientGoal
 from gazelle.graph.actions.comm_state import CommState
 from gazelle.graph.actions.goal import LocalGoal, ServerGoal
 from gazelle.graph.actions.listing import ActionInfo, actions_of
-from gazelle.graph.actions.server import ActionServer
+from gazelle.graph.actions.server import ActionServer, ActionTiming
 from gazelle.graph.actions.states import (
     ActionlibStatus,
     GoalEvent,
@@ -21,6 +21,7 @@ __all__ = [
     "ActionClient",
     "ActionInfo",
     "ActionServer",
+    "ActionTiming",
     "ActionTypes",
     "ActionlibStatus",
     "ClientGoal",

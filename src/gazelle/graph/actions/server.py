@@ -8,7 +8,7 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from hashlib import blake2b
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
 from gazelle.errors import GraphError
 from gazelle.graph.actions.goal import LocalGoal, ServerGoal
@@ -20,12 +20,11 @@ from gazelle.graph.errors import ServiceRefusedError
 if TYPE_CHECKING:
     from gazelle.graph.actions.ports import ActionNode
 
-__all__ = ["ActionServer", "Wire"]
+__all__ = ["ActionServer", "ActionTiming", "Wire"]
 
 _T = TypeVar("_T")
 _NANO = 1_000_000_000
 _STATUS_LIST_TIMEOUT_S = 5.0
-_RESULT_TIMEOUT_S = 900.0
 _EARLIER_CANCEL = (
     "This goal handle was canceled by the action server because its timestamp is before the "
     "timestamp of the last cancel request"
@@ -34,6 +33,23 @@ _EARLIER_CANCEL = (
 Run = Callable[[Callable[[], object]], object]
 OnGoal = Callable[[ServerGoal], None]
 OnCancel = Callable[[ServerGoal], bool | None]
+
+
+class ActionTiming(NamedTuple):
+    """The clock and the periods of an action server.
+
+    Attributes:
+        now_ns: the clock, the node's own when None, 0 for a node without one.
+        status_hz: how often actionlib's status is told besides on each change, 0 for never.
+        result_timeout_s: how long ROS 2 results are kept.
+    """
+
+    now_ns: Callable[[], int] | None = None
+    status_hz: float = 5.0
+    result_timeout_s: float = 900.0
+
+
+_USUAL_TIMING = ActionTiming()
 
 
 class Wire(Protocol):
@@ -91,9 +107,7 @@ class ActionServer:
         on_cancel: OnCancel | None = None,
         generation: Generation = 1,
         run: Run | None = None,
-        now_ns: Callable[[], int] | None = None,
-        status_hz: float = 5.0,
-        result_timeout_s: float = _RESULT_TIMEOUT_S,
+        timing: ActionTiming = _USUAL_TIMING,
     ) -> None:
         """Offer an action.
 
@@ -110,9 +124,7 @@ class ActionServer:
             run: brings calls of `on_goal` and `on_cancel` into the owner's thread; without it
                 they run in the graph's threads. With it there is no thread for the status:
                 call `tick`.
-            now_ns: the clock, the node's own by default, 0 for a node without one.
-            status_hz: how often actionlib's status is told besides on each change, 0 for never.
-            result_timeout_s: how long ROS 2 results are kept.
+            timing: whose time counts, and how often and how long goals are told of.
 
         Raises:
             NotFoundError: nothing defines the action.
@@ -128,15 +140,16 @@ class ActionServer:
         self._cancelled_early: dict[str, int] = {}
         self._last_cancel_ns = 0
         self._numbers = itertools.count(1)
-        self._keep_ns = int(
-            (_STATUS_LIST_TIMEOUT_S if generation == 1 else result_timeout_s) * _NANO
-        )
+        keep_s = _STATUS_LIST_TIMEOUT_S if generation == 1 else timing.result_timeout_s
+        self._keep_ns = int(keep_s * _NANO)
         self._waiting: set[threading.Event] = set()
         self._closed = False
         self._is_silent = False
         self._clock: Any = getattr(node, "clock", None)
-        self.now_ns: Callable[[], int] = now_ns or (self._clock.now_ns if self._clock else _zero)
-        period_ns = int(_NANO / status_hz) if status_hz > 0 and generation == 1 else 0
+        own = self._clock.now_ns if self._clock else _zero
+        self.now_ns: Callable[[], int] = timing.now_ns or own
+        is_periodic = timing.status_hz > 0 and generation == 1
+        period_ns = int(_NANO / timing.status_hz) if is_periodic else 0
         self._timer = StatusTimer(period_ns, self.now_ns, self._periodic_status)
         with node.announced_together():
             self._wire = self._offer(inline=run is not None)

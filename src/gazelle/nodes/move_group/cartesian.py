@@ -10,7 +10,7 @@ import numpy as np
 from gazelle.motion.constraints import PathConstraint
 from gazelle.motion.constraints.rotation import Parameterization, matrix_of, rotation_vector
 from gazelle.motion.kinematics import Solver
-from gazelle.motion.space import BoolArray, FloatArray, Validity
+from gazelle.motion.space import FloatArray, Validity
 
 __all__ = ["JumpLimits", "straight_path"]
 
@@ -27,11 +27,13 @@ class JumpLimits:
         relative: factor of the mean step of the whole path (``jump_threshold``).
         turning: rad, of any turning joint.
         sliding: m, of any sliding joint.
+        slides: which of the joints slide.
     """
 
     relative: float = 0.0
     turning: float = 0.0
     sliding: float = 0.0
+    slides: Sequence[bool] = ()
 
 
 def straight_path(
@@ -44,7 +46,6 @@ def straight_path(
     validity: Validity | None = None,
     along: Sequence[PathConstraint] = (),
     jumps: JumpLimits | None = None,
-    sliding: Sequence[bool] = (),
 ) -> tuple[FloatArray, float, str]:
     """Return configurations along straight lines, the part of the way they follow, and why no more.
 
@@ -57,7 +58,6 @@ def straight_path(
         validity: refuses configurations, such as those that collide.
         along: what must hold all along.
         jumps: how far joints may go in one step.
-        sliding: which of the joints slide.
     """
     targets = _targets(solver.fk(start_q, link), poses, step_m)
     rows, why = [start_q], ""
@@ -68,7 +68,7 @@ def straight_path(
             break
         rows.append(q)
     path = np.array(rows)
-    kept, jump = _before_jump(path, jumps or JumpLimits(), np.array(sliding, dtype=bool))
+    kept, jump = _before_jump(path, jumps or JumpLimits())
     fraction = (kept - 1) / max(1, len(targets))
     return path[:kept], fraction, jump or why
 
@@ -109,13 +109,14 @@ def _fault(
     return validity.why(q) or "the motion there collides"
 
 
-def _before_jump(path: FloatArray, limits: JumpLimits, sliding: BoolArray) -> tuple[int, str]:
+def _before_jump(path: FloatArray, limits: JumpLimits) -> tuple[int, str]:
     """Return how many configurations come before the first jump."""
     steps = np.abs(np.diff(path, axis=0))
     if not len(steps):
         return len(path), ""
     lengths = np.linalg.norm(steps, axis=1)
     most = np.full(path.shape[1], np.inf)
+    sliding = np.array(limits.slides, dtype=bool)
     if limits.turning > 0:
         most[~sliding] = limits.turning
     if limits.sliding > 0:

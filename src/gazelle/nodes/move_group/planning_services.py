@@ -104,8 +104,8 @@ def _follow(context: MoveGroupContext, problem: GroupProblem, request: Any, resp
             float(request.jump_threshold),
             float(request.revolute_jump_threshold),
             float(request.prismatic_jump_threshold),
+            _sliding(context, problem),
         ),
-        sliding=_sliding(context, problem),
     )
     trajectory = parameterise(
         rows,

@@ -68,7 +68,7 @@ def _namespace(context: PluginContext, parameters: PluginReader) -> str:
 
 
 def _robot(context: PluginContext, parameters: PluginReader, namespace: str) -> Robot:
-    from gazelle.control.hardware.ros1_robot import build_ros1_robot
+    from gazelle.control.hardware.ros1_robot import RobotParameters, build_ros1_robot
     from gazelle.simulator.plugins.ros_control_sensors import ModelSensors
 
     plugin = parameters.text("robotSimType")
@@ -80,9 +80,11 @@ def _robot(context: PluginContext, parameters: PluginReader, namespace: str) -> 
         context.host,
         context.model,
         _source(context, namespace),
-        context.host.node.parameters,
-        namespace=namespace,
-        gains_namespace=_gains_namespace(context, parameters, namespace),
+        RobotParameters(
+            context.host.node.parameters,
+            namespace,
+            _gains_namespace(context, parameters, namespace),
+        ),
         description=_description(context, parameters, namespace),
         sensors=ModelSensors(context.host, context.model),
         plugin=plugin,

@@ -49,13 +49,18 @@ def run_control_loop(context: PluginContext, manager: ControllerManager, steps: 
 
 def check_controllers(context: PluginContext, manager: ControllerManager, steps: Fraction) -> None:
     """Report what can be known before the first step: names, limits and gains that do not fit."""
-    from gazelle.control.checks import check_control, joint_inertias, moveit_controllers
+    from gazelle.control.checks import (
+        LoopDynamics,
+        check_control,
+        joint_inertias,
+        moveit_controllers,
+    )
 
     engine, model, robot = context.host.engine, context.model, manager.robot
     # Locks that were just asked for are built in now.
     engine.ensure_compiled()
     full = {f"{model.name}::{name}": name for name in robot.joints}
-    inertias = joint_inertias(engine, full)
+    inertias = {full[name]: value for name, value in joint_inertias(engine, full).items()}
     tree = context.host.node.parameters.get("/move_group", {})
     check_control(
         {joint.name: joint for joint in model.joints},
@@ -64,9 +69,7 @@ def check_controllers(context: PluginContext, manager: ControllerManager, steps:
         context.host.diagnostics,
         moveit=moveit_controllers(tree if isinstance(tree, dict) else {}),
         absent=robot.absent,
-        inertias={full[name]: value for name, value in inertias.items()},
-        step_s=engine.step_ns * 1e-9,
-        period_steps=int(steps),
+        loop=LoopDynamics(inertias, engine.step_ns * 1e-9, int(steps)),
         span=context.plugin.span,
     )
 

@@ -12,7 +12,7 @@ from gazelle.description.model import Joint, JointType
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import floats_from
 from gazelle.diagnostics import did_you_mean
-from gazelle.graph.node_parameters import NodeParameters
+from gazelle.graph.node_parameters import NodeParameters, ParameterPolicy
 from gazelle.simulator.messages import message_class
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.parameters import PluginReader
@@ -219,7 +219,7 @@ def _offer_ros2(context: PluginContext, parameters: PluginReader, slip: _Slip) -
         node_name,
         values,
         take,
-        allow_undeclared=True,
+        policy=ParameterPolicy(allow_undeclared=True),
         run=host.commands.call,
         now_ns=lambda: host.engine.time_ns,
     )

@@ -107,7 +107,7 @@ class ActionClient:
         AttributeError: the type is no action of ROS 2.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - rclpy's signature
         self,
         node: Node,
         action_type: Any,

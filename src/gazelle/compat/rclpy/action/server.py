@@ -19,7 +19,13 @@ from gazelle.compat.rclpy.qos import (
 from gazelle.compat.rclpy.work import Once
 from gazelle.compat.telling import warn_once
 from gazelle.graph.actions import ActionServer as _Server
-from gazelle.graph.actions import GoalEvent, GoalStateError, Ros2Status, ServerGoal
+from gazelle.graph.actions import (
+    ActionTiming,
+    GoalEvent,
+    GoalStateError,
+    Ros2Status,
+    ServerGoal,
+)
 from gazelle.graph.actions.states import next_status, state_error
 from gazelle.interfaces import message_type
 
@@ -198,7 +204,7 @@ class ActionServer:
         AttributeError: the type is no action of ROS 2.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - rclpy's signature
         self,
         node: Node,
         action_type: Any,
@@ -243,7 +249,7 @@ class ActionServer:
             on_cancel=self._on_cancel,
             generation=2,
             run=self._post,
-            result_timeout_s=result_timeout,
+            timing=ActionTiming(result_timeout_s=result_timeout),
         )
         node.keep_entity(self)
 

@@ -65,7 +65,7 @@ class ExecuteLocal(Action):
         process_details: name, cmd, cwd, env and pid; None before it is prepared.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - the signature of launch
         self,
         *,
         process_description: Executable,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.documents.names import is_file, is_folder
-from gazelle.documents.yaml import dump_yaml
+from gazelle.documents.yaml import MESSAGE_STYLE, PYTHON_STYLE, Layout, Writer, dump_yaml
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.actions import ExecuteProcess
 from gazelle.launch.ros2.entity import LaunchDescriptionEntity
@@ -84,7 +84,7 @@ class Node(ExecuteProcess):
     UNSPECIFIED_NODE_NAME: ClassVar[str] = "<node_name_unspecified>"
     UNSPECIFIED_NODE_NAMESPACE: ClassVar[str] = "<node_namespace_unspecified>"
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - the signature of launch_ros
         self,
         *,
         executable: SomeSubstitutionsType | None = None,
@@ -230,7 +230,7 @@ class Node(ExecuteProcess):
         name = self.node_name if self.is_node_name_fully_specified() else "/**"
         plain = {key: _plain(value) for key, value in values.items()}
         data = {name: {"ros__parameters": plain}}
-        return write_temporary(dump_yaml(data, allow_unicode=True, objects=True))
+        return write_temporary(dump_yaml(data, PYTHON_STYLE._replace(allow_unicode=True)))
 
     def __expand_remaps(self, context: LaunchContext) -> list[tuple[str, str]]:
         found: list[tuple[str, str]] = []
@@ -319,7 +319,8 @@ def _plain(value: Any) -> Any:
 
 def _yaml_word(value: Any) -> str:
     plain = _plain(value)
-    text = dump_yaml(plain, flow_style=True, width=1 << 30, allow_unicode=True, objects=True)
+    style = MESSAGE_STYLE._replace(writer=Writer.PYTHON, layout=Layout.FLOW)
+    text = dump_yaml(plain, style)
     return text.removesuffix("\n").removesuffix("\n...")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from gazelle.documents.yaml import dump_yaml
+from gazelle.documents.yaml import Writer, YamlStyle, dump_yaml
 from gazelle.launch.ros2.nodes.parameter_descriptions import (
     Parameter,
     ParameterFile,
@@ -113,7 +113,7 @@ def _item(value: Any) -> Any:
 
 
 def _as_yaml(value: Any) -> str:
-    return dump_yaml(value, allow_unicode=True, libyaml=True)
+    return dump_yaml(value, YamlStyle(Writer.LIBYAML, allow_unicode=True))
 
 
 def normalize_remap_rule(remap_rule: Any) -> _Rule:
