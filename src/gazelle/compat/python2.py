@@ -15,6 +15,7 @@ import sys
 from types import CodeType
 from typing import Any
 
+from gazelle.compat.telling import is_news
 from gazelle.folders import cache_folder
 
 __all__ = ["compile_source", "is_python2", "translated"]
@@ -25,7 +26,6 @@ _OLD_NAMES = frozenset(
 )
 _SAYS_3 = re.compile(rb"^#!.*python3")
 _FUTURE_DIVISION = re.compile(r"^\s*from\s+__future__\s+import\s+.*\bdivision\b", re.MULTILINE)
-_told: set[str] = set()
 
 
 def compile_source(source: bytes, file: str) -> CodeType:
@@ -153,9 +153,6 @@ def _decoded(source: bytes) -> str:
 
 
 def _tell(file: str) -> None:
-    if file not in _told:
-        _told.add(file)
-        sys.stderr.write(
-            f"{file}: info: Python 2 source, translated on the fly; the file stays as it is "
-            "[launch.python2]\n"
-        )
+    text = f"{file}: info: Python 2 source, translated on the fly; the file stays as it is "
+    if is_news(text):
+        sys.stderr.write(f"{text}[launch.python2]\n")

@@ -1,16 +1,24 @@
-"""What a drop-in says of an argument that it cannot honour: one line, once a process."""
+"""What a drop-in says once a process, such as of an argument that it cannot honour."""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Hashable
 
-__all__ = ["warn_once"]
+__all__ = ["is_news", "warn_once"]
 
-_TOLD: set[str] = set()
+_TOLD: set[Hashable] = set()
+
+
+def is_news(what: Hashable) -> bool:
+    """Return True the first time that something is to be told, False ever after."""
+    if what in _TOLD:
+        return False
+    _TOLD.add(what)
+    return True
 
 
 def warn_once(text: str) -> None:
     """Write a warning to the standard error, the first time only."""
-    if text not in _TOLD:
-        _TOLD.add(text)
+    if is_news(text):
         sys.stderr.write(f"[WARN] {text}\n")

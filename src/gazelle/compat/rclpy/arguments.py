@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gazelle.compat.telling import is_news
 from gazelle.errors import GraphError
 from gazelle.ros_arguments import (
     LOG_LEVEL,
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
     from gazelle.diagnostics import Diagnostic
 
 __all__ = ["RosArguments", "parse_ros_arguments"]
-
-
-_TOLD: set[Diagnostic] = set()
 
 
 @dataclass(slots=True)
@@ -98,11 +96,10 @@ class RosArguments:
 
 def _tell_once(found: Iterable[Diagnostic]) -> None:
     """Show what is odd in parameter files, once for all nodes of a process."""
-    new = [one for one in found if one not in _TOLD]
+    new = [one for one in found if is_news(one)]
     if new:
         from gazelle.diagnostics import render
 
-        _TOLD.update(new)
         render(new)
 
 

@@ -8,6 +8,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from gazelle.compat.telling import is_news
+
 __all__ = [
     "LoggingSeverity",
     "RcutilsLogger",
@@ -34,7 +36,6 @@ class LoggingSeverity(enum.IntEnum):
 _levels: dict[str, LoggingSeverity] = {}
 _default = [LoggingSeverity.INFO]
 _nodes: dict[str, Any] = {}
-_said: set[tuple[str, int]] = set()
 _skipped: set[tuple[str, int]] = set()
 _throttled: dict[tuple[str, int], int] = {}
 _COLOURS = {LoggingSeverity.DEBUG: "32", LoggingSeverity.WARN: "33"}
@@ -165,10 +166,8 @@ def _passes(place: tuple[str, int], rules: dict[str, Any]) -> bool:
     if rules.get("skip_first") and place not in _skipped:
         _skipped.add(place)
         return False
-    if rules.get("once"):
-        if place in _said:
-            return False
-        _said.add(place)
+    if rules.get("once") and not is_news(place):
+        return False
     period_s = rules.get("throttle_duration_sec")
     if period_s is not None:
         clock = rules.get("throttle_time_source_type")

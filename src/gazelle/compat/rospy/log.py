@@ -8,6 +8,7 @@ from types import FrameType
 from typing import Any
 
 from gazelle.compat.rospy.state import STATE
+from gazelle.compat.telling import is_news
 from gazelle.graph import Level
 
 __all__ = [
@@ -17,7 +18,6 @@ __all__ = [
 ] + ["logerror", "logout"]
 
 _last: dict[tuple[str, int], tuple[float, str]] = {}
-_said: set[tuple[str, int]] = set()
 
 
 def _log(level: Level, message: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
@@ -93,9 +93,7 @@ def _throttled(level: Level, *, identical: bool) -> Any:
 
 def _once(level: Level) -> Any:
     def log(msg: Any, *args: Any, **kwargs: Any) -> None:
-        place = _place()
-        if place not in _said:
-            _said.add(place)
+        if is_news(_place()):
             _log(level, msg, args, kwargs)
 
     log.__doc__ = f"Say something at {level.name.lower()} level, once from this place."
