@@ -9,7 +9,7 @@ from pathlib import Path
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
-__all__ = ["Kind", "is_semantic", "kind_of", "looks_like"]
+__all__ = ["Kind", "is_launch_yaml", "is_semantic", "kind_of", "looks_like"]
 
 _PEEK_BYTES = 4096
 _XML_SUFFIXES = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".launch", ".model", ".srdf", ".test")
@@ -45,13 +45,19 @@ def is_semantic(path: Path) -> bool:
     return path.name.endswith((".srdf", ".srdf.xacro"))
 
 
+def is_launch_yaml(path: Path) -> bool:
+    """Tell a launch file of ROS 2 in YAML from other files in YAML, by name or content."""
+    if not path.name.endswith(_YAML_SUFFIXES):
+        return False
+    return path.name.endswith(_ROS2_SUFFIXES) or _begins_launch(_start(path))
+
+
 def kind_of(path: Path, diagnostics: Diagnostics) -> Kind | None:
     """Return what a file is; None, and a finding, when it is nothing that can be examined."""
     if path.name in {"package.xml", "manifest.xml"}:
         return Kind.MANIFEST
     try:
-        with path.open("rb") as stream:
-            start = stream.read(_PEEK_BYTES)
+        start = _start(path)
     except OSError as error:
         text = f"'{path}' cannot be read: {error.strerror}"
         diagnostics.report("doctor.unreadable", text, SourceSpan(str(path)))
@@ -61,6 +67,11 @@ def kind_of(path: Path, diagnostics: Diagnostics) -> Kind | None:
         diagnostics.report("doctor.unknown-file", text, SourceSpan(str(path)))
         return None
     return _kind_of_text(path, start, diagnostics)
+
+
+def _start(path: Path) -> bytes:
+    with path.open("rb") as stream:
+        return stream.read(_PEEK_BYTES)
 
 
 def _is_binary(start: bytes) -> bool:
@@ -73,7 +84,7 @@ def _kind_of_text(path: Path, start: bytes, diagnostics: Diagnostics) -> Kind | 
     if name.endswith(_ROS2_SUFFIXES):
         return None if name.endswith(".py") and _is_launch_test(path) else Kind.LAUNCH_ROS2
     if name.endswith(_YAML_SUFFIXES):
-        return _kind_of_yaml(start)
+        return Kind.LAUNCH_ROS2 if _begins_launch(start) else Kind.PARAMETERS
     if name == "model.config":
         return Kind.MODEL
     if is_semantic(path):
@@ -91,9 +102,8 @@ def _is_launch_test(path: Path) -> bool:
     return b"def generate_launch_description" not in text and b"generate_test_description" in text
 
 
-def _kind_of_yaml(start: bytes) -> Kind:
-    is_launch = re.search(rb"(?m)^launch\s*:", start) is not None
-    return Kind.LAUNCH_ROS2 if is_launch else Kind.PARAMETERS
+def _begins_launch(start: bytes) -> bool:
+    return re.search(rb"(?m)^launch\s*:", start) is not None
 
 
 def _kind_of_xml(path: Path, diagnostics: Diagnostics) -> Kind | None:

@@ -266,6 +266,34 @@ def test_launch_file_in_yaml(check: Check) -> None:
     assert reading.sections[0].rows[0][:3] == ("t", "bot", "talker")
 
 
+@pytest.mark.parametrize(
+    ("text", "line", "words", "fix"),
+    [
+        (
+            "launch:\n- arg: name: x\n",
+            2,
+            "not YAML: mapping values are not allowed here",
+            "put the value into quotes: it holds ': '",
+        ),
+        (
+            "launch:\n- node:\n    pkg: bot\n    exec: !!python/name:os.system\n",
+            4,
+            "not YAML: could not determine a constructor for the tag",
+            "mend it at the place shown",
+        ),
+    ],
+)
+def test_a_broken_launch_file_in_yaml_is_told_as_the_launch_tells_it(
+    check: Check, text: str, line: int, words: str, fix: str
+) -> None:
+    found, _ = check("a.launch.yaml", text)
+    (item,) = found.errors
+    assert (item.code, item.fix) == ("ros2_launch.bad-file", fix)
+    assert item.message.startswith(words)
+    assert item.span is not None
+    assert item.span.line == line
+
+
 def test_files_that_include_each_other_come_to_an_end(check: Check) -> None:
     text = '<launch><include file="$(dirname)/a.launch.xml"/></launch>'
     found, reading = check("a.launch.xml", text)

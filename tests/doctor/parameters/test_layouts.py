@@ -140,15 +140,60 @@ def test_octal_numbers_that_python_does_not_print_are_no_findings(check: Check) 
     assert [item.code for item in check(f"a: 0{'7' * 6000}\n", 1)] == []
 
 
-def test_files_of_moveit_and_maps_are_left_alone(check: Check) -> None:
+def test_files_of_moveit_and_of_other_programs_are_left_alone(check: Check) -> None:
     for text in (
         "arm:\n  kinematics_solver: kdl/KDL\n  timeout: 1e-3\n",
-        "image: map.pgm\nresolution: 0.05\norigin: [0, 0.0, 0]\n",
+        "image: left.png\nresolution: [640, 480]\n",
         "- a\n- b\n",
         "a: $(arg x)\n",
         "",
     ):
         assert list(check(text, 2)) == [], text
+
+
+_MAP = """image: {image}
+resolution: 0.05
+origin: {origin}
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+"""
+
+
+@pytest.mark.parametrize(
+    ("image", "origin", "code", "line", "words"),
+    [
+        ("file.yaml", "[0, 0.0, 0]", "", 0, ""),
+        ("file.yaml", "!!python/tuple [0, 0, 0]", "map.no-yaml", 3, "constructor for the tag"),
+        ("file.yaml", "[0, 0]", "map.bad-value", 3, "'origin' is [0, 0], not [x, y, yaw]"),
+        ("none.pgm", "[0, 0.0, 0]", "map.no-image", 1, "there is no such file"),
+    ],
+)
+def test_a_map_is_read_as_the_map_server_does(
+    check: Check, image: str, origin: str, code: str, line: int, words: str
+) -> None:
+    found = list(check(_MAP.format(image=image, origin=origin)))
+    assert [item.code for item in found] == ([code] if code else [])
+    for item in found:
+        assert words in item.message
+        assert item.span is not None
+        assert item.span.line == line
+
+
+def test_launch_files_of_a_package_are_no_parameter_files(tmp_path: Path) -> None:
+    folder = tmp_path / "bot"
+    (folder / "config").mkdir(parents=True)
+    (folder / "package.xml").write_text(
+        "<package format='3'><name>bot</name><version>0.1.0</version>"
+        "<export><build_type>ament_cmake</build_type></export></package>",
+        encoding="utf-8",
+    )
+    for name in ("bot.launch.yml", "bot_launch.yaml", "config/start.yaml"):
+        (folder / name).write_text("launch:\n- arg: x: y\n", encoding="utf-8")
+    assert list(package("bot", tmp_path)) == []
+    (folder / "config" / "a.yaml").write_text("a: x: y\n", encoding="utf-8")
+    (found,) = package("bot", tmp_path)
+    assert found.message.startswith("parameter file is not YAML")
 
 
 def test_aliases_that_never_end_or_stand_for_too_much_are_told(check: Check) -> None:

@@ -19,8 +19,16 @@ from gazelle.doctor.launch_ros2.records import (
     Use,
 )
 from gazelle.doctor.launch_ros2.substitutions import Substitutions
-from gazelle.doctor.parameters.document import read_document
-from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence
+from gazelle.documents import yaml
+from gazelle.documents.yaml import (
+    YamlDocument,
+    YamlError,
+    YamlMapping,
+    YamlNode,
+    YamlProblem,
+    YamlScalar,
+    YamlSequence,
+)
 from gazelle.workspace import Workspace
 
 __all__ = ["read_xml_file", "read_yaml_file"]
@@ -51,12 +59,36 @@ def read_yaml_file(
     diagnostics: Diagnostics,
 ) -> LaunchFile | None:
     """Read a launch file in YAML; None (and an error reported) when it is none."""
-    document = read_document(path, diagnostics)
-    if document is None:
+    document = yaml.read_yaml_file(path)
+    problem = _problem(document)
+    if problem is not None:
+        _report(problem, diagnostics)
         return None
-    inner = document.find("launch")
-    tag = Tag("launch", document.root.span, {}, _children("launch", inner))
+    root = document.root
+    if not isinstance(root, YamlMapping):
+        return None
+    inner = root.pair("launch")
+    children = () if inner is None else _children("launch", inner[1])
+    tag = Tag("launch", root.span, {}, children)
     return _Reader(path, Substitutions(path, given, workspace)).read(tag)
+
+
+def _problem(document: YamlDocument) -> YamlProblem | None:
+    """Return what keeps a launch from reading a file: its text, or a value that it may not have."""
+    try:
+        _ = document.value
+    except YamlError as error:
+        return error.problem
+    return None
+
+
+def _report(problem: YamlProblem, diagnostics: Diagnostics) -> None:
+    """Tell what the launch itself would."""
+    from gazelle.launch.ros2.explaining import explain_yaml
+
+    found = explain_yaml(problem)
+    message = found.message or f"the launch file cannot be read: {problem.what}"
+    diagnostics.report(found.code, message, problem.span, fix=found.fix)
 
 
 def _children(name: str, node: YamlNode | None) -> tuple[Tag, ...]:

@@ -7,6 +7,7 @@ from pathlib import Path, PurePosixPath
 
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.kinds import is_launch_yaml
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.controllers import check_controllers, controllers_in
 from gazelle.doctor.parameters.description_text import check_description_text
@@ -17,13 +18,14 @@ from gazelle.doctor.parameters.names import NameFiles, check_names, read_name_fi
 from gazelle.doctor.parameters.robots import robots_for, whole_robots
 from gazelle.doctor.parameters.value_checks import check_values
 from gazelle.doctor.report import Section
+from gazelle.documents.names import exists
 from gazelle.workspace import Package, Workspace
 
 __all__ = ["check_package_parameters", "check_parameter_file"]
 
 _FOLDERS = frozenset(
-    {"cfg", "conf", "config", "configs", "control", "controllers", "param", "params", "parameters",
-     "yaml"}
+    {"cfg", "conf", "config", "configs", "control", "controllers", "map", "maps", "param", "params",
+     "parameters", "yaml"}
 )  # fmt: skip
 _OUTSIDE = frozenset({"doc", "docs", "test", "tests"})
 _ROBOTS = (".urdf", ".xacro")
@@ -49,6 +51,9 @@ def check_parameter_file(
     if document is None:
         return
     layout = layout_of(document)
+    if layout is Layout.MAP:
+        _check_map(path, generation or 1, diagnostics)
+        return
     check_layout(document, layout, generation, diagnostics)
     reader = generation or (2 if layout is Layout.ROS2 else 1)
     # MoveIt's files of ROS 2 are read by PyYAML too.
@@ -57,6 +62,15 @@ def check_parameter_file(
     check_controllers(controllers_in(document, layout), diagnostics)
     if layout is Layout.ROS2 and reader == 2:
         check_idle(document, diagnostics)
+
+
+def _check_map(path: Path, generation: int, diagnostics: Diagnostics) -> None:
+    """Report what the map server would."""
+    from gazelle.mapping.grids.map_file import read_map_file, report_missing_image
+
+    found = read_map_file(path, diagnostics, generation)
+    if found is not None and not exists(found.image):
+        report_missing_image(found.image, found.image_span, diagnostics, generation)
 
 
 def check_package_parameters(
@@ -70,7 +84,8 @@ def check_package_parameters(
         diagnostics: receives the findings.
     """
     source = SourcePackage(package)
-    files = [package.path / name for name in source.files if _is_parameter_file(name)]
+    near = [package.path / name for name in source.files if _may_be_parameter_file(name)]
+    files = [path for path in near if not is_launch_yaml(path)]
     generation = 2 if source.is_ros2 else 1
     names = read_name_files(files)
     model = _robot(names, files, package, generation, workspace)
@@ -108,11 +123,11 @@ def _robot(
     return None if best is None else best[1]
 
 
-def _is_parameter_file(name: str) -> bool:
+def _may_be_parameter_file(name: str) -> bool:
     path = PurePosixPath(name)
     if _OUTSIDE & set(path.parts):
         return False
     if path.suffix == ".srdf":
         return True
     is_near = len(path.parts) == 1 or bool(_FOLDERS & {part.lower() for part in path.parts[:-1]})
-    return path.suffix in {".yaml", ".yml"} and is_near and not name.endswith((".launch.yaml",))
+    return path.suffix in {".yaml", ".yml"} and is_near

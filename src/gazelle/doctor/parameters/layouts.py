@@ -20,6 +20,7 @@ _MOVEIT_KEYS = frozenset(
         "trajectory_execution",
     }
 )  # fmt: skip
+_MAP_KEYS = frozenset({"free_thresh", "negate", "occupied_thresh", "origin"})
 
 
 class Layout(enum.Enum):
@@ -37,7 +38,8 @@ def layout_of(document: Document) -> Layout:
     keys = set(document.keys(document.root))
     if _marks(document.root):
         return Layout.ROS2
-    if {"image", "resolution"} <= keys:
+    # Descriptions of cameras have a resolution, too, and no threshold.
+    if {"image", "resolution"} <= keys and keys & _MAP_KEYS:
         return Layout.MAP
     inner = {key for name in keys for key in document.keys(document.find(name))}
     if keys & _MOVEIT_KEYS or "kinematics_solver" in inner or "planner_configs" in inner:

@@ -44,8 +44,6 @@ def check_values(
         diagnostics: receives the findings.
         joints: names of the robot's joints.
     """
-    if layout is Layout.MAP:
-        return
     _check_doubles(document.root, diagnostics, adds_up=layout is Layout.ROS2)
     for key, node, inside in scalars(document.root):
         if not node.is_plain or "$(" in node.text:

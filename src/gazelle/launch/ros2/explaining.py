@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import NamedTuple
 
 from gazelle.diagnostics import did_you_mean
-from gazelle.documents.yaml import ProblemKind, PyYamlError, problem_of
+from gazelle.documents.yaml import ProblemKind, PyYamlError, YamlProblem, problem_of
 from gazelle.launch.ros2.failing import kept_explanation
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.place import is_the_users
@@ -21,7 +21,7 @@ from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
 from gazelle.node_specs.elsewhere import replacement_of
 from gazelle.workspace.ament_index import PackageNotFoundError
 
-__all__ = ["Explained", "explain"]
+__all__ = ["Explained", "explain", "explain_yaml"]
 
 _QUOTES = "put the value into quotes: YAML takes it for a number or a bool"
 # What an error of the launch itself says, its code, and what to do where the code says too little.
@@ -126,6 +126,14 @@ def explain(error: BaseException) -> Explained | None:
         if phrase in text:
             return Explained(code, fix=fix)
     return None
+
+
+def explain_yaml(problem: YamlProblem) -> Explained:
+    """Say shortly what is wrong with a YAML launch file; the place is shown anyway."""
+    if not problem.has_place:
+        return Explained("ros2_launch.bad-file")
+    message = f"not YAML: {' '.join(filter(None, (problem.what, problem.context)))}"
+    return Explained("ros2_launch.bad-file", message, _YAML_FIXES.get(problem.kind, ""))
 
 
 def _raised_by_the_user(error: BaseException) -> bool:
@@ -244,14 +252,9 @@ def _attribute(error: BaseException) -> Explained | None:
     )
 
 
-def _yaml(error: BaseException) -> Explained | None:
-    """Say shortly what is wrong with a YAML launch file; the place is shown anyway."""
+def _yaml(error: BaseException) -> Explained:
     assert isinstance(error, PyYamlError)
-    problem = problem_of(error, "")
-    if not problem.has_place:
-        return Explained("ros2_launch.bad-file")
-    message = f"not YAML: {' '.join(filter(None, (problem.what, problem.context)))}"
-    return Explained("ros2_launch.bad-file", message, _YAML_FIXES.get(problem.kind, ""))
+    return explain_yaml(problem_of(error, ""))
 
 
 def _xacro(error: BaseException) -> Explained:
