@@ -10,12 +10,15 @@ import pytest
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type, ros1_message_type
 from gazelle.interfaces.poses import (
+    pose_message,
     pose_of,
     pose_of_transform,
     set_plane_pose,
     set_pose,
     set_transform,
     set_xyz,
+    transform_stamped,
+    twist_message,
     unit_pose_of,
     xyz_of,
 )
@@ -65,3 +68,13 @@ def test_stamps_do_without_geometry():
     code = "import sys, gazelle.interfaces.stamps; print('gazelle.geometry' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"
+
+
+def test_messages_are_made_of_poses_and_numbers():
+    assert pose_of(pose_message(POSE)) == POSE
+    twist = twist_message(np.array([1, 2, 3]), (0.0, 0.0, 4.0))
+    assert (xyz_of(twist.linear), xyz_of(twist.angular)) == ((1.0, 2.0, 3.0), (0.0, 0.0, 4.0))
+    transform = transform_stamped(5, "map", "odom", POSE)
+    assert pose_of_transform(transform.transform) == POSE
+    names = (transform.header.stamp.nanosec, transform.header.frame_id, transform.child_frame_id)
+    assert names == (5, "map", "odom")

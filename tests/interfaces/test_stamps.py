@@ -3,7 +3,15 @@ from __future__ import annotations
 import pytest
 
 from gazelle.interfaces import message_type, ros1_message_type
-from gazelle.interfaces.stamps import ns_of, seconds_of, set_header, set_stamp, stamp_message
+from gazelle.interfaces.stamps import (
+    header,
+    ns_of,
+    seconds_of,
+    set_header,
+    set_stamp,
+    stamp_message,
+    stamped,
+)
 
 TIME = 12_000_000_345
 
@@ -33,3 +41,10 @@ def test_a_header_takes_time_and_frame():
     assert message.header == message_type("std_msgs/Header")(
         stamp=stamp_message(TIME), frame_id="map"
     )
+
+
+def test_a_message_is_made_with_its_header():
+    message = stamped("geometry_msgs/PoseStamped", TIME, "map")
+    assert message.header == header(TIME, "map")
+    assert (ns_of(message.header.stamp), message.header.frame_id) == (TIME, "map")
+    assert header(TIME).frame_id == ""

@@ -14,9 +14,9 @@ from tests.patience import eventually, stretched
 from gazelle.errors import EngineError
 from gazelle.geometry import Pose
 from gazelle.graph.errors import ServiceRefusedError
+from gazelle.interfaces import message_type, service_type
 from gazelle.simulator import Mode, Simulation
 from gazelle.simulator.inputs import Inputs, problem_of, refusal
-from gazelle.simulator.messages import message_class, service_class
 
 BOX = """<sdf version="1.6"><model name="box"><link name="link">
   <inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
@@ -50,7 +50,7 @@ def world(load: Callable[..., Simulation]) -> Simulation:
 
 
 def _request(kind: str, **fields: Any) -> Any:
-    return service_class(f"gazebo_msgs/{kind}").Request(**fields)
+    return service_type(f"gazebo_msgs/{kind}").Request(**fields)
 
 
 CALLS = [
@@ -227,8 +227,8 @@ def test_engine_refuses_places_that_no_state_can_have(world: Simulation) -> None
 def test_topic_leaves_a_number_out_that_cannot_be_and_tells_once(
     world: Simulation, caplog: pytest.LogCaptureFixture, field: str, value: float, words: str
 ) -> None:
-    good = message_class("gazebo_msgs/ModelState")(model_name="box")
-    state = _filled(message_class("gazebo_msgs/ModelState")(model_name="box"), field, value)
+    good = message_type("gazebo_msgs/ModelState")(model_name="box")
+    state = _filled(message_type("gazebo_msgs/ModelState")(model_name="box"), field, value)
     publisher = world.server.node.create_publisher("/gazebo/set_model_state", type(state))
     before = world.server.engine.state_hash()
     publisher.publish(state)
@@ -244,27 +244,27 @@ def test_topic_leaves_a_number_out_that_cannot_be_and_tells_once(
 
 
 def test_a_response_without_room_for_a_reason_fails_the_call() -> None:
-    response = service_class("std_srvs/Empty").Response()
+    response = service_type("std_srvs/Empty").Response()
     with pytest.raises(ServiceRefusedError, match="no"):
         refusal(response, "no")
 
 
 def test_limits_belong_to_what_a_number_means() -> None:
-    twist = message_class("geometry_msgs/Twist")()
+    twist = message_type("geometry_msgs/Twist")()
     twist.linear.x = 2e4
     assert problem_of(twist) == (
         "field 'linear.x' is 20000, beyond the ±10000, which nothing in a world can have"
     )
-    pose, wrench = message_class("geometry_msgs/Pose")(), message_class("geometry_msgs/Wrench")()
+    pose, wrench = message_type("geometry_msgs/Pose")(), message_type("geometry_msgs/Wrench")()
     pose.position.y, wrench.force.z = -1e5, 1e7
     assert (problem_of(pose), problem_of(wrench)) == ("", "")
     pose.position.y, wrench.force.z = -1.001e5, 1.001e7
     assert "field 'position.y' is -100100, beyond the ±100000" in problem_of(pose)
     assert "field 'force.z' is 1.001e+07, beyond the ±1e+07" in problem_of(wrench)
-    array = message_class("std_msgs/Float64MultiArray")(data=[0.0, 2e4, math.inf])
+    array = message_type("std_msgs/Float64MultiArray")(data=[0.0, 2e4, math.inf])
     assert problem_of(array) == "field 'data[2]' is inf, which nothing in a world can have"
-    path = message_class("tf2_msgs/TFMessage")(
-        transforms=[message_class("geometry_msgs/TransformStamped")() for _ in range(3)]
+    path = message_type("tf2_msgs/TFMessage")(
+        transforms=[message_type("geometry_msgs/TransformStamped")() for _ in range(3)]
     )
     assert problem_of(path) == ""
     path.transforms[1].transform.translation.y = math.nan

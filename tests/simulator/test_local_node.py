@@ -3,19 +3,19 @@ from __future__ import annotations
 import pytest
 
 from gazelle.errors import NotFoundError
+from gazelle.interfaces import message_type, service_type
 from gazelle.simulator.local_node import LocalNode
-from gazelle.simulator.messages import message_class, service_class
 
 STRING = "std_msgs/String"
 
 
 def test_a_message_reaches_subscribers_as_the_same_object() -> None:
     node, got = LocalNode(), []
-    publisher = node.create_publisher("chatter", message_class(STRING))
+    publisher = node.create_publisher("chatter", message_type(STRING))
     assert not publisher.matched
     subscription = node.create_subscription("/chatter", None, got.append)
     assert publisher.matched
-    message = message_class(STRING)(data="hello")
+    message = message_type(STRING)(data="hello")
     publisher.publish(message)
     assert got[0] is message
     subscription.unregister()
@@ -24,15 +24,15 @@ def test_a_message_reaches_subscribers_as_the_same_object() -> None:
 
 def test_a_latched_message_waits_for_late_subscribers() -> None:
     node, got = LocalNode(), []
-    node.create_publisher("a", message_class(STRING), latch=True).publish(
-        message_class(STRING)(data="kept")
+    node.create_publisher("a", message_type(STRING), latch=True).publish(
+        message_type(STRING)(data="kept")
     )
     node.create_subscription("a", None, got.append)
     assert [message.data for message in got] == ["kept"]
 
 
 def test_services_answer_and_unknown_ones_name_the_nearest() -> None:
-    node, empty = LocalNode(), service_class("std_srvs/Empty")
+    node, empty = LocalNode(), service_type("std_srvs/Empty")
     service = node.create_service("/pause", empty, lambda request: empty.Response())
     assert node.call("pause", empty.Request()) == empty.Response()
     with pytest.raises(NotFoundError, match="service '/paus' not found; did you mean '/pause'"):

@@ -12,9 +12,9 @@ from tests.patience import eventually, stretched
 
 from gazelle.errors import SimulationDivergedError
 from gazelle.graph import Graph
+from gazelle.interfaces import message_type, service_type
 from gazelle.simulator import Mode, Simulation
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
-from gazelle.simulator.messages import message_class, service_class
 from gazelle.simulator.recovery import OnDivergence
 from gazelle.simulator.scheduler import Task
 from gazelle.simulator.viewing import offer_views
@@ -39,7 +39,7 @@ def sim(load: Callable[..., Simulation]) -> Iterator[Simulation]:
 
 
 def _push(sim: Simulation, effort: float = 1e6) -> None:
-    request = service_class("gazebo_msgs/ApplyJointEffort").Request(
+    request = service_type("gazebo_msgs/ApplyJointEffort").Request(
         joint_name="feather::spin", effort=effort
     )
     request.duration.sec = -1
@@ -160,7 +160,7 @@ def test_target_of_a_page_that_made_a_model_diverge_ends(sim: Simulation) -> Non
     request = {"op": "joint", "model": "feather", "joint": "spin", "position": 1e6, "p": 1e12}
     thread = _run_in_real_time(server)
     try:
-        kind = service_class("gazelle_msgs/Do")
+        kind = service_type("gazelle_msgs/Do")
         server.node.call("/_gazelle/do", kind.Request(request=json.dumps(request)))
         eventually(lambda: server.paused)
         at_ns = server.time_ns
@@ -193,7 +193,7 @@ def test_recovery_names_the_node_that_sent_the_command_on_rosout(graph: Graph) -
     heard: list[str] = []
     listener = graph.create_node("listener", rosout=False)
     listener.create_subscription(
-        "/rosout", message_class("rcl_interfaces/Log"), lambda message: heard.append(message.msg)
+        "/rosout", message_type("rcl_interfaces/Log"), lambda message: heard.append(message.msg)
     )
     sim = Simulation.load(world="empty", node=node)
     server = sim.server
@@ -202,7 +202,7 @@ def test_recovery_names_the_node_that_sent_the_command_on_rosout(graph: Graph) -
     thread = _run_in_real_time(server)
     try:
         client = sender.create_client(
-            "/gazebo/apply_joint_effort", service_class("gazebo_msgs/ApplyJointEffort")
+            "/gazebo/apply_joint_effort", service_type("gazebo_msgs/ApplyJointEffort")
         )
         assert client.wait_for_service(stretched())
         request = client.service_class.Request(joint_name="feather::spin", effort=1e6)

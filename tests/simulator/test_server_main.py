@@ -14,7 +14,8 @@ from tests.patience import eventually, stretched
 
 from gazelle.graph import Graph
 from gazelle.graph.errors import GraphError
-from gazelle.simulator.messages import message_class, service_class, twist_message
+from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import twist_message
 from gazelle.simulator.server_main import ros_version_of, serve
 from gazelle.simulator.server_options import ServerOptions
 from gazelle.simulator.spawn_model import spawn_model
@@ -54,7 +55,7 @@ def start(graph: Graph) -> Iterator[Callable[..., None]]:
 
 def test_gazebo_of_ros2_offers_its_parameters(graph: Graph, start: Callable[..., None]) -> None:
     start("--pause", "-s", "libgazebo_ros_init.so", started_by=2, params={"publish_rate": 20.0})
-    service = service_class("rcl_interfaces/GetParameters")
+    service = service_type("rcl_interfaces/GetParameters")
     assert graph.wait_for_service("/gazebo/get_parameters", stretched())
     client = graph.create_node("asks").create_client("/gazebo/get_parameters", service)
     asked = service.Request(names=["publish_rate", "use_sim_time"])
@@ -78,7 +79,7 @@ def test_publish_rate_of_gazebo_is_the_clocks(
         if len(seen) > 5:
             came.set()
 
-    listener.create_subscription("/clock", message_class("rosgraph_msgs/Clock"), take)
+    listener.create_subscription("/clock", message_type("rosgraph_msgs/Clock"), take)
     start("empty", name="gzserver", started_by=2, parameter_files=files, params=params)
     assert came.wait(stretched())
     assert {one % 50 for one in seen} == {0}
@@ -120,9 +121,9 @@ def test_launch_and_plug_ins_of_the_server_tell_the_version_of_ros(
 
 def call(graph: Graph, name: str, kind: str, **fields: Any) -> Any:
     node = graph.create_node("caller", anonymous=True)
-    client = node.create_client(name, service_class(kind))
+    client = node.create_client(name, service_type(kind))
     assert client.wait_for_service(stretched())
-    return client.call(service_class(kind).Request(**fields), stretched())
+    return client.call(service_type(kind).Request(**fields), stretched())
 
 
 def test_a_robot_is_spawned_driven_and_measured_over_the_graph(
@@ -141,11 +142,11 @@ def test_a_robot_is_spawned_driven_and_measured_over_the_graph(
         if message.twist.twist.linear.x > 0.35:
             moved.set()
 
-    node.create_subscription("/odom", message_class("nav_msgs/Odometry"), take)
+    node.create_subscription("/odom", message_type("nav_msgs/Odometry"), take)
     node.create_subscription(
-        "/scan", message_class("sensor_msgs/LaserScan"), lambda message: scanned.set()
+        "/scan", message_type("sensor_msgs/LaserScan"), lambda message: scanned.set()
     )
-    commands = node.create_publisher("/cmd_vel", message_class("geometry_msgs/Twist"))
+    commands = node.create_publisher("/cmd_vel", message_type("geometry_msgs/Twist"))
     commands.publish(twist_message((0.4, 0.0, 0.0), (0.0, 0.0, 0.0)))
     assert moved.wait(stretched())
     assert scanned.wait(stretched())
@@ -174,7 +175,7 @@ def test_a_paused_world_stands_still_until_told(graph: Graph, start: Callable[..
     assert call(graph, "/gazebo/get_world_properties", kind).sim_time == 0.0
     ticked = threading.Event()
     node = graph.create_node("tester")
-    node.create_subscription("/clock", message_class("rosgraph_msgs/Clock"), lambda m: ticked.set())
+    node.create_subscription("/clock", message_type("rosgraph_msgs/Clock"), lambda m: ticked.set())
     call(graph, "/gazebo/unpause_physics", "std_srvs/Empty")
     assert ticked.wait(stretched())
 
@@ -264,10 +265,10 @@ def test_each_plug_in_of_ros_2_offers_its_own_services(
 def test_refusals_name_the_caller(graph: Graph, start: Callable[..., None]) -> None:
     heard: list[str] = []
     graph.create_node("listener", rosout=False).create_subscription(
-        "/rosout", message_class("rcl_interfaces/Log"), lambda message: heard.append(message.msg)
+        "/rosout", message_type("rcl_interfaces/Log"), lambda message: heard.append(message.msg)
     )
     start("-u")
-    state = message_class("gazebo_msgs/ModelState")(model_name="ground_plane")
+    state = message_type("gazebo_msgs/ModelState")(model_name="ground_plane")
     state.pose.position.x = math.nan
     fields: dict[str, Any]
     for service, kind, fields, words in (
@@ -295,7 +296,7 @@ _FEATHER = """<robot name="feather"><link name="world"/>
 def _throw_feather(graph: Graph) -> None:
     named = {"model_name": "feather", "model_xml": _FEATHER}
     assert call(graph, "/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", **named).success
-    lasting = message_class("builtin_interfaces/Duration")(sec=-1)
+    lasting = message_type("builtin_interfaces/Duration")(sec=-1)
     effort = {"joint_name": "feather::spin", "effort": 1e6, "duration": lasting}
     kind = "gazebo_msgs/ApplyJointEffort"
     assert call(graph, "/gazebo/apply_joint_effort", kind, **effort).success
@@ -335,14 +336,14 @@ def test_ros_2_refuses_a_word_that_on_divergence_does_not_know(
 ) -> None:
     start("--pause", "-s", "libgazebo_ros_init.so", started_by=2)
     assert graph.wait_for_service("/gazebo/set_parameters", stretched())
-    service = service_class("rcl_interfaces/SetParameters")
+    service = service_type("rcl_interfaces/SetParameters")
     client = graph.create_node("asks").create_client("/gazebo/set_parameters", service)
-    value, row = message_class("rcl_interfaces/ParameterValue"), "rcl_interfaces/Parameter"
+    value, row = message_type("rcl_interfaces/ParameterValue"), "rcl_interfaces/Parameter"
     answers = [
         client.call(
             service.Request(
                 parameters=[
-                    message_class(row)(name="on_divergence", value=value(type=4, string_value=word))
+                    message_type(row)(name="on_divergence", value=value(type=4, string_value=word))
                 ]
             ),
             timeout_s=stretched(),

@@ -15,8 +15,9 @@ from tests.shared_files import skip_module_without_shared
 
 from gazelle.geometry import Pose
 from gazelle.graph.world import shown_transport_name
+from gazelle.interfaces import service_type
+from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import service_class, twist_message
 from gazelle.simulator.viewing import offer_views
 from gazelle.workspace import Workspace
 
@@ -180,7 +181,7 @@ def test_idle_it_stays_where_it_is(slambot: Bring) -> None:
 def test_it_outlives_half_a_newton_metre_on_each_joint_without_end(slambot: Bring) -> None:
     sim = slambot()
     offer_views(sim.server)
-    engine, kind = sim.server.engine, service_class("gazelle_msgs/Do")
+    engine, kind = sim.server.engine, service_type("gazelle_msgs/Do")
     joints = [name for name in engine.joint_names if engine.joint(name).is_driveable]
     names = [name.split("::", 1) for name in joints if name.startswith("slam_robot::")]
     assert names

@@ -11,9 +11,9 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.graph import Graph
+from gazelle.interfaces import message_type
 from gazelle.simulator import Simulation
 from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
-from gazelle.simulator.messages import message_class
 from gazelle.simulator.spawn_model import spawn_model
 
 BOX = """<?xml version="1.0"?>
@@ -103,9 +103,9 @@ def test_the_ros_2_script_says_what_it_says(sim: Simulation, console: Console, b
 
 
 def test_a_latched_topic_is_a_source(sim: Simulation, console: Console, graph: Graph) -> None:
-    from gazelle.simulator.messages import message_class
+    from gazelle.interfaces import message_type
 
-    string = message_class("std_msgs/String")
+    string = message_type("std_msgs/String")
     publisher = graph.create_node("rsp").create_publisher("/robot_description", string, latch=True)
     publisher.publish(string(data=BOX))
     argv = ["-entity", "crate", "-topic", "robot_description"]
@@ -198,7 +198,7 @@ def test_a_simulator_that_loads_its_world_is_waited_for(
     thread.start()
     thread.join(0.5)
     assert thread.is_alive()
-    simulator.create_publisher("/clock", message_class("rosgraph_msgs/Clock"))
+    simulator.create_publisher("/clock", message_type("rosgraph_msgs/Clock"))
     thread.join(stretched(30.0))
     assert codes == [1]
 

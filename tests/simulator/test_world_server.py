@@ -9,8 +9,9 @@ import pytest
 from tests.patience import stretched
 from tests.sets import few
 
+from gazelle.interfaces import service_type
+from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Mode, Simulation, WorldServer
-from gazelle.simulator.messages import service_class, twist_message
 
 Load = Callable[..., Simulation]
 Listen = Callable[[Simulation, str], list[Any]]
@@ -159,8 +160,8 @@ def test_real_time_is_kept(running: Any) -> None:
 
 def test_a_paused_server_takes_commands_and_starts_on_demand(running: Any) -> None:
     sim = running(mode=Mode.FAST, paused=True)
-    node, empty = sim.server.node, service_class("std_srvs/Empty")
-    kind = service_class("gazebo_msgs/GetPhysicsProperties")
+    node, empty = sim.server.node, service_type("std_srvs/Empty")
+    kind = service_type("gazebo_msgs/GetPhysicsProperties")
     assert node.call("/gazebo/get_physics_properties", kind.Request()).pause
     assert sim.time_ns == 0
     node.call("/gazebo/unpause_physics", empty.Request())

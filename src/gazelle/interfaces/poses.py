@@ -1,4 +1,7 @@
-"""Poses and transforms in messages of either generation ↔ `gazelle.geometry.Pose`."""
+"""Poses, transforms and twists in messages ↔ `gazelle.geometry.Pose` and numbers.
+
+What is read or written may be of either generation, what is made is of ROS 2.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +10,11 @@ from collections.abc import Iterable
 from typing import Any
 
 from gazelle.geometry import Pose, QuatXyzw, Vector3
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import stamped
 
 __all__ = [
+    "pose_message",
     "pose_of",
     "pose_of_transform",
     "quat_xyzw_of",
@@ -17,7 +23,10 @@ __all__ = [
     "set_quat_xyzw",
     "set_transform",
     "set_xyz",
+    "transform_stamped",
+    "twist_message",
     "unit_pose_of",
+    "vector_message",
     "xyz_of",
 ]
 
@@ -79,3 +88,29 @@ def set_transform(message: Any, pose: Pose) -> None:
     """Write into a ``geometry_msgs/Transform``."""
     set_xyz(message.translation, pose.position_m)
     set_quat_xyzw(message.rotation, pose.quat_xyzw)
+
+
+def vector_message(xyz: Iterable[float]) -> Any:
+    """Return a ``geometry_msgs/Vector3`` of ROS 2."""
+    return message_type("geometry_msgs/msg/Vector3")(*map(float, xyz))
+
+
+def pose_message(pose: Pose) -> Any:
+    """Return a ``geometry_msgs/Pose`` of ROS 2."""
+    message = message_type("geometry_msgs/msg/Pose")()
+    set_pose(message, pose)
+    return message
+
+
+def twist_message(linear: Iterable[float], angular: Iterable[float]) -> Any:
+    """Return a ``geometry_msgs/Twist`` of ROS 2, m/s and rad/s."""
+    twist = message_type("geometry_msgs/msg/Twist")
+    return twist(linear=vector_message(linear), angular=vector_message(angular))
+
+
+def transform_stamped(time_ns: int, parent: str, child: str, T_parent_child: Pose) -> Any:
+    """Return a ``geometry_msgs/TransformStamped`` of ROS 2."""
+    message = stamped("geometry_msgs/msg/TransformStamped", time_ns, parent)
+    message.child_frame_id = child
+    set_transform(message.transform, T_parent_child)
+    return message

@@ -1,4 +1,4 @@
-"""Times and durations in messages of either generation ↔ nanoseconds.
+"""Times, durations and headers in messages ↔ nanoseconds.
 
 ROS 1 has ``secs`` and ``nsecs``, ROS 2 ``sec`` and ``nanosec``; nanoseconds are in [0, 1e9) in
 both, so that a negative duration has negative seconds.
@@ -10,7 +10,16 @@ from typing import Any
 
 from gazelle.interfaces import message_type
 
-__all__ = ["NS_PER_S", "ns_of", "seconds_of", "set_header", "set_stamp", "stamp_message"]
+__all__ = [
+    "NS_PER_S",
+    "header",
+    "ns_of",
+    "seconds_of",
+    "set_header",
+    "set_stamp",
+    "stamp_message",
+    "stamped",
+]
 
 NS_PER_S = 1_000_000_000
 
@@ -41,6 +50,16 @@ def set_stamp(stamp: Any, time_ns: int) -> None:
 def stamp_message(time_ns: int) -> Any:
     """Return nanoseconds as a ``builtin_interfaces/Time`` of ROS 2."""
     return message_type("builtin_interfaces/msg/Time")(*divmod(time_ns, NS_PER_S))
+
+
+def header(time_ns: int, frame_id: str = "") -> Any:
+    """Return a ``std_msgs/Header`` of ROS 2."""
+    return message_type("std_msgs/msg/Header")(stamp=stamp_message(time_ns), frame_id=frame_id)
+
+
+def stamped(name: str, time_ns: int, frame_id: str = "") -> Any:
+    """Return a message of a type with a header, in the form of ROS 2."""
+    return message_type(name)(header=header(time_ns, frame_id))
 
 
 def set_header(message: Any, time_ns: int, frame_id: str) -> None:

@@ -12,7 +12,8 @@ from gazelle.documents.names import exists, is_file
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
 from gazelle.graph.world import SHOWN_SPACE, first_there, is_loading, world_names
-from gazelle.simulator.messages import message_class, pose_message, service_class
+from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import pose_message
 from gazelle.simulator.plugins.context import join_names
 from gazelle.simulator.spawn_arguments import (
     SpawnUsageError,
@@ -89,7 +90,7 @@ class _Spawner:
             self._set_joints()
         if arguments.unpause:
             self._say("Unpausing physics")
-            request = service_class("std_srvs/Empty").Request()
+            request = service_type("std_srvs/Empty").Request()
             self._call("unpause_physics", "std_srvs/Empty", request)
         if arguments.bond:
             self._say(f"Waiting for shutdown to delete model {arguments.model}")
@@ -106,7 +107,7 @@ class _Spawner:
 
         # ROS 2's own topic needs a plug-in in the world; this waits without it, too.
         space = SHOWN_SPACE if self._ros2 else self._namespace
-        states = message_class("gazebo_msgs/ModelStates")
+        states = message_type("gazebo_msgs/ModelStates")
         listening = [
             self._node.create_subscription(topic, states, look)
             for topic in world_names(join_names(space, "model_states"))
@@ -167,7 +168,7 @@ class _Spawner:
             found.append(str(message.data))
             came.set()
 
-        subscription = self._node.create_subscription(topic, message_class("std_msgs/String"), take)
+        subscription = self._node.create_subscription(topic, message_type("std_msgs/String"), take)
         self._say(f"Waiting for entity xml on {topic}")
         while not self._stop.is_set() and not came.wait(_POLL_S):
             continue
@@ -193,12 +194,12 @@ class _Spawner:
         )
         if self._ros2:
             service, kind = "spawn_entity", "gazebo_msgs/SpawnEntity"
-            request = service_class(kind).Request(name=arguments.model, xml=text)
+            request = service_type(kind).Request(name=arguments.model, xml=text)
         else:
             # SDF may come through -urdf and the other way round; the server looks itself.
             service = "spawn_urdf_model" if arguments.urdf else "spawn_sdf_model"
             kind = "gazebo_msgs/SpawnModel"
-            request = service_class(kind).Request(model_name=arguments.model, model_xml=text)
+            request = service_type(kind).Request(model_name=arguments.model, model_xml=text)
         request.robot_namespace = arguments.robot_namespace
         request.initial_pose = pose_message(pose)
         request.reference_frame = arguments.reference_frame
@@ -215,7 +216,7 @@ class _Spawner:
     def _set_joints(self) -> None:
         arguments = self._arguments
         kind = "gazebo_msgs/SetModelConfiguration"
-        request = service_class(kind).Request(
+        request = service_type(kind).Request(
             model_name=arguments.model,
             joint_names=[name for name, _ in arguments.joints],
             joint_positions=[float(position) for _, position in arguments.joints],
@@ -230,10 +231,10 @@ class _Spawner:
         model = self._arguments.model
         self._say(f"Deleting model {model}")
         if self._ros2:
-            request = service_class("gazebo_msgs/DeleteEntity").Request(name=model)
+            request = service_type("gazebo_msgs/DeleteEntity").Request(name=model)
             self._call("delete_entity", "gazebo_msgs/DeleteEntity", request, stopping=True)
         else:
-            request = service_class("gazebo_msgs/DeleteModel").Request(model_name=model)
+            request = service_type("gazebo_msgs/DeleteModel").Request(model_name=model)
             self._call("delete_model", "gazebo_msgs/DeleteModel", request, stopping=True)
 
     def _call(
@@ -242,7 +243,7 @@ class _Spawner:
         """Call a service of the simulator; None when told to stop before it was there."""
         name = join_names(self._namespace, service)
         names = world_names(name)
-        clients = [self._node.create_client(one, service_class(kind)) for one in names]
+        clients = [self._node.create_client(one, service_type(kind)) for one in names]
         waited = 0.0
         while not (client := first_there(clients, _POLL_S)):
             waited += _POLL_S

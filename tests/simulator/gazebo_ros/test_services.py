@@ -10,14 +10,10 @@ from tests.shared_files import needs_shared
 
 from gazelle.geometry import Pose
 from gazelle.graph import Graph
+from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import pose_message, twist_message
 from gazelle.simulator import Simulation
 from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
-from gazelle.simulator.messages import (
-    message_class,
-    pose_message,
-    service_class,
-    twist_message,
-)
 
 BOX = """<sdf version="1.6"><model name="{name}"><link name="link">
   <inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>
@@ -37,7 +33,7 @@ class World:
         self.sim = sim
 
     def call(self, name: str, kind: str, /, **fields: Any) -> Any:
-        service = service_class(kind if "/" in kind else f"gazebo_msgs/{kind}")
+        service = service_type(kind if "/" in kind else f"gazebo_msgs/{kind}")
         name = name if name.startswith("/") else f"/gazebo/{name}"
         return self.sim.server.node.call(name, service.Request(**fields))  # type: ignore[attr-defined]
 
@@ -83,7 +79,7 @@ def world(load: Callable[..., Simulation]) -> World:
 
 
 def state(cls: str, **fields: Any) -> Any:
-    return message_class(f"gazebo_msgs/{cls}")(**fields)
+    return message_type(f"gazebo_msgs/{cls}")(**fields)
 
 
 def test_the_services_and_topics_are_those_of_gazebo_ros(world: World) -> None:
@@ -157,8 +153,8 @@ def test_physics_properties_change_step_and_gravity(world: World) -> None:
 
 
 def test_dynamic_parameters_change_the_same_things(world: World) -> None:
-    request = service_class("dynamic_reconfigure/Reconfigure").Request()
-    value = message_class("dynamic_reconfigure/DoubleParameter")(name="gravity_z", value=0.0)
+    request = service_type("dynamic_reconfigure/Reconfigure").Request()
+    value = message_type("dynamic_reconfigure/DoubleParameter")(name="gravity_z", value=0.0)
     request.config.doubles = [value]
     world.sim.server.node.call("/gazebo/set_parameters", request)  # type: ignore[attr-defined]
     found = world.call("get_physics_properties", "GetPhysicsProperties")
@@ -311,10 +307,10 @@ def test_link_properties_are_read_and_changed(world: World) -> None:
 
 def test_a_wrench_acts_for_its_duration(world: World) -> None:
     world.sim.model("box").pose = Pose((0.0, 0.0, 5.0))
-    wrench = message_class("geometry_msgs/Wrench")()
+    wrench = message_type("geometry_msgs/Wrench")()
     wrench.force.x = 4.0
     wrench.force.z = 2 * 9.8
-    duration = message_class("builtin_interfaces/Duration")(sec=0, nanosec=500_000_000)
+    duration = message_type("builtin_interfaces/Duration")(sec=0, nanosec=500_000_000)
     answer = world.call(
         "apply_body_wrench", "ApplyBodyWrench", body_name="box::link", wrench=wrench,
         duration=duration,
@@ -326,9 +322,9 @@ def test_a_wrench_acts_for_its_duration(world: World) -> None:
 
 
 def test_wrenches_for_ever_are_cleared(world: World) -> None:
-    wrench = message_class("geometry_msgs/Wrench")()
+    wrench = message_type("geometry_msgs/Wrench")()
     wrench.force.z = 100.0
-    duration = message_class("builtin_interfaces/Duration")(sec=-1, nanosec=0)
+    duration = message_type("builtin_interfaces/Duration")(sec=-1, nanosec=0)
     world.call(
         "apply_body_wrench", "ApplyBodyWrench", body_name="box::link", wrench=wrench,
         duration=duration,
@@ -344,8 +340,8 @@ def test_wrenches_for_ever_are_cleared(world: World) -> None:
 
 def test_a_joint_effort_starts_and_ends_in_time(world: World) -> None:
     world.sim.spawn(ARM)
-    time = message_class("builtin_interfaces/Time")
-    duration = message_class("builtin_interfaces/Duration")
+    time = message_type("builtin_interfaces/Time")
+    duration = message_type("builtin_interfaces/Duration")
     answer = world.call(
         "apply_joint_effort", "ApplyJointEffort", joint_name="swing", effort=1.0,
         start_time=time(sec=0, nanosec=100_000_000), duration=duration(sec=0, nanosec=250_000_000),
@@ -360,7 +356,7 @@ def test_a_joint_effort_starts_and_ends_in_time(world: World) -> None:
 
 def test_efforts_for_ever_are_cleared(world: World) -> None:
     world.sim.spawn(ARM)
-    duration = message_class("builtin_interfaces/Duration")(sec=-1, nanosec=0)
+    duration = message_type("builtin_interfaces/Duration")(sec=-1, nanosec=0)
     world.call("apply_joint_effort", "ApplyJointEffort", joint_name="swing", effort=1.0,
                duration=duration)  # fmt: skip
     world.sim.run(seconds=0.25)
@@ -463,7 +459,7 @@ def test_ros_2_names_do_the_same(world: World) -> None:
     assert not world.call("/get_entity_state", "GetEntityState", name="three").success
     wanted = state("EntityState", name="two::link", pose=pose_message(Pose((0.0, 4.0, 0.1))))
     assert world.call("/set_entity_state", "SetEntityState", state=wanted).success
-    wrench = message_class("geometry_msgs/Wrench")()
+    wrench = message_type("geometry_msgs/Wrench")()
     wrench.force.x = 1.0
     answer = world.call("/apply_link_wrench", "ApplyLinkWrench", link_name="two::link",
                         wrench=wrench)  # fmt: skip

@@ -39,7 +39,8 @@ from tests.simulator.plugins.test_ros_control import robot as ros1_robot
 from tests.simulator.plugins.test_wheel_slip import cart, compliances, pulled, slip_ratio
 
 from gazelle.geometry import Pose
-from gazelle.simulator.messages import message_class, transform_stamped
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import transform_stamped
 
 __all__ = ["ROWS"]
 
@@ -164,8 +165,8 @@ def joint_position(trial: Trial) -> None:
 
 def joint_trajectory(trial: Trial) -> None:
     """With a velocity loop alone a joint turns at the velocity of the point."""
-    point = message_class("trajectory_msgs/JointTrajectoryPoint")(velocities=[2.0])
-    message = message_class("trajectory_msgs/JointTrajectory")(
+    point = message_type("trajectory_msgs/JointTrajectoryPoint")(velocities=[2.0])
+    message = message_type("trajectory_msgs/JointTrajectory")(
         joint_names=["one_joint"], points=[point]
     )
     trial.sim.publish("/model/thing/joint_trajectory", message)
@@ -194,7 +195,7 @@ def brings(trial: Trial) -> None:
     """The link goes to the frame that tf names, and stays."""
     wanted = (0.3, -0.2, 50.3)
     moved = [transform_stamped(0, "world", "hog_desired", Pose(wanted))]
-    trial.sim.publish("/tf", message_class("tf2_msgs/TFMessage")(transforms=moved))
+    trial.sim.publish("/tf", message_type("tf2_msgs/TFMessage")(transforms=moved))
     trial.sim.run(seconds=2.0)
     assert trial.sim.model("thing").pose.position_m == pytest.approx(wanted, abs=2e-3)
 
@@ -231,7 +232,7 @@ def ros2_controller(trial: Trial) -> None:
     manager.start("forward")
     trial.sim.run(seconds=0.5)
     assert trial.sim.joint("j").position == pytest.approx(0.2, abs=2e-3)
-    data = message_class("std_msgs/Float64MultiArray")(data=[0.5])
+    data = message_type("std_msgs/Float64MultiArray")(data=[0.5])
     trial.sim.publish("/forward/commands", data)
     trial.sim.run(seconds=1.0)
     assert trial.sim.joint("j").position == pytest.approx(0.5, abs=2e-3)

@@ -27,7 +27,7 @@ from tests.simulator.plugins.test_surroundings import place_of
 
 from gazelle.description.model import SphericalCoordinates
 from gazelle.geometry import Pose
-from gazelle.simulator.messages import message_class
+from gazelle.interfaces import message_type
 from gazelle.simulator.plugins.named import NOTHING_TABLE
 from gazelle.simulator.plugins.named import TABLE as NAMED_TABLE
 
@@ -75,7 +75,7 @@ def triggered(trial: Trial) -> None:
     pictures = trial.listen("/r/stereo/image_raw")
     trial.sim.run(seconds=0.3)
     assert pictures == []
-    trial.sim.publish("/r/stereo/shoot", message_class("std_msgs/Empty")())
+    trial.sim.publish("/r/stereo/shoot", message_type("std_msgs/Empty")())
     trial.sim.run(seconds=0.3)
     assert len(pictures) == 1
     assert column_of_the_post(pictures[0]) == pytest.approx(79.5, abs=0.75)

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.geometry import Pose
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class, twist_message
 
 __all__ = ["HERE", "KEYS", "FamilyRow", "Trial", "number", "vector"]
 
@@ -88,7 +89,7 @@ class Trial:
 
 def number(value: float) -> Any:
     """A std_msgs/Float64."""
-    return message_class("std_msgs/Float64")(data=value)
+    return message_type("std_msgs/Float64")(data=value)
 
 
 def vector(message: Any) -> list[float]:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from tests.simulator.plugins.family_trial import HERE, KEYS, FamilyRow, Trial
 
-from gazelle.simulator.messages import service_class
+from gazelle.interfaces import service_type
 
 __all__ = ["ROWS"]
 
@@ -21,7 +21,7 @@ _DEMO = "<ros><namespace>/demo</namespace></ros>"
 
 def _answer(trial: Trial, name: str, kind: str, /, **fields: Any) -> Any:
     below = "/demo" if trial.is_ros2 else ""
-    request = service_class(f"gazebo_msgs/{kind}").Request(**fields)
+    request = service_type(f"gazebo_msgs/{kind}").Request(**fields)
     server: Any = trial.sim.server
     return server.node.call(f"{below}/{name}", request)
 

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class, twist_message
 
 Load = Callable[..., Simulation]
 Listen = Callable[[Simulation, str], list[Any]]
@@ -146,7 +147,7 @@ def test_velocity_control_moves_a_model_in_its_own_frame(load: Load) -> None:
     assert sim.model("box").pose.position_m[:2] == pytest.approx(
         (radius * math.sin(0.5), radius * (1 - math.cos(0.5))), abs=2e-3
     )
-    twist = message_class("geometry_msgs/Twist")()
+    twist = message_type("geometry_msgs/Twist")()
     twist.linear.z = 0.3
     sim.publish("/model/box/cmd_vel", twist)
     height = sim.model("box").pose.position_m[2]
@@ -156,7 +157,7 @@ def test_velocity_control_moves_a_model_in_its_own_frame(load: Load) -> None:
 
 def test_velocity_control_moves_a_single_link(load: Load) -> None:
     sim = load(slider("gz-sim-velocity-control-system", "<link_name>base_link</link_name>"))
-    twist = message_class("geometry_msgs/Twist")()
+    twist = message_type("geometry_msgs/Twist")()
     twist.linear.x = 0.4
     sim.publish("/model/box/link/base_link/cmd_vel", twist)
     sim.run(seconds=1.0)

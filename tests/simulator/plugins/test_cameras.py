@@ -11,8 +11,8 @@ import pytest
 from PIL import Image
 
 from gazelle.geometry import Pose
+from gazelle.interfaces import message_type, service_type
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class, service_class
 
 Load = Callable[..., Simulation]
 Listen = Callable[[Simulation, str], list[Any]]
@@ -139,8 +139,8 @@ def test_compressed_pictures_decode_to_the_raw_ones(load: Load, listen: Listen) 
 def test_compression_is_reconfigured_while_running(load: Load, listen: Listen) -> None:
     sim = load(camera("libgazebo_ros_camera.so", KEYS), world=None)
     packed = listen(sim, "/eye/image_raw/compressed")
-    request = service_class("dynamic_reconfigure/Reconfigure").Request()
-    text = message_class("dynamic_reconfigure/StrParameter")(name="format", value="png")
+    request = service_type("dynamic_reconfigure/Reconfigure").Request()
+    text = message_type("dynamic_reconfigure/StrParameter")(name="format", value="png")
     request.config.strs = [text]
     sim.server.node.call("/eye/image_raw/compressed/set_parameters", request)  # type: ignore[attr-defined]
     sim.run(seconds=0.1)
@@ -164,8 +164,8 @@ def test_image_transports_are_listed_as_in_ros(load: Load) -> None:
 def test_imager_rate_changes_the_rate(load: Load, listen: Listen) -> None:
     sim = load(camera("libgazebo_ros_camera.so", KEYS), world=None)
     infos = listen(sim, "/eye/camera_info")
-    request = service_class("dynamic_reconfigure/Reconfigure").Request()
-    rate = message_class("dynamic_reconfigure/DoubleParameter")(name="imager_rate", value=40.0)
+    request = service_type("dynamic_reconfigure/Reconfigure").Request()
+    rate = message_type("dynamic_reconfigure/DoubleParameter")(name="imager_rate", value=40.0)
     request.config.doubles = [rate]
     response = sim.server.node.call("/eye/set_parameters", request)  # type: ignore[attr-defined]
     assert response.config.doubles[0].value == 40.0
@@ -179,7 +179,7 @@ def test_imager_rate_changes_the_rate(load: Load, listen: Listen) -> None:
 def test_set_camera_info_replaces_what_is_published(load: Load, listen: Listen) -> None:
     sim = load(camera("libgazebo_ros_camera.so", KEYS), world=None)
     infos = listen(sim, "/eye/camera_info")
-    request = service_class("sensor_msgs/SetCameraInfo").Request()
+    request = service_type("sensor_msgs/SetCameraInfo").Request()
     request.camera_info.distortion_model = "mine"
     response = sim.server.node.call("/eye/set_camera_info", request)  # type: ignore[attr-defined]
     assert response.success

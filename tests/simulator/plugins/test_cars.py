@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class, twist_message
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
 
 Load = Callable[..., Simulation]
@@ -155,7 +156,7 @@ def test_gz_car_never_turns_tighter_than_its_steering_limit(load: Load) -> None:
 def test_gz_car_that_only_steers_takes_an_angle(load: Load) -> None:
     keys = GZ_CAR + "<steering_only>true</steering_only><steering_limit>0.4</steering_limit>"
     sim = load(car("gz-sim-ackermann-steering-system", keys))
-    sim.publish("/model/car/steer_angle", message_class("std_msgs/Float64")(data=0.9))
+    sim.publish("/model/car/steer_angle", message_type("std_msgs/Float64")(data=0.9))
     sim.run(seconds=2.0)
     radius = BASE_M / math.tan(0.4)
     left = sim.joint("left_steering_joint").position

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class, twist_message
 
 Load = Callable[..., Simulation]
 Cart = Callable[..., str]
@@ -111,7 +112,7 @@ def test_wheel_joint_states_have_positions_only(
 
 def test_stamped_commands_are_taken_too(load: Load, cart_urdf: Cart) -> None:
     sim = load(cart_urdf())
-    stamped = message_class("geometry_msgs/TwistStamped")()
+    stamped = message_type("geometry_msgs/TwistStamped")()
     stamped.twist.linear.x = 0.4
     sim.publish("/cmd_vel", stamped)
     sim.run(seconds=1.0)

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gazelle.interfaces import message_type
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class
 
 Load = Callable[..., Simulation]
 Listen = Callable[[Simulation, str], list[Any]]
@@ -127,7 +127,7 @@ def test_a_triggered_camera_takes_one_picture_for_each_trigger(
     pictures = listen(sim, "/r/stereo/image_raw")
     sim.run(seconds=0.5)
     assert pictures == []
-    empty = message_class("std_msgs/Empty")()
+    empty = message_type("std_msgs/Empty")()
     for count in (1, 2):
         for _ in range(count):
             sim.publish(trigger, empty)

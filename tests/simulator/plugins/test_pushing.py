@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from gazelle.geometry import Pose
+from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import transform_stamped
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class, service_class, transform_stamped
 
 Load = Callable[..., Simulation]
 Listen = Callable[[Simulation, str], list[Any]]
@@ -44,7 +45,7 @@ def lever(library: str, keys: str, *, effort: float = 100.0) -> str:
 
 
 def wrench(force: tuple[float, ...] = (0, 0, 0), torque: tuple[float, ...] = (0, 0, 0)) -> Any:
-    message = message_class("geometry_msgs/Wrench")()
+    message = message_type("geometry_msgs/Wrench")()
     for field, values in ((message.force, force), (message.torque, torque)):
         field.x, field.y, field.z = (float(value) for value in values)
     return message
@@ -101,15 +102,15 @@ def test_link_wrenches_act_for_a_step_or_until_cleared(load: Load, tmp_path: Any
     sim = load(None, world=path)
     sim.run(seconds=0.5)
     assert sim.link("crate::body").linear_velocity_m_s == pytest.approx((0, 1.5, 0), abs=1e-3)
-    entity = message_class("ros_gz_interfaces/Entity")(name="crate::body", type=3)
+    entity = message_type("ros_gz_interfaces/Entity")(name="crate::body", type=3)
     sim.publish("/world/w/wrench/clear", entity)
-    message = message_class("ros_gz_interfaces/EntityWrench")(entity=entity)
+    message = message_type("ros_gz_interfaces/EntityWrench")(entity=entity)
     message.wrench = wrench((1000.0, 0.0, 0.0))
     sim.publish("/world/w/wrench", message)
     sim.run(seconds=0.5)
     speed = sim.link("crate::body").linear_velocity_m_s
     assert speed == pytest.approx((1000.0 / 2 * 0.001, 1.5, 0), abs=2e-3)
-    message.entity = message_class("ros_gz_interfaces/Entity")(name="crte", type=2)
+    message.entity = message_type("ros_gz_interfaces/Entity")(name="crte", type=2)
     sim.publish("/world/w/wrench/persistent", message)
     sim.run(seconds=0.01)
     missing = [item for item in sim.diagnostics if item.code == "plugin.missing-link"]
@@ -118,7 +119,7 @@ def test_link_wrenches_act_for_a_step_or_until_cleared(load: Load, tmp_path: Any
 
 
 def float64(value: float) -> Any:
-    return message_class("std_msgs/Float64")(data=value)
+    return message_type("std_msgs/Float64")(data=value)
 
 
 def test_joint_force_accelerates_with_torque_over_inertia(load: Load) -> None:
@@ -175,9 +176,9 @@ def test_joint_position_controller_goes_by_velocity_at_most_at_its_bound(load: L
 
 def course(*points: dict[str, Any], joints: tuple[str, ...] = ("one_joint", "two_joint")) -> Any:
     """A trajectory; ``after`` of a point is its time in seconds."""
-    message = message_class("trajectory_msgs/JointTrajectory")(joint_names=list(joints))
+    message = message_type("trajectory_msgs/JointTrajectory")(joint_names=list(joints))
     for fields in points:
-        point = message_class("trajectory_msgs/JointTrajectoryPoint")()
+        point = message_type("trajectory_msgs/JointTrajectoryPoint")()
         after = fields.pop("after")
         point.time_from_start.sec = int(after)
         point.time_from_start.nanosec = round(after % 1 * 1e9)
@@ -306,9 +307,9 @@ def switch(sim: Simulation, generation: int, *, on: bool) -> None:
     node = sim.server.node
     if generation == 1:
         name = "/on" if on else "/off"
-        node.call(name, service_class("std_srvs/Empty").Request())
+        node.call(name, service_type("std_srvs/Empty").Request())
         return
-    request = service_class("std_srvs/SetBool").Request(data=on)
+    request = service_type("std_srvs/SetBool").Request(data=on)
     assert node.call("/arm/switch", request).success
     assert not node.call("/arm/switch", request).success
 
@@ -321,7 +322,7 @@ def test_hand_of_god_brings_a_link_to_its_frame_without_overshoot(
     tf = listen(sim, "/tf")
     wanted = Pose.from_xyz_rpy((0.5, -0.2, 5.3), (0.0, 0.0, 0.6))
     root, half = Pose((0.0, 0.0, 5.0)), Pose((0.0, 0.0, 5.0)).inverse() @ wanted
-    message = message_class("tf2_msgs/TFMessage")(
+    message = message_type("tf2_msgs/TFMessage")(
         transforms=[
             transform_stamped(0, "world", "table", root),
             transform_stamped(0, "table", "hog_desired", half),
@@ -341,10 +342,10 @@ def test_hand_of_god_brings_a_link_to_its_frame_without_overshoot(
 
 
 def trajectory(frame: str, names: list[str], *points: tuple[float, list[float]]) -> Any:
-    message = message_class("trajectory_msgs/JointTrajectory")(joint_names=names)
+    message = message_type("trajectory_msgs/JointTrajectory")(joint_names=names)
     message.header.frame_id = frame
     for seconds, positions in points:
-        point = message_class("trajectory_msgs/JointTrajectoryPoint")()
+        point = message_type("trajectory_msgs/JointTrajectoryPoint")()
         point.positions = np.array(positions)
         point.time_from_start.sec = int(seconds)
         point.time_from_start.nanosec = round(seconds % 1 * 1e9)
@@ -365,7 +366,7 @@ def test_joints_take_the_points_of_a_trajectory_in_turn(load: Load) -> None:
 
 def test_trajectory_service_takes_a_model_and_refuses_what_is_not_there(load: Load) -> None:
     sim = load(lever("libgazebo_ros_joint_pose_trajectory.so", ""))
-    service = service_class("gazebo_msgs/SetJointTrajectory")
+    service = service_type("gazebo_msgs/SetJointTrajectory")
     request = service.Request(model_name="thing")
     request.joint_trajectory = trajectory("world", ["one_joint"], (0.0, [0.7]))
     assert sim.server.node.call("/set_joint_trajectory", request).success

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from gazelle.geometry import Pose
+from gazelle.interfaces import service_type
+from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import service_class, twist_message
 
 Load = Callable[..., Simulation]
 Cart = Callable[..., str]
@@ -120,7 +121,7 @@ def test_a_model_imu_reads_plus_g_at_rest(
 def test_an_imus_calibration_service_answers(load: Load, cart_urdf: Cart) -> None:
     keys = "<bodyName>base_link</bodyName><serviceName>calibrate</serviceName>"
     sim = load(cart_urdf(extra=plugin("libgazebo_ros_imu.so", keys)))
-    empty = service_class("std_srvs/Empty")
+    empty = service_type("std_srvs/Empty")
     assert sim.server.node.call("/calibrate", empty.Request()) == empty.Response()  # type: ignore[attr-defined]
 
 
@@ -205,7 +206,7 @@ def test_hectors_calibration_takes_the_rates_drift_away(
     readings = listen(sim, "/imu")
     sim.run(seconds=0.5)
     assert abs(readings[-1].angular_velocity.z) > 0.01
-    empty = service_class("std_srvs/Empty")
+    empty = service_type("std_srvs/Empty")
     sim.server.node.call("/imu/calibrate", empty.Request())  # type: ignore[attr-defined]
     sim.run(seconds=0.05)
     assert abs(readings[-1].angular_velocity.z) < 0.005

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from gazelle.interfaces import message_type, service_type
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class, service_class
 
 Load = Callable[..., Simulation]
 Listen = Callable[[Simulation, str], list[Any]]
@@ -90,8 +90,8 @@ def test_ros1_changes_compliances_live(load: Load) -> None:
     sim = load(cart("libgazebo_ros_wheel_slip.so", compliances(0.0, 0.0)))
     forward, _, _ = pulled(sim, (-FORCE_N, 0.0, 0.0))
     assert forward == pytest.approx(0.5, rel=0.01)
-    request = service_class("dynamic_reconfigure/Reconfigure").Request()
-    parameter = message_class("dynamic_reconfigure/DoubleParameter")
+    request = service_type("dynamic_reconfigure/Reconfigure").Request()
+    parameter = message_type("dynamic_reconfigure/DoubleParameter")
     request.config.doubles = [parameter(name="slip_compliance_unitless_longitudinal", value=0.8)]
     answer = sim.server.node.call("/cart/wheel_slip/set_parameters", request)
     values = {item.name: item.value for item in answer.config.doubles}
@@ -109,8 +109,8 @@ def test_ros2_publishes_slip_and_takes_parameters_for_one_wheel(load: Load, list
     assert slips[-1].name == NAMES
     assert slips[-1].longitudinal_slip == pytest.approx([slip_ratio(0.5)] * 4, rel=0.03)
     assert slips[-1].lateral_slip == pytest.approx([0.0] * 4, abs=1e-3)
-    parameter = message_class("rcl_interfaces/Parameter")
-    request = service_class("rcl_interfaces/SetParameters").Request()
+    parameter = message_type("rcl_interfaces/Parameter")
+    request = service_type("rcl_interfaces/SetParameters").Request()
     for name, value in (("slip_compliance_unitless_longitudinal", 1.0), ("nonsense", 1.0),
                         ("slip_compliance_unitless_lateral/front_left", -2.0)):  # fmt: skip
         item = parameter(name=name)

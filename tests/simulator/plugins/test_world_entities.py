@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
+from gazelle.interfaces import service_type
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import service_class
 
 Load = Callable[..., Simulation]
 
@@ -45,7 +45,7 @@ def sim(load: Load, tmp_path: Path) -> Simulation:
 
 
 def call(sim: Simulation, name: str, kind: str, /, **fields: Any) -> Any:
-    request = service_class(f"gazebo_msgs/{kind}").Request(**fields)
+    request = service_type(f"gazebo_msgs/{kind}").Request(**fields)
     return sim.server.node.call(name, request)  # type: ignore[attr-defined]
 
 

@@ -14,8 +14,8 @@ import pytest
 from hypothesis import given
 
 from gazelle.geometry import Pose
+from gazelle.interfaces import service_type
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import service_class
 from gazelle.simulator.viewing import offer_views
 
 _TENSOR = '<inertia ixx=".1" iyy=".1" izz=".1" ixy="0" ixz="0" iyz="0"/>'
@@ -63,7 +63,7 @@ class _Viewer:
     def answer(self, text: str) -> Any:
         """Send any text as a request; returns the whole answer."""
         call = self.sim.server.node.call  # type: ignore[attr-defined]
-        kind = service_class("gazelle_msgs/Do")
+        kind = service_type("gazelle_msgs/Do")
         return json.loads(call("/_gazelle/do", kind.Request(request=text)).response)
 
     def row(self, name: str, group: str = "", **of: str) -> Any:

@@ -9,7 +9,6 @@ from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.diff_drive_table import TABLE as _TABLE
 from gazelle.control.controllers.diff_drive_wheel_state import WheelStateOutput
 from gazelle.control.errors import ControllerError
-from gazelle.control.messages import header, message_class
 from gazelle.control.ports import LiveParameter
 from gazelle.control.wheels.differential import DifferentialDrive
 from gazelle.control.wheels.limit_reader import read_limits
@@ -20,6 +19,8 @@ from gazelle.control.wheels.set_odometry import offer_set_odometry
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.urdf_geometry import joint_distance_m, wheel_radius_m
 from gazelle.control.wheels.wheel_measures import measure, report_exchanged, report_misfits
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 
 __all__ = ["DiffDriveController"]
 
@@ -198,7 +199,7 @@ class DiffDriveController(Controller):
         self.robot.bank.commands[self._command_places[half:]] = right_rad_s
 
     def _publish_limited(self, time_ns: int, linear: float, angular: float) -> None:
-        message = message_class("geometry_msgs/TwistStamped")(
+        message = message_type("geometry_msgs/TwistStamped")(
             header=header(time_ns, self._output.frames.base)
         )
         message.twist.linear.x, message.twist.angular.z = linear, angular

@@ -8,7 +8,8 @@ import numpy as np
 
 from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import ControllerContext
-from gazelle.control.messages import header, message_class
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 
 __all__ = ["WheelStateOutput"]
 
@@ -49,7 +50,7 @@ class WheelStateOutput:
         wanted = (self._target, speeds, (speeds - last_desired) / period_s, speeds * np.nan)
         actual = (position, velocity, (velocity - last_actual) / period_s, effort)
         error = tuple(one - other for one, other in zip(wanted, actual, strict=True))
-        message = message_class("control_msgs/JointTrajectoryControllerState")(
+        message = message_type("control_msgs/JointTrajectoryControllerState")(
             header=header(time_ns, ""),
             joint_names=self._names,
             reference=_point(*wanted),
@@ -70,6 +71,6 @@ class WheelStateOutput:
 
 
 def _point(position: Array, velocity: Array, acceleration: Array, effort: Array) -> Any:
-    return message_class("trajectory_msgs/JointTrajectoryPoint")(
+    return message_type("trajectory_msgs/JointTrajectoryPoint")(
         positions=position, velocities=velocity, accelerations=acceleration, effort=effort
     )

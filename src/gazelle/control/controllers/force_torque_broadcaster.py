@@ -10,8 +10,8 @@ from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import WRENCH_INTERFACES, fill_wrench
 from gazelle.control.errors import ControllerError
-from gazelle.control.messages import stamped
 from gazelle.control.table import ControllerTable
+from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
 
 __all__ = ["ForceTorqueSensorBroadcaster"]

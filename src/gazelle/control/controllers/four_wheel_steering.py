@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.four_wheel_steering_table import TABLE as _TABLE
 from gazelle.control.errors import ControllerError
-from gazelle.control.messages import header, message_class
 from gazelle.control.wheels.four_wheel_steering import (
     FourWheelSteering,
     FourWheelValues,
@@ -26,6 +25,8 @@ from gazelle.control.wheels.odometry_output import (
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.urdf_geometry import joint_distance_m, wheel_radius_m
 from gazelle.control.wheels.wheel_measures import measure
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 
 __all__ = ["FourWheelSteeringController"]
 
@@ -164,9 +165,9 @@ class FourWheelSteeringController(Controller):
     def _state_message(self, time_ns: int, front: float, rear: float) -> Any:
         rates = self._rates
         name = "four_wheel_steering_msgs/FourWheelSteering"
-        return message_class(f"{name}Stamped")(
+        return message_type(f"{name}Stamped")(
             header=header(time_ns, ""),
-            data=message_class(name)(
+            data=message_type(name)(
                 front_steering_angle=front,
                 rear_steering_angle=rear,
                 front_steering_angle_velocity=rates.front,

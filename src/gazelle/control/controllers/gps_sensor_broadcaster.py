@@ -6,8 +6,8 @@ import numpy as np
 
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import sensor_places
-from gazelle.control.messages import stamped
 from gazelle.control.table import ControllerTable
+from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["GpsSensorBroadcaster"]

@@ -6,9 +6,9 @@ from typing import Any, ClassVar
 
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.gripper_action_goal import GRIPPER_ROWS, GripperGoal, Outcome
-from gazelle.control.messages import stamped
 from gazelle.control.ports import GoalPort
 from gazelle.control.table import ControllerTable
+from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
 
 __all__ = ["ParallelGripperActionController"]

@@ -10,8 +10,9 @@ import numpy as np
 from gazelle.control.bank import Indices
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.messages import message_class, stamped
 from gazelle.control.table import ControllerTable
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["JointStateBroadcaster"]
@@ -182,7 +183,7 @@ class JointStateBroadcaster(Controller):
 
     def _dynamic_joint_states(self, time_ns: int) -> Any:
         states = self.robot.bank.states
-        value = message_class("control_msgs/InterfaceValue")
+        value = message_type("control_msgs/InterfaceValue")
         message = stamped("control_msgs/DynamicJointState", time_ns, self._frame_id)
         message.joint_names = [*self._values, *self._extra]
         message.interface_values = [

@@ -10,8 +10,8 @@ import numpy as np
 from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.publish_rate import PublishRate
-from gazelle.control.messages import stamped
 from gazelle.control.table import ControllerTable
+from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["JointStateController"]

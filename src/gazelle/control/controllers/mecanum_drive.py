@@ -8,7 +8,6 @@ from typing import Any
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.mecanum_drive_table import TABLE as _TABLE
 from gazelle.control.controllers.mecanum_drive_table import WHEELS
-from gazelle.control.messages import header, message_class
 from gazelle.control.wheels.limit_reader import read_limits
 from gazelle.control.wheels.limiter import SpeedLimiter
 from gazelle.control.wheels.mecanum import MecanumDrive, MecanumSpeeds, PlanarTwist
@@ -17,6 +16,8 @@ from gazelle.control.wheels.odometry_output import OdometryOutput, read_frames
 from gazelle.control.wheels.set_odometry import offer_set_odometry
 from gazelle.control.wheels.twist_input import TwistInput
 from gazelle.control.wheels.wheel_measures import positive
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 
 __all__ = ["MecanumDriveController"]
 
@@ -112,7 +113,7 @@ class MecanumDriveController(Controller):
     def _publish_state(
         self, time_ns: int, speeds: MecanumSpeeds, twist: PlanarTwist | None
     ) -> None:
-        message = message_class("control_msgs/MecanumDriveControllerState")(
+        message = message_type("control_msgs/MecanumDriveControllerState")(
             header=header(time_ns, self._output.frames.odom),
             front_left_wheel_velocity=speeds.front_left,
             front_right_wheel_velocity=speeds.front_right,

@@ -12,8 +12,9 @@ from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_error import shortest_angular_distance
 from gazelle.control.controllers.pid_controller_table import PID_CONTROLLER_TABLE
 from gazelle.control.errors import ControllerError
-from gazelle.control.messages import message_class, stamped
 from gazelle.control.pid import Pid, PidGains, PidStatePort, offer_live_gains, read_gains
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import stamped
 
 __all__ = ["PidController"]
 
@@ -166,7 +167,7 @@ class PidController(Controller):
 
     def _state(self, time_ns: int, period_s: float) -> Any:
         message = stamped("control_msgs/MultiDOFStateStamped", time_ns)
-        one = message_class("control_msgs/SingleDOFState")
+        one = message_type("control_msgs/SingleDOFState")
         count = len(self.pids)
         for k, owner in enumerate(self._owners):
             state = one(name=owner, reference=self._reference.item(k))

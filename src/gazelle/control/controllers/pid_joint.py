@@ -6,9 +6,9 @@ from typing import Any
 
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.messages import stamped
 from gazelle.control.pid import Pid, PidGains, PidStatePort, offer_live_gains, read_gains
 from gazelle.control.pid.reading import gain_rows
+from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, Topic
 from gazelle.parameters.reader import ParameterReader
 

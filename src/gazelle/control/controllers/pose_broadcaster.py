@@ -12,10 +12,11 @@ from gazelle.control.controllers.sensor_messages import (
     POSE_INTERFACES,
     sensor_places,
 )
-from gazelle.control.messages import message_class, stamped
 from gazelle.control.table import ControllerTable
 from gazelle.geometry import Pose
+from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_pose, set_transform
+from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["PoseBroadcaster"]
@@ -91,7 +92,7 @@ class PoseBroadcaster(Controller):
         message = stamped("geometry_msgs/TransformStamped", time_ns, self._frame_id)
         message.child_frame_id = self._child_frame_id
         set_transform(message.transform, _pose(values))
-        return message_class("tf2_msgs/TFMessage")(transforms=[message])
+        return message_type("tf2_msgs/TFMessage")(transforms=[message])
 
     def _complain(self, time_ns: int, values: Array) -> None:
         if time_ns < self._next_word_ns:

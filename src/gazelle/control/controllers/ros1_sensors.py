@@ -15,8 +15,8 @@ from gazelle.control.controllers.sensor_messages import (
     fill_wrench,
     sensor_places,
 )
-from gazelle.control.messages import stamped
 from gazelle.control.table import ControllerTable
+from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["ForceTorqueSensorController", "ImuSensorController"]

@@ -9,7 +9,6 @@ from typing import Any
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.controllers.steering_table import LIBRARY_DIAGONAL
 from gazelle.control.errors import ControllerError
-from gazelle.control.messages import header, message_class
 from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel
 from gazelle.control.wheels.odometry_output import (
     OdometryOutput,
@@ -20,6 +19,8 @@ from gazelle.control.wheels.set_odometry import offer_set_odometry
 from gazelle.control.wheels.steering import AxlePair, SteeringGeometry, reduced_until_steered
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.wheel_measures import positive
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 
 __all__ = ["SteeringDrive", "SteeringKind"]
 
@@ -156,7 +157,7 @@ class SteeringDrive:
     def _publish_state(self, time_ns: int) -> None:
         states = self._bank.states[self._state_places]
         commands = self._bank.commands[self._command_places]
-        message = message_class("control_msgs/SteeringControllerStatus")(
+        message = message_type("control_msgs/SteeringControllerStatus")(
             header=header(time_ns, self._output.frames.odom),
             steer_positions=states[self._driven :],
             linear_velocity_command=commands[: self._driven],

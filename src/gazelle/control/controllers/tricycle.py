@@ -8,7 +8,6 @@ from typing import Any
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.tricycle_table import TABLE as _TABLE
 from gazelle.control.controllers.tricycle_table import read_steering_limits, read_traction_limits
-from gazelle.control.messages import message_class
 from gazelle.control.wheels.limiter import TractionLimiter
 from gazelle.control.wheels.mecanum import PlanarTwist
 from gazelle.control.wheels.odometry import PlanarOdometry
@@ -16,6 +15,7 @@ from gazelle.control.wheels.odometry_output import OdometryOutput, read_frames
 from gazelle.control.wheels.set_odometry import offer_reset_odometry
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.wheel_measures import positive
+from gazelle.interfaces import message_type
 
 __all__ = ["TricycleController"]
 
@@ -69,7 +69,7 @@ class TricycleController(Controller):
         self.robot.bank.commands[self._command_places] = (speed, target)
         if self._ackermann is not None and self._ackermann.matched:
             # The original puts the wheel's rad/s where the message has m/s.
-            message = message_class("ackermann_msgs/AckermannDrive")
+            message = message_type("ackermann_msgs/AckermannDrive")
             self._ackermann.publish(message(speed=speed, steering_angle=target))
 
     def stop(self, time_ns: int) -> None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.control.messages import message_class, stamped
 from gazelle.control.pid.pid import Pid
 from gazelle.control.ports import Ports
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import stamped
 
 __all__ = ["PidStatePort"]
 
@@ -25,7 +26,7 @@ class PidStatePort:
         seconds, rest = divmod(period_ns, 1_000_000_000)
         gains, (error, integral, rate) = pid.gains, pid.errors
         p_term, i_term, d_term = pid.terms
-        duration: Any = message_class("builtin_interfaces/Duration")
+        duration: Any = message_type("builtin_interfaces/Duration")
         message = stamped("control_msgs/PidState", time_ns)
         message.timestep = duration(sec=seconds, nanosec=rest)
         message.error = message.p_error = error

@@ -9,10 +9,11 @@ import numpy as np
 from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.messages import header, message_class
 from gazelle.control.wheels.odometry import PlanarOdometry, PlanarPose
 from gazelle.geometry import Pose
+from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_plane_pose, set_transform
+from gazelle.interfaces.stamps import header
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["Frames", "OdometryOutput", "PublishRate", "read_covariance", "read_frames"]
@@ -159,7 +160,7 @@ class OdometryOutput:
             self._tf.publish(self._transform(time_ns, odometry))
 
     def _message(self, time_ns: int, odometry: PlanarOdometry) -> Any:
-        message = message_class("nav_msgs/Odometry")(
+        message = message_type("nav_msgs/Odometry")(
             header=header(time_ns, self.frames.odom), child_frame_id=self.frames.base
         )
         if self.sends_pose:
@@ -171,8 +172,8 @@ class OdometryOutput:
         return message
 
     def _transform(self, time_ns: int, odometry: PlanarOdometry) -> Any:
-        transform = message_class("geometry_msgs/TransformStamped")(
+        transform = message_type("geometry_msgs/TransformStamped")(
             header=header(time_ns, self.frames.odom), child_frame_id=self.frames.base
         )
         set_transform(transform.transform, Pose.from_xy_yaw(*odometry.pose))
-        return message_class("tf2_msgs/TFMessage")(transforms=[transform])
+        return message_type("tf2_msgs/TFMessage")(transforms=[transform])

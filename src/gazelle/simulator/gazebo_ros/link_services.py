@@ -9,10 +9,10 @@ import numpy as np
 
 from gazelle.description.model import Inertial, Link
 from gazelle.geometry import Pose
+from gazelle.interfaces.poses import pose_message, twist_message
 from gazelle.simulator.gazebo_ros.entities import Entities, Row
 from gazelle.simulator.gazebo_ros.model_services import place_link, state_from
 from gazelle.simulator.gazebo_ros.timed import at_time, duration_ns
-from gazelle.simulator.messages import pose_message, twist_message
 from gazelle.simulator.rebuilding import replace_model
 
 if TYPE_CHECKING:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.errors import EngineError
+from gazelle.interfaces.poses import pose_message, pose_of, twist_message
+from gazelle.interfaces.stamps import header
 from gazelle.simulator.gazebo_ros.entities import Entities, Entity, Row
-from gazelle.simulator.messages import header, pose_from_message, pose_message, twist_message
 from gazelle.simulator.rebuilding import is_fixed
 
 if TYPE_CHECKING:
@@ -217,7 +218,7 @@ def state_from(message: Any) -> Entity:
     """Read the pose and twist of a ModelState, LinkState or EntityState."""
     linear, angular = message.twist.linear, message.twist.angular
     return Entity(
-        pose_from_message(message.pose),
+        pose_of(message.pose).normalised(),
         np.array([linear.x, linear.y, linear.z], float),
         np.array([angular.x, angular.y, angular.z], float),
     )

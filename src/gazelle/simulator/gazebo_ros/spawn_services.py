@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.errors import GazelleError, UserFileError
+from gazelle.interfaces.poses import pose_of
 from gazelle.simulator.gazebo_ros.entities import Entities, Row
-from gazelle.simulator.messages import pose_from_message
 from gazelle.simulator.sources import models_from
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ class SpawnServices:
             # ROS 2's factory has words of its own.
             response.status_message = text if word == _ROS1 else f"Entity [{name}] already exists."
             return
-        pose = frame.T_world_entity @ pose_from_message(request.initial_pose)
+        pose = frame.T_world_entity @ pose_of(request.initial_pose).normalised()
         found = Diagnostics()
         already = len(self._server.diagnostics)
         try:

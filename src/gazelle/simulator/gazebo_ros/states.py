@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from gazelle.geometry import Pose
 from gazelle.graph import Publisher
 from gazelle.graph.clock_sharing import share_clock
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import pose_message, twist_message
 from gazelle.interfaces.stamps import stamp_message
-from gazelle.simulator.messages import message_class, pose_message, twist_message
 from gazelle.simulator.pace import Mode
 from gazelle.simulator.plugins.context import join_names
 from gazelle.simulator.scheduler import ORDER_CLOCK, ORDER_STATE, period_in_steps
@@ -83,7 +84,7 @@ def offer_clock(server: WorldServer, resources: Resources, topic: str, rate_hz: 
         if shared is not None and shared.is_on:
             shared.show(engine.time_ns)
         if clock.matched:
-            clock.publish(message_class("rosgraph_msgs/Clock")(clock=stamp_message(engine.time_ns)))
+            clock.publish(message_type("rosgraph_msgs/Clock")(clock=stamp_message(engine.time_ns)))
 
     def wanted() -> bool:
         if shared is not None:
@@ -124,7 +125,7 @@ def _steps_between_clocks(server: WorldServer) -> int:
 def _link_states(server: WorldServer) -> Any:
     engine = server.engine
     snapshot = engine.snapshot()
-    message = message_class("gazebo_msgs/LinkStates")(name=list(snapshot.link_names))
+    message = message_type("gazebo_msgs/LinkStates")(name=list(snapshot.link_names))
     for name, row in zip(snapshot.link_names, snapshot.T.tolist(), strict=True):
         pose = Pose((row[0], row[1], row[2]), (row[3], row[4], row[5], row[6]))
         message.pose.append(pose_message(pose))
@@ -135,7 +136,7 @@ def _link_states(server: WorldServer) -> Any:
 def _model_states(server: WorldServer) -> Any:
     engine = server.engine
     names = [model.name for model in engine.world.models]
-    message = message_class("gazebo_msgs/ModelStates")(name=names)
+    message = message_type("gazebo_msgs/ModelStates")(name=names)
     for name in names:
         message.pose.append(pose_message(engine.model_pose(name)))
         message.twist.append(twist_message(*engine.model_velocity(name)))

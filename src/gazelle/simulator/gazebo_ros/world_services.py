@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from gazelle.interfaces import message_type
 from gazelle.simulator.gazebo_ros.entities import Row
 from gazelle.simulator.gazebo_ros.physics_parameters import PhysicsParameters
 from gazelle.simulator.inputs import InputRefusedError
-from gazelle.simulator.messages import message_class
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer
@@ -77,7 +77,7 @@ class WorldServices:
         response.gravity.x = float(values["gravity_x"])
         response.gravity.y = float(values["gravity_y"])
         response.gravity.z = float(values["gravity_z"])
-        for field in message_class("gazebo_msgs/ODEPhysics").FIELDS:
+        for field in message_type("gazebo_msgs/ODEPhysics").FIELDS:
             setattr(response.ode_config, field.name, values[field.name])
         response.success = True
         response.status_message = "GetPhysicsProperties: got properties"
@@ -90,7 +90,7 @@ class WorldServices:
             "gravity_y": float(request.gravity.y),
             "gravity_z": float(request.gravity.z),
         }
-        for field in message_class("gazebo_msgs/ODEPhysics").FIELDS:
+        for field in message_type("gazebo_msgs/ODEPhysics").FIELDS:
             values[field.name] = getattr(request.ode_config, field.name)
         if problem := self._physics.problem_of(values):
             raise InputRefusedError(problem)

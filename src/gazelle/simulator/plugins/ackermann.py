@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from gazelle.engine import JointHandle
-from gazelle.simulator.messages import message_class, transform_stamped
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import transform_stamped
 from gazelle.simulator.plugins.ackermann_table import TABLE
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.drive import Velocity, needed_joints, run_drive, take_velocities
@@ -139,7 +140,7 @@ class _Car:
         for name, value in (("distance", self._distance_m), ("steerangle", steer)):
             publisher = self._floats.get(name)
             if publisher is not None and publisher.matched:
-                publisher.publish(message_class("std_msgs/Float32")(data=value))
+                publisher.publish(message_type("std_msgs/Float32")(data=value))
 
     def _drive(self) -> None:
         speed, _, turn = self._command
@@ -184,7 +185,7 @@ class _Car:
             transforms.append(
                 transform_stamped(self._engine.time_ns, self._base_frame, child, pose)
             )
-        self._tf.publish(message_class("tf2_msgs/TFMessage")(transforms=transforms))
+        self._tf.publish(message_type("tf2_msgs/TFMessage")(transforms=transforms))
 
     def _reset(self) -> None:
         self._command, self._distance_m = Velocity(), 0.0

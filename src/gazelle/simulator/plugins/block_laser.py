@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.laser import lidar_place, start_scans
 from gazelle.simulator.plugins.noise import gaussian
@@ -61,9 +62,9 @@ def load(context: PluginContext) -> None:
             points = _points(record)
             points += noise(points.size).reshape(points.shape)
             intensities = record.intensities.reshape(-1) + noise(len(points))
-            point = message_class("geometry_msgs/Point32")
-            channel = message_class("sensor_msgs/ChannelFloat32")
-            return message_class("sensor_msgs/PointCloud")(
+            point = message_type("geometry_msgs/Point32")
+            channel = message_type("sensor_msgs/ChannelFloat32")
+            return message_type("sensor_msgs/PointCloud")(
                 header=header(time_ns, frame),
                 points=[point(x=x, y=y, z=z) for x, y, z in points.tolist()],
                 channels=[channel(name="", values=intensities.astype(np.float32))],

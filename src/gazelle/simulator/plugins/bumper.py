@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.description.model import ContactSpec
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import vector_message
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.stream import (
     prefixed_frame,
@@ -90,7 +92,7 @@ def load(context: PluginContext) -> None:
 
 def _message(context: PluginContext, place: SensorPlace, frame: str, time_ns: int) -> Any:
     contacts = context.host.sensors.measurements.contacts(place).contacts
-    return message_class("gazebo_msgs/ContactsState")(
+    return message_type("gazebo_msgs/ContactsState")(
         header=header(time_ns, frame),
         states=[
             _state(context, contact, f"{number}/{len(contacts)}", time_ns)
@@ -107,7 +109,7 @@ def _state(context: PluginContext, contact: Contact, count: str, time_ns: int) -
     seconds, rest = divmod(time_ns, 1_000_000_000)
     info = f"Debug:  i:({count})     my geom:{contact.collision1}   other geom:"
     info += f"{contact.collision2}         time:{seconds}.{rest:09d}\n"
-    return message_class("gazebo_msgs/ContactState")(
+    return message_type("gazebo_msgs/ContactState")(
         info=info,
         collision1_name=contact.collision1,
         collision2_name=contact.collision2,
@@ -165,19 +167,18 @@ def _contacts(
     frame: str,
     wrenches: Callable[[Contact], Wrenches],
 ) -> Any:
-    return message_class("ros_gz_interfaces/Contacts")(
+    return message_type("ros_gz_interfaces/Contacts")(
         header=header(time_ns, frame),
         contacts=[_contact(contact, time_ns, wrenches(contact)) for contact in contacts],
     )
 
 
 def _contact(contact: Contact, time_ns: int, wrenches: Wrenches) -> Any:
-    entity, joint_wrench = (
-        message_class(f"ros_gz_interfaces/{name}") for name in ("Entity", "JointWrench")
-    )
-    text, collision = message_class("std_msgs/String"), entity.COLLISION
+    entity: Any = message_type("ros_gz_interfaces/Entity")
+    joint_wrench = message_type("ros_gz_interfaces/JointWrench")
+    text, collision = message_type("std_msgs/String"), entity.COLLISION
     bodies = [name.rsplit("::", 1)[0] for name in (contact.collision1, contact.collision2)]
-    return message_class("ros_gz_interfaces/Contact")(
+    return message_type("ros_gz_interfaces/Contact")(
         collision1=entity(name=contact.collision1, type=collision),
         collision2=entity(name=contact.collision2, type=collision),
         positions=[vector_message(point) for point in contact.points_m],
@@ -197,6 +198,6 @@ def _contact(contact: Contact, time_ns: int, wrenches: Wrenches) -> Any:
 
 
 def _wrench(force: Any, torque: Any) -> Any:
-    return message_class("geometry_msgs/Wrench")(
+    return message_type("geometry_msgs/Wrench")(
         force=vector_message(force), torque=vector_message(torque)
     )

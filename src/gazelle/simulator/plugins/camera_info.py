@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import CameraSpec
-from gazelle.simulator.messages import header, message_class
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.parameters import PluginReader
 
@@ -65,7 +66,7 @@ def read_calibration(
 def camera_info_message(time_ns: int, calibration: Calibration) -> Any:
     """Return a ``sensor_msgs/CameraInfo``."""
     f, cx, cy = calibration.focal_px, calibration.cx_px, calibration.cy_px
-    return message_class("sensor_msgs/CameraInfo")(
+    return message_type("sensor_msgs/CameraInfo")(
         header=header(time_ns, calibration.frame),
         height=calibration.height_px,
         width=calibration.width_px,
@@ -86,7 +87,7 @@ def image_message(
     """Return a ``sensor_msgs/Image`` that shares the pixels' memory."""
     height, width = pixels.shape[:2]
     flat = np.ascontiguousarray(pixels).reshape(-1).view(np.uint8)
-    return message_class("sensor_msgs/Image")(
+    return message_type("sensor_msgs/Image")(
         header=header(time_ns, frame),
         height=height,
         width=width,

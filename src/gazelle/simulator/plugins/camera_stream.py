@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.description.model import CameraSpec
-from gazelle.simulator.messages import header
+from gazelle.interfaces.stamps import header
 from gazelle.simulator.plugins.camera_info import Calibration, camera_info_message
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters

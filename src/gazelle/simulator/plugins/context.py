@@ -11,9 +11,9 @@ from gazelle.description.model import CameraSpec, Model, PluginTag, Sensor
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Qos
 from gazelle.graph.backlog import MOST_WAITING, Backlog
+from gazelle.interfaces import message_type, service_type
 from gazelle.simulator.commands import CommandQueue
 from gazelle.simulator.inputs import InputRefusedError, Inputs, problem_of, refusal
-from gazelle.simulator.messages import message_class, service_class
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.ports import NodePort, PublisherPort
@@ -117,7 +117,7 @@ class Resources:
         # gazebo_ros offers sensors as SensorDataQoS().reliable(); here they wait for nobody.
         made = self._host.node.create_publisher(
             topic,
-            message_class(type_name),
+            message_type(type_name),
             latch=latch,
             reliable=reliable or self._host.lockstep,
             qos=Qos(latched=latch, depth=_DEPTH if reliable else _SENSOR_DEPTH),
@@ -162,7 +162,7 @@ class Resources:
                 by = f" (published by {', '.join(names)})" if names else ""
                 host.node.log("WARN", f"[{topic}] {problem}; the message is left out{by}")
 
-        wanted = None if type_name is None else message_class(type_name)
+        wanted = None if type_name is None else message_type(type_name)
         made = self._host.node.create_subscription(
             topic, wanted, queue, inline=True, announced=announced
         )
@@ -182,7 +182,7 @@ class Resources:
         A request whose numbers cannot be has no effect, nor has one that `handler` refuses with
         `InputRefusedError`; the answer says so, and the log whose it was.
         """
-        host, service = self._host, service_class(type_name)
+        host, service = self._host, service_type(type_name)
 
         def answer(request: Any, caller: str) -> Any:
             response = service.Response()

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.description.model import CameraSpec
-from gazelle.simulator.messages import header, message_class
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 from gazelle.simulator.plugins.camera_info import image_message, read_calibration
 from gazelle.simulator.plugins.camera_stream import CameraStream, camera_place, check_frame
 from gazelle.simulator.plugins.camera_table import DEPTH_TABLE, OPENNI_TABLE
@@ -145,9 +146,9 @@ def _cloud_message(time_ns: int, frame: str, points: NDArray[np.void]) -> Any:
     """Return a ``sensor_msgs/PointCloud2`` that shares the cloud's memory."""
     height, width = points.shape
     step = points.dtype.itemsize
-    field = message_class("sensor_msgs/PointField")
+    field = message_type("sensor_msgs/PointField")
     fields: Mapping[str, Any] = points.dtype.fields or {}
-    return message_class("sensor_msgs/PointCloud2")(
+    return message_type("sensor_msgs/PointCloud2")(
         header=header(time_ns, frame),
         height=height,
         width=width,

@@ -8,10 +8,8 @@ import numpy as np
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import Pose
-from gazelle.simulator.messages import (
-    header,
-    message_class,
-)
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.diff_drive_table import TABLE
 from gazelle.simulator.plugins.drive import Velocity, run_drive, take_velocities
@@ -175,7 +173,7 @@ class _Drive:
 
     def _publish_joints(self, time_ns: int) -> None:
         joints = [joint for pair in self._wheels for joint in pair]
-        message = message_class("sensor_msgs/JointState")(
+        message = message_type("sensor_msgs/JointState")(
             header=header(time_ns, ""),
             name=[joint.name.split("::", 1)[1] for joint in joints],
             position=np.array([joint.position for joint in joints]),

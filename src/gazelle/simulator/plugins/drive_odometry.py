@@ -12,13 +12,9 @@ from numpy.typing import NDArray
 
 from gazelle.engine import JointHandle
 from gazelle.geometry import Pose
-from gazelle.simulator.messages import (
-    header,
-    message_class,
-    pose_message,
-    transform_stamped,
-    twist_message,
-)
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import pose_message, transform_stamped, twist_message
+from gazelle.interfaces.stamps import header
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.drive import gz_text, gz_topic
 from gazelle.simulator.plugins.parameters import PluginReader
@@ -128,14 +124,14 @@ class DriveOdometry:
             transforms.append(transform_stamped(time_ns, setup.frame, setup.child_frame, pose))
         if self._wheels is not None:
             transforms += self._wheels()
-        self._tf.publish(message_class("tf2_msgs/TFMessage")(transforms=transforms))
+        self._tf.publish(message_type("tf2_msgs/TFMessage")(transforms=transforms))
 
     def _publish_odometry(self, pose: Pose, motion: Motion | None) -> None:
         if self._odometry is None or not self._odometry.matched:
             return
         setup = self._setup
         forward, sideways, turn = motion or body_velocity(self._context)
-        message = message_class("nav_msgs/Odometry")(
+        message = message_type("nav_msgs/Odometry")(
             header=header(self._engine.time_ns, setup.frame), child_frame_id=setup.child_frame
         )
         if setup.is_flat:

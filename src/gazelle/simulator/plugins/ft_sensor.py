@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import ForceTorqueSpec
 from gazelle.geometry import IDENTITY_POSE, cross, inertia_matrix
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import vector_message
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.joint_loads import joint_load
-from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.noise import gaussian
 from gazelle.simulator.plugins.parameters import PluginReader
@@ -142,12 +144,10 @@ def load_f3d(context: PluginContext) -> None:
 
 def wrench_message(time_ns: int, frame: str, force: Array, torque: Array) -> Any:
     """Return a ``geometry_msgs/WrenchStamped``."""
-    wrench = message_class("geometry_msgs/Wrench")(
+    wrench = message_type("geometry_msgs/Wrench")(
         force=vector_message(force), torque=vector_message(torque)
     )
-    return message_class("geometry_msgs/WrenchStamped")(
-        header=header(time_ns, frame), wrench=wrench
-    )
+    return message_type("geometry_msgs/WrenchStamped")(header=header(time_ns, frame), wrench=wrench)
 
 
 def _report_no_topic(context: PluginContext) -> None:

@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import GpsSpec
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import vector_message
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
 from gazelle.simulator.plugins.parameters import PluginReader
@@ -156,8 +158,8 @@ def fix_message(
 ) -> Any:
     """Return a ``sensor_msgs/NavSatFix``; variances in m², None for an unknown covariance."""
     covariance = np.zeros((3, 3)) if variances is None else np.diag(variances)
-    navigation = message_class("sensor_msgs/NavSatStatus")(status=status, service=service)
-    return message_class("sensor_msgs/NavSatFix")(
+    navigation = message_type("sensor_msgs/NavSatStatus")(status=status, service=service)
+    return message_type("sensor_msgs/NavSatFix")(
         header=header(time_ns, frame),
         status=navigation,
         latitude=place.latitude_deg,
@@ -242,6 +244,6 @@ def _hector_reader(
 
 
 def _stamped(time_ns: int, frame: str, vector: Any) -> Any:
-    return message_class("geometry_msgs/Vector3Stamped")(
+    return message_type("geometry_msgs/Vector3Stamped")(
         header=header(time_ns, frame), vector=vector_message(vector)
     )

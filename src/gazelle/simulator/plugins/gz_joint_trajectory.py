@@ -9,8 +9,8 @@ from typing import Any
 from gazelle.description.model import JointType
 from gazelle.diagnostics import did_you_mean
 from gazelle.engine import JointHandle
+from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import ns_of
-from gazelle.simulator.messages import message_class
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
 from gazelle.simulator.plugins.gz_joints_table import TRAJECTORY_TABLE
@@ -150,7 +150,7 @@ class _Controller:
         if course.is_at_end:
             self._course = None
         done = (course.index + 1) / len(course.points)
-        self._progress.publish(message_class("std_msgs/Float32")(data=done))
+        self._progress.publish(message_type("std_msgs/Float32")(data=done))
 
     def _reset(self) -> None:
         self._course = None

@@ -14,8 +14,10 @@ from gazelle.description.model import (
     MagnetometerSpec,
     PressureSpec,
 )
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import vector_message
+from gazelle.interfaces.stamps import header
 from gazelle.simulator.measurements import Measurements
-from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.bumper import gz_contacts_message
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.ft_sensor import wrench_message
@@ -69,7 +71,7 @@ def _fix(measurements: Measurements, place: SensorPlace, time_ns: int, frame: st
 
 
 def _field(measurements: Measurements, place: SensorPlace, time_ns: int, frame: str) -> Any:
-    return message_class("sensor_msgs/MagneticField")(
+    return message_type("sensor_msgs/MagneticField")(
         header=header(time_ns, frame),
         magnetic_field=vector_message(measurements.magnetometer(place).field_t),
     )
@@ -77,7 +79,7 @@ def _field(measurements: Measurements, place: SensorPlace, time_ns: int, frame: 
 
 def _altitude(measurements: Measurements, place: SensorPlace, time_ns: int, frame: str) -> Any:
     record = measurements.altimeter(place)
-    return message_class("ros_gz_interfaces/Altimeter")(
+    return message_type("ros_gz_interfaces/Altimeter")(
         header=header(time_ns, frame),
         vertical_position=record.vertical_position_m,
         vertical_velocity=record.vertical_velocity_m_s,
@@ -88,7 +90,7 @@ def _altitude(measurements: Measurements, place: SensorPlace, time_ns: int, fram
 def _pressure(measurements: Measurements, place: SensorPlace, time_ns: int, frame: str) -> Any:
     spec = place.sensor.spec
     assert isinstance(spec, PressureSpec)
-    return message_class("sensor_msgs/FluidPressure")(
+    return message_type("sensor_msgs/FluidPressure")(
         header=header(time_ns, frame),
         fluid_pressure=measurements.pressure(place).pressure_pa,
         variance=spec.noise.stddev**2,

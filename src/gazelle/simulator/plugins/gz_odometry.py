@@ -10,14 +10,10 @@ import numpy as np
 
 from gazelle.description.model import JointType, Model
 from gazelle.geometry import Pose
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import pose_message, transform_stamped, twist_message
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import (
-    header,
-    message_class,
-    pose_message,
-    transform_stamped,
-    twist_message,
-)
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.drive import gz_text, gz_topic
 from gazelle.simulator.plugins.noise import gaussian
@@ -163,7 +159,7 @@ def _start(context: PluginContext, parameters: PluginReader, *, is_flat: bool) -
         diagonal = (covariance * np.eye(6)).reshape(36)
 
         def build(time_ns: int) -> Any:
-            message = message_class("nav_msgs/Odometry")(
+            message = message_type("nav_msgs/Odometry")(
                 header=header(time_ns, frame), child_frame_id=child
             )
             pose, message.twist.twist = read()
@@ -175,7 +171,7 @@ def _start(context: PluginContext, parameters: PluginReader, *, is_flat: bool) -
 
     def transform(time_ns: int) -> Any:
         moved = transform_stamped(time_ns, frame, child, read()[0])
-        return message_class("tf2_msgs/TFMessage")(transforms=[moved])
+        return message_type("tf2_msgs/TFMessage")(transforms=[moved])
 
     step_ns = context.host.engine.step_ns
     period = period_in_steps(parameters.number("odom_publish_frequency"), step_ns)
@@ -236,7 +232,7 @@ def _publish(
         moved = [
             transform_stamped(engine.time_ns, parent, child, read()) for parent, child, read in rows
         ]
-        for message in [message_class(type_name)(transforms=moved)] if is_vector else moved:
+        for message in [message_type(type_name)(transforms=moved)] if is_vector else moved:
             publisher.publish(message)
 
     name = f"{context.plugin.name} {topic}"

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from gazelle.geometry import Pose
-from gazelle.interfaces.poses import pose_of_transform
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import pose_of_transform, transform_stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import message_class, transform_stamped
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
@@ -127,7 +127,7 @@ class _Hand:
             transform = transform_stamped(
                 self._engine.time_ns, _ROOT, f"{self._frame}_actual", pose
             )
-            self._tf.publish(message_class("tf2_msgs/TFMessage")(transforms=[transform]))
+            self._tf.publish(message_type("tf2_msgs/TFMessage")(transforms=[transform]))
 
 
 def _rotation_vector(xyzw: tuple[float, float, float, float]) -> tuple[float, float, float]:

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.simulator.messages import header, message_class
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 
 __all__ = [
     "compressed_depth_message",
@@ -73,7 +74,7 @@ def compressed_message(
     else:
         picture.save(buffer, "JPEG", quality=quality)
     name = "png" if kind == "png" else "jpeg"
-    return message_class("sensor_msgs/CompressedImage")(
+    return message_type("sensor_msgs/CompressedImage")(
         header=header(time_ns, frame),
         format=f"rgb8; {name} compressed bgr8",
         data=np.frombuffer(buffer.getvalue(), np.uint8),
@@ -103,7 +104,7 @@ def compressed_depth_message(
     buffer = io.BytesIO()
     Image.fromarray(inverse).save(buffer, "PNG", compress_level=png_level)
     data = struct.pack("<iff", 0, a, b) + buffer.getvalue()
-    return message_class("sensor_msgs/CompressedImage")(
+    return message_type("sensor_msgs/CompressedImage")(
         header=header(time_ns, frame),
         format="32FC1; compressedDepth png",
         data=np.frombuffer(data, np.uint8),

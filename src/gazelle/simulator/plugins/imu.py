@@ -10,12 +10,10 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import ImuSpec, Noise
 from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import vector_message
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import (
-    header,
-    message_class,
-    vector_message,
-)
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
@@ -236,8 +234,8 @@ def imu_message(time_ns: int, frame: str, record: ImuRecord, sigmas: Sigmas = _N
     """Return a ``sensor_msgs/Imu``; variances are the squares of the sigmas."""
     orientation, rate, acceleration = (np.diag(np.square(item)).reshape(9) for item in sigmas)
     x, y, z, w = record.orientation_xyzw
-    quaternion = message_class("geometry_msgs/Quaternion")
-    return message_class("sensor_msgs/Imu")(
+    quaternion = message_type("geometry_msgs/Quaternion")
+    return message_type("sensor_msgs/Imu")(
         header=header(time_ns, frame),
         orientation=quaternion(x=float(x), y=float(y), z=float(z), w=float(w)),
         angular_velocity=vector_message(record.angular_velocity_rad_s),

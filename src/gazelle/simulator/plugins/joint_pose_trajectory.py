@@ -8,9 +8,9 @@ from typing import Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import Pose
+from gazelle.interfaces.poses import pose_of
 from gazelle.interfaces.stamps import ns_of
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import pose_from_message
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
@@ -122,7 +122,7 @@ class _Trajectories:
             response.status_message = f"there is no model '{name}'"
             return
         if request.set_model_pose:
-            self._engine.set_model_pose(name, pose_from_message(request.model_pose))
+            self._engine.set_model_pose(name, pose_of(request.model_pose).normalised())
         response.success = self._begin(name, request.joint_trajectory)
 
     def _begin(self, model: str, message: Any) -> bool:

@@ -7,8 +7,9 @@ import re
 import numpy as np
 
 from gazelle.description.model import JointType
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
@@ -91,7 +92,7 @@ def _start(context: PluginContext, topic: str, wanted: list[str], rate_hz: float
     publisher = context.resources.publisher(topic, "sensor_msgs/JointState")
 
     def publish() -> None:
-        message = message_class("sensor_msgs/JointState")(
+        message = message_type("sensor_msgs/JointState")(
             header=header(engine.time_ns, ""),
             name=list(names),
             position=np.array([joint.position for joint in joints]),

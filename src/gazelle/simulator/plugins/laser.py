@@ -9,8 +9,9 @@ import numpy as np
 
 from gazelle.description.model import LidarSpec
 from gazelle.diagnostics import did_you_mean
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.stream import prefixed_frame
@@ -156,7 +157,7 @@ def scan_builder(place: SensorPlace, frame: str) -> Callable[[int, LidarRecord],
 
     def build(time_ns: int, record: LidarRecord) -> Any:
         row = len(record.ranges_m) // 2
-        return message_class("sensor_msgs/LaserScan")(
+        return message_type("sensor_msgs/LaserScan")(
             header=header(time_ns, frame),
             angle_min=float(record.angles.horizontal[0]),
             angle_max=float(record.angles.horizontal[-1]),
@@ -186,9 +187,9 @@ def cloud_builder(frame: str, least: float) -> Callable[[int, LidarRecord], Any]
     def build(time_ns: int, record: LidarRecord) -> Any:
         points, intensities = _points(record, least)
         data = np.column_stack([points, intensities]).astype(np.float32)
-        field = message_class("sensor_msgs/PointField")
+        field = message_type("sensor_msgs/PointField")
         names = ("x", "y", "z", "intensity")
-        return message_class("sensor_msgs/PointCloud2")(
+        return message_type("sensor_msgs/PointCloud2")(
             header=header(time_ns, frame),
             height=1,
             width=len(data),
@@ -208,9 +209,9 @@ def cloud_builder(frame: str, least: float) -> Callable[[int, LidarRecord], Any]
 def _points_builder(frame: str, least: float) -> Callable[[int, LidarRecord], Any]:
     def build(time_ns: int, record: LidarRecord) -> Any:
         points, intensities = _points(record, least)
-        point = message_class("geometry_msgs/Point32")
-        channel = message_class("sensor_msgs/ChannelFloat32")
-        return message_class("sensor_msgs/PointCloud")(
+        point = message_type("geometry_msgs/Point32")
+        channel = message_type("sensor_msgs/ChannelFloat32")
+        return message_type("sensor_msgs/PointCloud")(
             header=header(time_ns, frame),
             points=[point(x=float(x), y=float(y), z=float(z)) for x, y, z in points],
             channels=[channel(name="intensity", values=intensities)],
@@ -227,7 +228,7 @@ def _range_builder(
 
     def build(time_ns: int, record: LidarRecord) -> Any:
         angles = record.angles
-        return message_class("sensor_msgs/Range")(
+        return message_type("sensor_msgs/Range")(
             header=header(time_ns, frame),
             radiation_type=0 if radiation == "ultrasound" else 1,
             field_of_view=max(float(np.ptp(angles.horizontal)), float(np.ptp(angles.vertical))),

@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import vector_message
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import header, message_class, vector_message
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
 from gazelle.simulator.plugins.parameters import PluginReader
@@ -111,8 +113,8 @@ def load_baro(context: PluginContext) -> None:
 
         def build(time_ns: int) -> Any:
             height = source.apply(np.array(link.T_world_link().position_m[2:]))
-            point = message_class("geometry_msgs/Point")(x=0.0, y=0.0, z=float(height[0]))
-            return message_class("geometry_msgs/PointStamped")(
+            point = message_type("geometry_msgs/Point")(x=0.0, y=0.0, z=float(height[0]))
+            return message_type("geometry_msgs/PointStamped")(
                 header=header(time_ns, frame), point=point
             )
 
@@ -135,7 +137,7 @@ def _start(context: PluginContext, parameters: PluginReader, link_name: str) -> 
     def build(time_ns: int) -> Any:
         measured = source.apply(np.array(link.T_world_link().inverse().rotate(field)))
         values = {key: vector_message(measured)}
-        return message_class(type_name)(header=header(time_ns, frame), **values)
+        return message_type(type_name)(header=header(time_ns, frame), **values)
 
     topic = context.topic(parameters, parameters.text("topicName"))
     publish_at(context, topic, type_name, _period(context, parameters), build)

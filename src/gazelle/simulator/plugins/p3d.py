@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import pose_message, twist_message
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import header, message_class, pose_message, twist_message
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.noise import gaussian
 from gazelle.simulator.plugins.parameters import PluginReader
@@ -110,7 +112,7 @@ def _start(context: PluginContext, parameters: PluginReader, link_name: str) -> 
         if reference is not None:
             base_linear, base_angular = reference.velocity_world()
             linear, angular = linear - base_linear, angular - base_angular
-        message = message_class("nav_msgs/Odometry")(
+        message = message_type("nav_msgs/Odometry")(
             header=header(engine.time_ns, frame), child_frame_id=child
         )
         message.pose.pose = pose_message(pose)

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from gazelle.description.model import LidarSpec, SonarSpec
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import header, message_class
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
 from gazelle.simulator.plugins.noise import gaussian
@@ -150,7 +151,7 @@ def _start(
     def build(time_ns: int) -> Any:
         range_m = min(ranger.read_m(), ranger.max_m)
         # Both plug-ins leave a reading without an echo as it is.
-        return message_class("sensor_msgs/Range")(
+        return message_type("sensor_msgs/Range")(
             header=header(time_ns, common.frame),
             radiation_type=common.radiation,
             field_of_view=common.fov_rad,

@@ -9,7 +9,8 @@ import numpy as np
 
 from gazelle.engine import JointHandle
 from gazelle.geometry import Pose
-from gazelle.simulator.messages import header, message_class
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.drive import Velocity, needed_joints, run_drive, take_velocities
 from gazelle.simulator.plugins.drive_odometry import (
@@ -158,7 +159,7 @@ class _Tricycle:
         if self._tf is None or not self._tf.matched:
             return
         transforms = [self._wheel_transform(joint) for joint in self._joints]
-        self._tf.publish(message_class("tf2_msgs/TFMessage")(transforms=transforms))
+        self._tf.publish(message_type("tf2_msgs/TFMessage")(transforms=transforms))
 
     def _wheel_transform(self, joint: JointHandle) -> Any:
         described = joint.joint
@@ -170,7 +171,7 @@ class _Tricycle:
     def _publish_states(self) -> None:
         if self._states is None or not self._states.matched:
             return
-        message = message_class("sensor_msgs/JointState")(
+        message = message_type("sensor_msgs/JointState")(
             header=header(self._engine.time_ns, ""),
             name=[joint.joint.name for joint in self._joints],
             position=np.array([joint.position for joint in self._joints]),

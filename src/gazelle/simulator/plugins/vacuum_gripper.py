@@ -6,8 +6,8 @@ import math
 from fractions import Fraction
 from typing import Any
 
+from gazelle.interfaces import message_type
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.messages import message_class
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
@@ -137,7 +137,7 @@ class _Gripper:
         return link in self._exempt or link.partition("::")[2] in self._exempt
 
     def _publish(self) -> None:
-        self._publisher.publish(message_class("std_msgs/Bool")(data=bool(self._held)))
+        self._publisher.publish(message_type("std_msgs/Bool")(data=bool(self._held)))
 
     def _reset(self) -> None:
         # The engine's reset has let everything go.

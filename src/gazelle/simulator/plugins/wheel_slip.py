@@ -13,7 +13,7 @@ from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import floats_from
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph.node_parameters import NodeParameters, ParameterPolicy
-from gazelle.simulator.messages import message_class
+from gazelle.interfaces import message_type
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
@@ -233,7 +233,7 @@ def _publish_slips(context: PluginContext, parameters: PluginReader, slip: _Slip
     tolerance = parameters.number("wheel_spin_tolerance")
 
     def publish() -> None:
-        message = message_class("gazebo_msgs/WheelSlip")()
+        message = message_type("gazebo_msgs/WheelSlip")()
         sideways, along = [], []
         for wheel in slip.wheels:
             forward, lateral, rim = slip.measure(wheel)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.simulator.messages import message_class
+from gazelle.interfaces import message_type
 from gazelle.simulator.viewing.joint_rows import moving_joints
 
 if TYPE_CHECKING:
@@ -161,7 +161,7 @@ class Broadcast:
 
     def _send(self, publisher: Any, rows: Floats) -> None:
         publisher.publish(
-            message_class("gazelle_msgs/Frames")(
+            message_type("gazelle_msgs/Frames")(
                 stamp=self._server.time_ns * 1e-9,
                 version=self._version,
                 width=rows.shape[1],
@@ -212,4 +212,4 @@ class _Pace:
 
 
 def _text(value: Mapping[str, Any]) -> Any:
-    return message_class("std_msgs/String")(data=json.dumps(value))
+    return message_type("std_msgs/String")(data=json.dumps(value))

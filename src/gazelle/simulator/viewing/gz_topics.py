@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from gazelle.interfaces import message_type
+from gazelle.interfaces.poses import transform_stamped
 from gazelle.interfaces.stamps import stamp_message
 from gazelle.simulator.gazebo_ros.states import offer_clock
-from gazelle.simulator.messages import message_class, transform_stamped
 
 if TYPE_CHECKING:
     from gazelle.description.model import Model
@@ -58,7 +59,7 @@ class GzTopics:
                 models = self._server.engine.world.models
                 shown = [one for one in models if name == "pose" or not one.static]
                 rows = [row for model in shown for row in self._transforms(model)]
-                publisher.publish(message_class(_POSES)(transforms=rows))
+                publisher.publish(message_type(_POSES)(transforms=rows))
 
     def _transforms(self, model: Model) -> Iterator[Any]:
         engine = self._server.engine
@@ -75,7 +76,7 @@ def _gz_statistics(value: Mapping[str, Any]) -> Any:
     def time_of(seconds: float) -> Any:
         return stamp_message(round(seconds * 1e9))
 
-    return message_class("gazelle_msgs/WorldStatistics")(
+    return message_type("gazelle_msgs/WorldStatistics")(
         sim_time=time_of(value["sim_s"]),
         real_time=time_of(value["real_s"]),
         paused=value["paused"],

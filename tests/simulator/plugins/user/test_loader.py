@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from tests.installed_packages import installed
 
+from gazelle.interfaces import message_type, service_type
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class, service_class
 from gazelle.workspace import Workspace
 
 Load = Callable[..., Simulation]
@@ -98,10 +98,10 @@ def test_a_model_plug_in_pushes_its_link(
     assert sim.link("l").linear_velocity_m_s[0] == pytest.approx(4 * 0.999 / 2, rel=1e-6)
     assert len(pushes) == 1000
     assert pushes[-1].data == 4.0
-    sim.publish("/r/force", message_class("std_msgs/Float64")(data=-4.0))
+    sim.publish("/r/force", message_type("std_msgs/Float64")(data=-4.0))
     sim.run(seconds=1.0)
     assert sim.link("l").linear_velocity_m_s[0] == pytest.approx(0.0, abs=0.01)
-    empty = service_class("std_srvs/Empty")
+    empty = service_type("std_srvs/Empty")
     sim.server.node.call("/r/stop", empty.Request())  # type: ignore[attr-defined]
     before = sim.link("l").linear_velocity_m_s[0]
     sim.run(seconds=0.5)

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gazelle.control.bank import Array
-from gazelle.control.messages import message_class, stamped
 from gazelle.control.ports import GoalPort, Ports, PublisherPort
 from gazelle.control.trajectory.errors import ErrorCode
-from gazelle.interfaces.stamps import set_stamp
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import set_stamp, stamped
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +29,7 @@ def point(rows: Iterable[Array | None], time_ns: int, effort: Array | None = Non
         time_ns: ``time_from_start``.
         effort: as its name says.
     """
-    message = message_class("trajectory_msgs/JointTrajectoryPoint")()
+    message = message_type("trajectory_msgs/JointTrajectoryPoint")()
     fields = ("positions", "velocities", "accelerations")
     for name, values in zip(fields, rows, strict=False):
         if values is not None:

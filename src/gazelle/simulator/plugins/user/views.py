@@ -10,9 +10,9 @@ from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import bool_from, float_from, floats_from
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GazelleError, NotFoundError
+from gazelle.interfaces import message_type
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.simulator.handles import ModelOfSimulation
-from gazelle.simulator.messages import message_class
 from gazelle.simulator.plugins.context import Host, PluginContext, Resources
 from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.ports import PublisherPort
@@ -145,7 +145,7 @@ class PluginNode:
 
     def message(self, type_name: str, **fields: Any) -> Any:
         """Return a message of a type such as ``std_msgs/Float64``."""
-        return message_class(type_name)(**fields)
+        return message_type(type_name)(**fields)
 
     def advertise(self, topic: str, message_type: Any, *, latch: bool = False) -> PublisherPort:
         """Offer a topic; its ``matched`` tells whether anybody listens."""
