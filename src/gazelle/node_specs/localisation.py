@@ -68,6 +68,7 @@ LOCALISATION = (
         entry="gazelle.nodes.map_server.saver:run_cli",
         does="writes the map that is published, ROS 2's package",
         is_light=False,
+        parameters="gazelle.nodes.map_server.saver:CLI_PARAMETERS",
         topics=(listens("map", "nav_msgs/msg/OccupancyGrid", remark="one map; then it ends"),),
     ),
     NodeSpec(
@@ -77,6 +78,7 @@ LOCALISATION = (
         entry="gazelle.nodes.map_server.saver:run_server",
         does="writes maps on request",
         is_light=False,
+        parameters="gazelle.nodes.map_server.saver:SERVER_PARAMETERS",
         name="map_saver",
         topics=(*LIFECYCLE_TOPICS,),
         services=(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import pytest
 
 from gazelle.errors import LaunchError
 from gazelle.mapping.grids import MapMode, OccupancyGrid, write_map
+from gazelle.nodes.host import run_node
 from gazelle.nodes.map_server.messages import grid_of_message, message_of_grid
 from gazelle.nodes.map_server.saver import parse_cli, parse_saver
 
@@ -132,6 +134,30 @@ def test_nav2s_map_server_is_a_managed_node(bench: Any, yaml: Path, tmp_path: Pa
     assert "mode: raw" in (tmp_path / "saved.yaml").read_text()
     assert bench.call("/map_server/get_state", "lifecycle_msgs/srv/GetState").current_state.id == 3
     bench.stop()
+
+
+@pytest.mark.parametrize("name", ["save_map_timeout", "free_thresh_default"])
+def test_a_saver_on_request_ends_where_a_number_is_none(bench: Any, name: str) -> None:
+    words = {"node": "nav2_map_server/map_saver_server",
+             "argv": ["--ros-args", "-p", f"{name}:=soon"]}  # fmt: skip
+    with pytest.raises(LaunchError, match=f"parameter '/map_saver/{name}' is 'soon', not a number"):
+        run_node(words, bench.graph, threading.Event())
+    assert "/map_saver" not in bench.graph.node_names()
+
+
+def test_a_saver_of_the_command_line_tells_of_parameters_that_change_nothing(
+    bench: Any, tmp_path: Path, capfd: Any
+) -> None:
+    bench.start(
+        "nav2_map_server/map_saver_cli", "-f", str(tmp_path / "m"), "--ros-args",
+        "-p", "save_map_timeout:=0.1", "-p", "save_map_timeot:=5.0",
+        "-p", "free_thresh_default:=0.3",
+    )  # fmt: skip
+    assert bench.wait() == [1]
+    told = "".join(capfd.readouterr())
+    assert "parameter 'save_map_timeot' is not one of map_saver_cli; it has no effect" in told
+    assert "'free_thresh_default' (0.3) has no effect here: --free and --occ say it" in told
+    assert "no map on /map within 0.1 s" in told
 
 
 def test_command_lines_of_the_savers() -> None:

@@ -81,13 +81,15 @@ def test_parameters_are_told_by_name_where_they_are_unknown_or_no_numbers(
 ) -> None:
     said = bench.listen("/rosout", "rcl_interfaces/msg/Log")
     assert _run(bench, "-string", _BOX, "--ros-args", "-p", "x:=east") == [1]
-    assert _run(bench, "-string", _BOX, "--ros-args", "-p", "nam:=crate") == [1, 0]
+    words = ["-string", _BOX, "--ros-args", "-p", "nam:=crate", "-p", "y:=''"]
+    assert _run(bench, *words) == [1, 0]
     expected = [
         "the parameter 'x' is no number: 'east'",
         "parameter 'nam' is not one of create; it has no effect",
     ]
     bench.eventually(lambda: all(any(text in one.msg for one in said) for text in expected))
     assert [model.name for model in sim.server.engine.world.models] == ["ground_plane", "box"]
+    assert not any("parameter 'y'" in one.msg for one in said)
 
 
 def test_remove_takes_a_model_out_of_the_world(bench: Any, sim: Simulation) -> None:

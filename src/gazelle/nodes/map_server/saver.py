@@ -15,9 +15,48 @@ from gazelle.mapping.grids import MapMode, MapWriteError, SaveOptions, write_map
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.messages import grid_of_message
-from gazelle.nodes.parameters import private, private_number, start_node
+from gazelle.nodes.parameter_reading import number_or_end, private_parameters
+from gazelle.nodes.parameters import start_node
+from gazelle.parameters import Parameter, ParameterTable, refused
 
-__all__ = ["Wanted", "parse_cli", "parse_saver", "run", "run_cli", "run_server"]
+__all__ = [
+    "CLI_PARAMETERS",
+    "SERVER_PARAMETERS",
+    "Wanted",
+    "parse_cli",
+    "parse_saver",
+    "run",
+    "run_cli",
+    "run_server",
+]
+
+_TIMEOUT = Parameter("save_map_timeout", "number", 2.0, "how long the map is waited for", "s")
+_LATE = refused(
+    "maps that were published before are taken, too", "map_subscribe_transient_local", unless=True
+)
+CLI_PARAMETERS = ParameterTable(
+    "map_saver_cli",
+    "Writes the map that is published.",
+    ("nav2_map_server/map_saver_cli",),
+    (
+        _TIMEOUT,
+        *_LATE,
+        *refused("--free and --occ say it", "free_thresh_default", "occupied_thresh_default"),
+    ),
+)
+SERVER_PARAMETERS = ParameterTable(
+    "map_saver_server",
+    "Writes maps on request, as a managed node. What should be a number and is none ends it.",
+    ("nav2_map_server/map_saver_server",),
+    (
+        _TIMEOUT,
+        Parameter("free_thresh_default", "number", 0.25, "lighter is free, for requests with 0"),
+        Parameter(
+            "occupied_thresh_default", "number", 0.65, "darker is occupied, for requests with 0"
+        ),
+        *_LATE,
+    ),
+)
 
 _USAGE = (
     "Usage: \n  map_saver -h\n  map_saver [--occ <threshold_occupied>] "
@@ -144,26 +183,22 @@ def _mode(value: str) -> MapMode:
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """``map_server map_saver``: save one map and end."""
-    return _save_once(arguments, graph, stop, parse_saver(arguments.rest), _USAGE, None)
+    wanted = parse_saver(arguments.rest)
+    return _save_once(start_node(arguments, graph), stop, wanted, _USAGE, None)
 
 
 def run_cli(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """``nav2_map_server map_saver_cli``: save one map and end."""
     wanted = parse_cli(arguments.rest)
-    value = arguments.params.get("save_map_timeout", 2.0)
-    timeout_s = float(value) if isinstance(value, int | float) else 2.0
-    return _save_once(arguments, graph, stop, wanted, _CLI_USAGE, timeout_s)
+    node = start_node(arguments, graph)
+    with private_parameters(node, arguments, CLI_PARAMETERS) as own:
+        timeout_s = own.number("save_map_timeout")
+    return _save_once(node, stop, wanted, _CLI_USAGE, timeout_s)
 
 
 def _save_once(
-    arguments: NodeArguments,
-    graph: Graph,
-    stop: threading.Event,
-    wanted: Wanted,
-    usage: str,
-    timeout_s: float | None,
+    node: Node, stop: threading.Event, wanted: Wanted, usage: str, timeout_s: float | None
 ) -> int:
-    node = start_node(arguments, graph)
     if wanted.help:
         node.log("info", usage)
         node.shutdown()
@@ -218,12 +253,22 @@ def _write(node: Node, message: Any, wanted: Wanted) -> bool:
 
 
 def run_server(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
-    """``nav2_map_server map_saver_server``: save maps on request, as a managed node."""
-    node = start_node(arguments, graph)
-    lifecycle = Lifecycle(node, {})
+    """``nav2_map_server map_saver_server``: save maps on request, as a managed node.
 
-    def number(name: str, default: float) -> float:
-        return private_number(node, arguments, name, default)
+    Raises:
+        LaunchError: a parameter is no number.
+    """
+    node = start_node(arguments, graph)
+    try:
+        with private_parameters(node, arguments, SERVER_PARAMETERS) as own:
+            timeout_s, occupied_thresh, free_thresh = (
+                number_or_end(own, key)
+                for key in ("save_map_timeout", "occupied_thresh_default", "free_thresh_default")
+            )
+    except LaunchError:
+        node.shutdown()
+        raise
+    lifecycle = Lifecycle(node, {})
 
     def on_save(request: Any) -> Any:
         response = service_type("nav2_msgs/srv/SaveMap").Response()
@@ -235,19 +280,15 @@ def run_server(arguments: NodeArguments, graph: Graph, stop: threading.Event) ->
             2,
             _request_mode(node, request.map_mode),
             request.image_format,
-            float(request.occupied_thresh) or number("occupied_thresh_default", 0.65),
-            float(request.free_thresh) or number("free_thresh_default", 0.25),
+            float(request.occupied_thresh) or occupied_thresh,
+            float(request.free_thresh) or free_thresh,
         )
         node.log("info", f"Saving map from '{topic}' topic to '{request.map_url}' file")
-        message = _one_map(node, topic, stop, number("save_map_timeout", 2.0))
+        message = _one_map(node, topic, stop, timeout_s)
         wanted = Wanted(request.map_url, topic, options)
         response.result = message is not None and _write(node, message, wanted)
         return response
 
-    transient = private(node, arguments, "map_subscribe_transient_local", True)
-    if not transient:
-        text = "map_subscribe_transient_local: maps that were published before are taken too"
-        node.log("info", text)
     node.create_service("~/save_map", service_type("nav2_msgs/srv/SaveMap"), on_save)
     arguments.ready()
     while not stop.wait(_POLL_S) and not lifecycle.finalized:

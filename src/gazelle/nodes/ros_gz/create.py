@@ -23,6 +23,7 @@ from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.nodes.ros_gz.models import model_text
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.coercion import number_of
+from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["PARAMETERS", "run"]
 
@@ -85,14 +86,19 @@ def _options(node: Node, arguments: NodeArguments, flags: Mapping[str, Any]) -> 
     key = place.replace("/", ".")
     rows = (Parameter(key, "text", "", "the model"),) if key else ()
     with private_parameters(node, arguments, PARAMETERS.plus(rows)) as own:
-        for row in PARAMETERS.rows:
-            given = own.raw(row.key, row.default)
-            if row.kind == "number" and number_of(given) is None:
-                raise LaunchError(f"the parameter '{row.key}' is no number: '{given}'")
-        found = {
-            row.key: own.value(row) or flags.get(row.key, row.default) for row in PARAMETERS.rows
-        }
+        found = {row.key: _given(own, row) or flags.get(row.key, row.default)
+                 for row in PARAMETERS.rows}  # fmt: skip
         return {**found, "param": place, "model": own.text(key) if key else ""}
+
+
+def _given(own: ParameterReader, row: Parameter) -> Any:
+    value = own.raw(row.key)
+    if value in (None, ""):
+        # What a launch file's argument without a value comes to.
+        return row.default
+    if row.kind == "number" and number_of(value) is None:
+        raise LaunchError(f"the parameter '{row.key}' is no number: '{value}'")
+    return own.value(row)
 
 
 def _create(node: Node, options: Mapping[str, Any], stop: threading.Event) -> int:
