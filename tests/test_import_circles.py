@@ -29,7 +29,6 @@ WITH_TYPES = {
     "gazelle.launch.ros2.context",
     "gazelle.simulator.handles",
     "gazelle.simulator.plugins.transport",
-    "gazelle.studio.bags.playing",
     "gazelle.workspace.resolver",
 } - {"gazelle.launch.ros2.actions"}
 

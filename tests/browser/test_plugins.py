@@ -11,7 +11,6 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.studio import Server, Studio
-from gazelle.studio.plugins.shows import Desk
 
 pytestmark = pytest.mark.slow
 
@@ -99,7 +98,7 @@ def files(tmp_path: Path) -> Path:
 def site(bench: Any, files: Path) -> Any:
     """The bench, with a Studio of its own that knows the panel."""
     with Server(Studio(bench.graph), port=0) as server:
-        server.studio.shared(Desk).name_file(str(files / "speed.py"))
+        server.studio.desk.name_file(str(files / "speed.py"))
         bench.url = server.url
         yield bench
 

@@ -7,6 +7,7 @@ import io
 import json
 import os
 from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -41,6 +42,7 @@ from gazelle.graph.parameters import ParameterShare, ParameterStore
 from gazelle.graph.requests import answer_in, read_query
 from gazelle.interfaces import from_ros1, ros1_message_type, to_cdr, to_ros1
 from gazelle.studio.connection import Connection
+from gazelle.studio.session import Studio
 from gazelle.workspace import Workspace
 
 __all__ = ["WIRES"]
@@ -168,38 +170,27 @@ def _answer(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) -> Non
 
 
 class _Nobody:
-    """A part of the graph where nobody is."""
+    """A part of the graph where nobody is, besides what is named."""
+
+    def __init__(self, **there: Any) -> None:
+        self.__dict__.update(there)
 
     def __getattr__(self, name: str) -> Any:
         raise GraphError("nobody is there")
 
 
-class _Studio:
-    """What a page talks to, without a graph."""
-
-    def __init__(self, folder: Path) -> None:
-        self.graph = self.node = self.taps = _Nobody()
-        self.folder = folder
-        self.pages: set[Any] = set()
-        self.workers = SimpleNamespace(submit=lambda job: job())
-        self._shared: dict[Any, Any] = {}
-
-    def hello(self) -> list[dict[str, Any]]:
-        return []
-
-    def enter(self, page: Any) -> None:
-        self.pages.add(page)
-
-    def leave(self, page: Any) -> None:
-        self.pages.discard(page)
-
-    def on_close(self, closer: Callable[[], None]) -> None:
-        pass
-
-    def shared(self, make: Callable[[Any], Any]) -> Any:
-        if make not in self._shared:
-            self._shared[make] = make(self)
-        return self._shared[make]
+def _studio(folder: Path) -> Studio:
+    """Return what a page talks to, without a graph."""
+    clock = _Nobody(leave=lambda _node: None, follow=lambda _node: None)
+    node = _Nobody(clock=clock, graph=_Nobody(), shutdown=lambda _reason: None)
+    graph = _Nobody(create_node=lambda _name, **_options: node)
+    studio = Studio(cast(Any, graph), folder)
+    studio.pages = cast(
+        Any, SimpleNamespace(hello=list, enter=lambda _page: None, leave=lambda _page: None)
+    )
+    studio.workers.close()
+    studio.workers = cast(Any, SimpleNamespace(submit=lambda job: job()))
+    return studio
 
 
 class _Page:
@@ -233,7 +224,8 @@ def _page(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) -> None:
     page = _Page(path.read_bytes().decode("utf-8", "replace").splitlines())
 
     async def talk() -> None:
-        await Connection(cast(Any, _Studio(path.parent)), cast(Any, page)).run()
+        with closing(_studio(path.parent)) as studio:
+            await Connection(studio, cast(Any, page)).run()
 
     with patch.dict(os.environ, {"XDG_CONFIG_HOME": str(path.parent / "config")}):
         asyncio.run(talk())

@@ -312,7 +312,7 @@ def test_node_info_and_kill(page: Page, graph: Graph, server: Server) -> None:
     assert info["publications"] == [{"name": "/cry", "type": "std_msgs/msg/String"}]
     assert info["pid"] > 0
     assert page.call("node.kill", node="/victim") == {"answered": True}
-    eventually(lambda: "/victim" not in server.studio.graph.node_names())
+    eventually(lambda: "/victim" not in server.studio.node.graph.node_names())
     assert node.closed
     with pytest.raises(RefusedError, match="node '/victim' not found"):
         page.call("node.kill", node="/victim")

@@ -246,12 +246,12 @@ def test_show_reaches_pages_or_the_first_that_comes(
     from gazelle.studio import Studio
 
     with Server(Studio(graph), port=0) as own:
-        own.studio.show("rqt_plot", {"curves": ["/odom"]})
+        own.studio.pages.show("rqt_plot", {"curves": ["/odom"]})
         page = Page(own.port)
         assert page.hello["panels"] == ["rqt_plot"]
         shown = page.shown.get(timeout=stretched())
         assert shown == {"op": "show", "panel": "rqt_plot", "params": {"curves": ["/odom"]}}
-        own.studio.show("rqt_graph")
+        own.studio.pages.show("rqt_graph")
         assert page.shown.get(timeout=stretched())["panel"] == "rqt_graph"
         page.close()
         again = Page(own.port)

@@ -6,17 +6,13 @@ registered by being imported.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from gazelle.studio.bags import tables as bags
 from gazelle.studio.displays import tables as displays
 from gazelle.studio.downloads import download, save_file
-from gazelle.studio.files import Route
 from gazelle.studio.graph_view import tables as graph_view
 from gazelle.studio.motion import tables as motion
-from gazelle.studio.params import Params
 from gazelle.studio.plugins import tables as plugins
+from gazelle.studio.rows import Method, Route, methods_of, routes_of, streams_of
 from gazelle.studio.scenes.assets import mesh_answer, texture_answer
 from gazelle.studio.scenes.robot import get_robot
 from gazelle.studio.session import Studio
@@ -24,35 +20,30 @@ from gazelle.studio.settings import tables as settings
 from gazelle.studio.streams import StreamKind
 from gazelle.studio.world import tables as world
 
-__all__ = ["METHODS", "ROUTES", "STREAMS", "Method"]
+__all__ = ["METHODS", "ROUTES", "STREAMS"]
 
-Method = Callable[[Studio, Params], Any]
-"""Runs in a thread of its own and may wait; returns a JSON value."""
-
-METHODS: dict[str, Method] = {
-    **graph_view.METHODS,
-    **world.METHODS,
-    **bags.METHODS,
+METHODS: dict[str, Method[Studio]] = {
+    **methods_of(lambda studio: studio.graph_view, graph_view.METHODS),
+    **methods_of(lambda studio: studio.world, world.METHODS),
+    **methods_of(lambda studio: studio.bags, bags.METHODS),
     **settings.METHODS,
-    **plugins.METHODS,
-    **motion.METHODS,
+    **methods_of(lambda studio: studio.desk, plugins.METHODS),
+    **methods_of(lambda studio: studio.robots, {**motion.METHODS, "robot.get": get_robot}),
     **displays.METHODS,
-    "file.save": save_file,
-    "robot.get": get_robot,
+    **methods_of(lambda studio: studio.downloads, {"file.save": save_file}),
 }
-STREAMS: dict[str, StreamKind] = {
-    **graph_view.STREAMS,
-    **displays.STREAMS,
-    **world.STREAMS,
-    **bags.STREAMS,
-    **plugins.STREAMS,
-    **motion.STREAMS,
+STREAMS: dict[str, StreamKind[Studio]] = {
+    **streams_of(lambda studio: studio.graph_view, graph_view.STREAMS),
+    **streams_of(lambda studio: studio.displays, displays.STREAMS),
+    **streams_of(lambda studio: studio.world, world.STREAMS),
+    **streams_of(lambda studio: studio.bags, bags.STREAMS),
+    **streams_of(lambda studio: studio.desk, plugins.STREAMS),
+    **streams_of(lambda studio: studio.taps, motion.STREAMS),
 }
-ROUTES: dict[str, Route] = {
+ROUTES: dict[str, Route[Studio]] = {
     **world.ROUTES,
-    **plugins.ROUTES,
-    "file": download,
-    "mesh": mesh_answer,
-    "texture": texture_answer,
+    **routes_of(lambda studio: studio.desk, plugins.ROUTES),
+    **routes_of(lambda studio: studio.downloads, {"file": download}),
+    **routes_of(lambda studio: studio.assets, {"mesh": mesh_answer, "texture": texture_answer}),
 }
 """First part of a path → what answers the rest of it; None is 404."""

@@ -34,7 +34,7 @@ _CLOSE_MISUSE = 1008
 class _Open:
     """A channel with its stream; what is done to it is done in the order asked for."""
 
-    def __init__(self, channel: Channel, name: str, kind: StreamKind) -> None:
+    def __init__(self, channel: Channel, name: str, kind: StreamKind[Studio]) -> None:
         self.channel = channel
         self.name = name
         self.kind = kind
@@ -64,8 +64,8 @@ class Connection:
     async def run(self) -> None:
         """Serve the page until it goes."""
         writer = asyncio.create_task(self._write())
-        self._studio.enter(self)
-        for greeting in self._studio.hello():
+        self._studio.pages.enter(self)
+        for greeting in self._studio.pages.hello():
             self.post(json_text(greeting))
         try:
             async for message in self._socket:
@@ -75,7 +75,7 @@ class Connection:
             pass  # it went without a word, as pages that are reloaded do
         finally:
             self._closed = True
-            self._studio.leave(self)
+            self._studio.pages.leave(self)
             writer.cancel()
             for one in self._channels.values():
                 one.channel.shut()

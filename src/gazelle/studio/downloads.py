@@ -13,7 +13,6 @@ from typing import Any
 from gazelle.studio.errors import StudioError
 from gazelle.studio.files import Answer
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = ["Downloads", "download", "save_file"]
 
@@ -21,7 +20,7 @@ _MOST_BYTES = 256 << 20
 _LONGEST_NAME = 200
 
 
-def save_file(studio: Studio, params: Params) -> str:
+def save_file(downloads: Downloads, params: Params) -> str:
     """``file.save``: the path to fetch it from."""
     name = params.text("name").rpartition("/")[2][:_LONGEST_NAME] or "file"
     if "base64" in params:
@@ -31,18 +30,18 @@ def save_file(studio: Studio, params: Params) -> str:
             raise StudioError(f"file.save: 'base64' cannot be read: {error}") from None
     else:
         data = params.text("text").encode()
-    return studio.shared(Downloads).offer(name, data)
+    return downloads.offer(name, data)
 
 
-def download(studio: Studio, token: str) -> Answer | None:
+def download(downloads: Downloads, token: str) -> Answer | None:
     """``/file/<token>``."""
-    return studio.shared(Downloads).take(token)
+    return downloads.take(token)
 
 
 class Downloads:
     """Files that wait to be fetched; the oldest go when they are too much."""
 
-    def __init__(self, _studio: Studio) -> None:
+    def __init__(self) -> None:
         """Hold nothing."""
         self._lock = threading.Lock()
         self._waiting: OrderedDict[str, tuple[str, bytes]] = OrderedDict()

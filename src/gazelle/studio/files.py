@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from http import HTTPStatus
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 from urllib.parse import unquote, urlsplit
 
 from websockets.datastructures import Headers
@@ -17,10 +17,7 @@ from websockets.http11 import Request, Response
 
 from gazelle.studio.security import CONTENT_SECURITY_POLICY, Guard
 
-if TYPE_CHECKING:
-    from gazelle.studio.session import Studio
-
-__all__ = ["Answer", "Route", "answer_to", "response"]
+__all__ = ["Answer", "answer_to", "response"]
 
 _PAGE = Path(__file__).parent / "page"
 _METHODS = ("GET", "HEAD")
@@ -49,16 +46,12 @@ class Answer(NamedTuple):
     packed: bool = True
 
 
-Route = Callable[["Studio", str], Answer | None]
-
-
 def answer_to(
-    studio: Studio, routes: Mapping[str, Route], request: Request, guard: Guard
+    routes: Mapping[str, Callable[[str], Answer | None]], request: Request, guard: Guard
 ) -> Response:
     """Return the response to a plain HTTP request; may read files.
 
     Args:
-        studio: whose files.
         routes: first part of a path → what answers the rest; the page's own files otherwise.
         request: what was asked.
         guard: whose token becomes a cookie.
@@ -67,7 +60,7 @@ def answer_to(
         headers = {"Allow": ", ".join(_METHODS)}
         return response(HTTPStatus.METHOD_NOT_ALLOWED, b"GET and HEAD only\n", headers)
     path = unquote(urlsplit(request.path).path)
-    answer = _answer(studio, routes, path)
+    answer = _answer(routes, path)
     if answer is None:
         return response(HTTPStatus.NOT_FOUND, b"there is nothing at this path\n")
     headers = {
@@ -100,11 +93,11 @@ def response(status: HTTPStatus, body: bytes, extra: dict[str, str] | None = Non
     return Response(status.value, status.phrase, headers, body)
 
 
-def _answer(studio: Studio, routes: Mapping[str, Route], path: str) -> Answer | None:
+def _answer(routes: Mapping[str, Callable[[str], Answer | None]], path: str) -> Answer | None:
     head, _, rest = path.lstrip("/").partition("/")
     route = routes.get(head)
     if route is not None and rest:
-        return route(studio, rest)
+        return route(rest)
     return _page_file(path)
 
 

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from gazelle.geometry import Pose
 from gazelle.geometry.pose import IDENTITY_POSE
+from gazelle.graph import Node
 from gazelle.graph.tf import ExtrapolationError, StampedPose, TransformBuffer, TransformListener
-
-if TYPE_CHECKING:
-    from gazelle.studio.session import Studio
 
 __all__ = ["NO_POSE", "Frames", "pose_values", "poses_in"]
 
@@ -21,16 +18,18 @@ _LOOK_S = 0.5
 
 
 class Frames:
-    """The frames of a Studio's graph.
+    """The frames of a graph.
 
     Attributes:
+        clock: its time.
         buffer: all of them.
     """
 
-    def __init__(self, studio: Studio) -> None:
+    def __init__(self, node: Node) -> None:
         """Prepare; nothing is listened to before `use`."""
         self.buffer = TransformBuffer()
-        self._studio = studio
+        self.clock = node.clock
+        self._node = node
         self._lock = threading.Lock()
         self._users: tuple[Callable[[], None], ...] = ()
         self._end: Callable[[], None] | None = None
@@ -80,7 +79,7 @@ class Frames:
             return newest.pose
 
     def _start(self) -> Callable[[], None]:
-        listener = TransformListener(self.buffer, self._studio.node)
+        listener = TransformListener(self.buffer, self._node)
         ended = threading.Event()
         thread = threading.Thread(target=self._run, args=(ended,), name="studio tf", daemon=True)
         thread.start()

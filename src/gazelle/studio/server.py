@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import threading
+from functools import partial
 from http import HTTPStatus
 from typing import Self
 from urllib.parse import urlsplit
@@ -54,6 +55,7 @@ class Server:
                 be read.
         """
         self.studio = studio
+        self._routes = {name: partial(route, studio) for name, route in ROUTES.items()}
         self._host = host
         self._ports = range(port, port + 1) if port is not None else _default_ports()
         self._loop = asyncio.new_event_loop()
@@ -155,7 +157,7 @@ class Server:
             if request.headers.get("Upgrade", "").lower() == "websocket":
                 return None
             return response(HTTPStatus.UPGRADE_REQUIRED, b"this path is a WebSocket\n")
-        return await in_thread(answer_to, self.studio, ROUTES, request, self._guard)
+        return await in_thread(answer_to, self._routes, request, self._guard)
 
     def _url(self) -> str:
         host = f"[{self._host}]" if ":" in self._host else self._host

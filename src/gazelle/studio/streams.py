@@ -10,7 +10,7 @@ from __future__ import annotations
 import struct
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
 from gazelle.errors import GazelleError
 from gazelle.studio.errors import error_value
@@ -18,7 +18,6 @@ from gazelle.studio.json_text import json_text
 
 if TYPE_CHECKING:
     from gazelle.studio.params import Params
-    from gazelle.studio.session import Studio
     from gazelle.studio.workers import Workers
 
 __all__ = ["MOST_BEHIND_BYTES", "Channel", "Frame", "OpenStream", "Outlet", "StreamKind"]
@@ -29,6 +28,7 @@ MOST_BEHIND_BYTES = 8 << 20
 _CREDITS = 2
 _GATHER_S = 0.03
 _HEADER = struct.Struct("<HHId")
+_Part = TypeVar("_Part")
 
 
 class Frame(NamedTuple):
@@ -61,8 +61,8 @@ class OpenStream(NamedTuple):
     change: Callable[[Params], None] | None = None
 
 
-class StreamKind(NamedTuple):
-    """A row of the table of streams.
+class StreamKind(NamedTuple, Generic[_Part]):
+    """A row of the table of streams, over the part that it works on.
 
     Attributes:
         latest: its delivery class; False is batch.
@@ -70,7 +70,7 @@ class StreamKind(NamedTuple):
     """
 
     latest: bool
-    open: Callable[[Studio, Channel, Params], OpenStream]
+    open: Callable[[_Part, Channel, Params], OpenStream]
 
 
 class Outlet(Protocol):
@@ -147,6 +147,10 @@ class Channel:
     def later(self, delay_s: float, call: Callable[[], None]) -> None:
         """Call something short in the event loop."""
         self._outlet.later(delay_s, call)
+
+    def work(self, job: Callable[[], None]) -> None:
+        """Do a job that takes its time in a worker's thread, soon; it must not raise."""
+        self._workers.submit(job)
 
     def status(self, level: str, text: str = "") -> None:
         """Set the status line: ``ok``, ``warn`` or ``error``."""

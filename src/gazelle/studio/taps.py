@@ -73,11 +73,14 @@ class Taps:
     """Subscriptions of the topics that somebody looks at.
 
     Listeners are called in the transport's threads: they keep the sample and go.
+
+    Attributes:
+        node: who subscribes.
     """
 
     def __init__(self, node: Node) -> None:
         """Subscribe as `node`."""
-        self._node = node
+        self.node = node
         self._lock = threading.Lock()
         self._taps: dict[str, _Tap] = {}
 
@@ -96,7 +99,7 @@ class Taps:
             StudioError: the topic has no name.
             IllegalNameError: its name is not legal.
         """
-        topic = topic_name(self._node, topic)
+        topic = topic_name(self.node, topic)
         with self._lock:
             tap = self._taps.get(topic)
             if tap is None:
@@ -116,7 +119,7 @@ class Taps:
         return (tap.count, tuple(tap.arrivals)) if tap else (0, ())
 
     def _subscribe(self, topic: str, tap: _Tap) -> Subscription:
-        clock = self._node.clock
+        clock = self.node.clock
 
         def take(raw: RawMessage, info: MessageInfo) -> None:
             now_s = clock.now_ns() * 1e-9
@@ -130,9 +133,9 @@ class Taps:
             for listener in tap.listeners:
                 listener(sample)
 
-        known = self._node.graph.discovery.known()
+        known = self.node.graph.discovery.known()
         types = [one.type_name for one in known if one.name == topic and one.type_name != ANY_TYPE]
-        return self._node.create_subscription(
+        return self.node.create_subscription(
             topic,
             None,
             take,

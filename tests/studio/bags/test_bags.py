@@ -13,8 +13,6 @@ from tests.patience import await_change
 from gazelle.bag import open_bag
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
-from gazelle.studio.bags.playing import Playing
-from gazelle.studio.bags.recording import Recording
 from gazelle.studio.errors import StudioError
 from gazelle.studio.session import Studio
 
@@ -58,7 +56,7 @@ def bag(studio: Studio, graph: Graph, tmp_path: Path) -> Path:
     """A hundred texts, one each 10 ms, recorded by the page's own recorder."""
     talker = graph.create_node("talker", rosout=False)
     publisher = talker.create_publisher("/words", _TEXT)
-    recording = studio.shared(Recording)
+    recording = studio.bags.recording
     path = Path(recording.begin(["/words"], str(tmp_path / "said"), "bag"))
     done = threading.Event()
     for number in range(100):
@@ -75,7 +73,7 @@ def test_recorded_bag_plays_to_its_end_and_from_the_start_again(
     studio: Studio, graph: Graph, bag: Path
 ) -> None:
     ear = _Ear(graph.create_node("ear", rosout=False), "/words")
-    playing = studio.shared(Playing)
+    playing = studio.bags.playing
     playing.open(str(bag))
     playing.set_rate(5.0)
     for _ in range(2):
@@ -91,7 +89,7 @@ def test_pause_stands_still_and_seek_shows_what_was_last(
     studio: Studio, graph: Graph, bag: Path
 ) -> None:
     ear = _Ear(graph.create_node("ear", rosout=False), "/words")
-    playing = studio.shared(Playing)
+    playing = studio.bags.playing
     playing.open(str(bag))
     playing.play(clock=False)
     ear.wait(lambda heard: len(heard) > 5)
@@ -116,7 +114,7 @@ def test_nothing_is_recorded_beside_the_folder(
 ) -> None:
     (tmp_path / "link").symlink_to("/")
     with pytest.raises(StudioError, match=r"is not below .*, where this page may write") as caught:
-        studio.shared(Recording).begin(None, path, kind)
+        studio.bags.recording.begin(None, path, kind)
     assert "--folder" in caught.value.hint
 
 
@@ -124,13 +122,13 @@ def test_bag_that_is_there_is_not_overwritten(studio: Studio, tmp_path: Path) ->
     (tmp_path / "said.bag").write_bytes(b"precious")
     for name in ("said", "said.bag"):
         with pytest.raises(StudioError, match=r"said\.bag is there already"):
-            studio.shared(Recording).begin(None, name, "bag")
+            studio.bags.recording.begin(None, name, "bag")
     assert (tmp_path / "said.bag").read_bytes() == b"precious"
 
 
 @pytest.mark.parametrize("kind", ["mcap", "db3"])
 def test_other_formats_are_recorded(studio: Studio, tmp_path: Path, kind: str) -> None:
-    recording = studio.shared(Recording)
+    recording = studio.bags.recording
     path = recording.begin(None, str(tmp_path / "b"), kind)
     with pytest.raises(StudioError, match="is being recorded; stop that first"):
         recording.begin(None, str(tmp_path / "c"), kind)
@@ -142,5 +140,5 @@ def test_other_formats_are_recorded(studio: Studio, tmp_path: Path, kind: str) -
 
 def test_no_bag_is_said(studio: Studio) -> None:
     with pytest.raises(StudioError, match="no bag is open"):
-        studio.shared(Playing).play(clock=False)
-    assert studio.shared(Playing).state() is None
+        studio.bags.playing.play(clock=False)
+    assert studio.bags.playing.state() is None

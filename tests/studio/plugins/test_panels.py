@@ -18,7 +18,6 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, service_type
 from gazelle.studio import Server, Studio
 from gazelle.studio.plugins import life, shows
-from gazelle.studio.plugins.shows import Desk
 
 _HEAD = "from gazelle.studio.plugins import *\n\n\n"
 Open = Callable[..., "Shown"]
@@ -67,7 +66,7 @@ def show(server: Server, tmp_path: Path) -> Iterator[Open]:
     def make(text: str = "", name: str = "mine.Mine") -> Shown:
         if text:
             (tmp_path / "mine.py").write_text(_HEAD + text)
-            server.studio.shared(Desk).name_file(str(tmp_path / "mine.py"))
+            server.studio.desk.name_file(str(tmp_path / "mine.py"))
         opened.append(Shown(server, name))
         return opened[-1]
 

@@ -100,7 +100,7 @@ def test_files_of_packages_that_run_are_read(folder: Path, least: int) -> None:
     files = sorted(folder.rglob("*.rviz"))
     assert len(files) >= least
     for file in files:
-        value: Any = METHODS["rviz.open"](None, Params("rviz.open", {"path": str(file)}))  # type: ignore[arg-type]
+        value: Any = METHODS["rviz.open"](None, Params("rviz.open", {"path": str(file)}))
         assert value["fixed_frame"] and value["displays"], file
         assert all(one["class"] and one["name"] for one in value["displays"]), file
 
@@ -141,7 +141,7 @@ def test_layouts_are_kept_under_any_name(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
 
     def call(method: str, **params: Any) -> Any:
-        return METHODS[method](None, Params(method, params))  # type: ignore[arg-type]
+        return METHODS[method](None, Params(method, params))
 
     assert call("layout.list") == []
     for name in ("mine", "../up", "Ärm / 2"):
@@ -169,7 +169,7 @@ def test_a_layout_of_before_versions_is_loaded_and_one_of_a_newer_gazelle_refuse
     (folder / "new.json").write_text('{"version": 2, "layout": {"dock": [2]}}')
 
     def load(name: str) -> Any:
-        return METHODS["layout.load"](None, Params("layout.load", {"name": name}))  # type: ignore[arg-type]
+        return METHODS["layout.load"](None, Params("layout.load", {"name": name}))
 
     assert load("old") == {"dock": [1]}
     with pytest.raises(StudioError, match="the layout 'new' is of version 2, saved by a newer"):

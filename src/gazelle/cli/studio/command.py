@@ -11,7 +11,6 @@ from pathlib import Path
 from gazelle.ending import at_stop_signal
 from gazelle.graph import Graph
 from gazelle.studio import Server, Studio
-from gazelle.studio.plugins.shows import Desk
 from gazelle.studio.views.presence import offer
 
 __all__ = ["main"]
@@ -50,8 +49,8 @@ def _warn_of_network(host: str) -> None:
 def _show_panels(studio: Studio, files: list[str]) -> None:
     """Have the first page open the panels of files; they are in its menu too."""
     for words in files:
-        for source in studio.shared(Desk).name_file(words):
-            studio.show(f"plugin:{source.name}")
+        for source in studio.desk.name_file(words):
+            studio.pages.show(f"plugin:{source.name}")
 
 
 def _folder(text: str) -> Path:

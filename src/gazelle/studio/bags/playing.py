@@ -10,9 +10,8 @@ from typing import TypedDict
 from gazelle.bag import open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.records import BagReader
-from gazelle.graph import Node
+from gazelle.graph import Graph, Node
 from gazelle.studio.errors import StudioError
-from gazelle.studio.session import Studio
 
 __all__ = ["BagTopic", "PlayerState", "Playing"]
 
@@ -46,11 +45,11 @@ class PlayerState(TypedDict):
 
 
 class Playing:
-    """A Studio's bag; all pages see and steer the same one."""
+    """The bag of a graph's pages; all pages see and steer the same one."""
 
-    def __init__(self, studio: Studio) -> None:
-        """Have no bag open."""
-        self._studio = studio
+    def __init__(self, graph: Graph) -> None:
+        """Have no bag open; it is played on a graph."""
+        self._graph = graph
         self._lock = threading.RLock()
         self._bag: BagReader | None = None
         self._node: Node | None = None
@@ -61,7 +60,6 @@ class Playing:
         self._player: Player | None = None
         self._thread: threading.Thread | None = None
         self.problems: list[str] = []
-        studio.on_close(self.close)
 
     def open(self, path: str) -> None:
         """Open a bag, in the place of the one that is.
@@ -73,7 +71,7 @@ class Playing:
         with self._lock:
             self.close()
             self._bag, self._held_s, self.problems = bag, 0.0, []
-            self._node = self._studio.graph.create_node("play", anonymous=True, rosout=False)
+            self._node = self._graph.create_node("play", anonymous=True, rosout=False)
 
     def close(self) -> None:
         """Close the bag and forget its topics."""

@@ -11,9 +11,8 @@ from gazelle.bag.formats import OWN_FORMATS
 from gazelle.bag.recording import Recorder, Ros1Files, Selection, default_stem
 from gazelle.bag.rosbag2 import Rosbag2Writer
 from gazelle.documents.names import exists
-from gazelle.graph import Node
+from gazelle.graph import Graph, Node
 from gazelle.studio.errors import StudioError
-from gazelle.studio.session import Studio
 
 __all__ = ["FORMATS", "RecorderState", "Recording"]
 
@@ -38,11 +37,12 @@ class RecorderState(TypedDict):
 
 
 class Recording:
-    """A Studio's recorder; all pages see the same one."""
+    """The recorder of a graph's pages; all pages see the same one."""
 
-    def __init__(self, studio: Studio) -> None:
-        """Record nothing."""
-        self._studio = studio
+    def __init__(self, graph: Graph, folder: Path) -> None:
+        """Record nothing; bags of the graph are written below a folder, and nowhere else."""
+        self._graph = graph
+        self._folder = folder
         self._lock = threading.Lock()
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
@@ -51,7 +51,6 @@ class Recording:
         self._node: Node | None = None
         self._path = ""
         self._begun_s = 0.0
-        studio.on_close(self._close)
 
     def begin(self, topics: list[str] | None, path: str, kind: str) -> str:
         """Record until `stop`.
@@ -66,17 +65,17 @@ class Recording:
 
         Raises:
             StudioError: something is being recorded already, the file is there already, or it is
-                not below the Studio's folder.
+                not below the folder.
             BagError: the file cannot be written.
         """
         with self._lock:
             if self._recorder is not None:
                 raise StudioError(f"{self._path} is being recorded; stop that first")
-            self._sink, self._path = _sink(self._studio.folder, path, kind)
-            self._node = self._studio.graph.create_node("record", anonymous=True, rosout=False)
-            self._studio.graph.clock.follow(self._node)
+            self._sink, self._path = _sink(self._folder, path, kind)
+            self._node = self._graph.create_node("record", anonymous=True, rosout=False)
+            self._graph.clock.follow(self._node)
             selection = Selection(tuple(topics or ()), topics is None, hidden=False)
-            self._recorder = Recorder(self._studio.graph, self._node, self._sink)
+            self._recorder = Recorder(self._graph, self._node, self._sink)
             self._recorder.begin(selection)
             self._stop = threading.Event()
             self._begun_s = time.monotonic()
@@ -98,7 +97,8 @@ class Recording:
             self._thread = self._recorder = self._sink = self._node = None
             return path
 
-    def _close(self) -> None:
+    def close(self) -> None:
+        """End recording."""
         self.stop()
 
     def state(self) -> RecorderState | None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, TypedDict
 
-from gazelle.studio.bags.playing import PlayerState, Playing
-from gazelle.studio.bags.recording import RecorderState, Recording
+from gazelle.studio.bags.parts import Bags
+from gazelle.studio.bags.playing import PlayerState
+from gazelle.studio.bags.recording import RecorderState
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
+from gazelle.studio.rows import Method
 from gazelle.studio.streams import Channel, OpenStream, StreamKind
 
 __all__ = ["METHODS", "STREAMS", "BagState"]
@@ -23,61 +23,59 @@ class BagState(TypedDict):
     player: PlayerState | None
 
 
-def _record(studio: Studio, params: Params) -> Any:
+def _record(bags: Bags, params: Params) -> Any:
     """``bag.record``."""
     topics = params.texts("topics") if "topics" in params else None
-    recording = studio.shared(Recording)
-    return {"path": recording.begin(topics, params.text("path", ""), params.text("format", "bag"))}
+    path, kind = params.text("path", ""), params.text("format", "bag")
+    return {"path": bags.recording.begin(topics, path, kind)}
 
 
-def _record_stop(studio: Studio, _params: Params) -> Any:
+def _record_stop(bags: Bags, _params: Params) -> Any:
     """``bag.record_stop``."""
-    return {"path": studio.shared(Recording).stop()}
+    return {"path": bags.recording.stop()}
 
 
-def _open(studio: Studio, params: Params) -> Any:
+def _open(bags: Bags, params: Params) -> Any:
     """``bag.open``."""
-    playing = studio.shared(Playing)
-    playing.open(params.text("path"))
-    return playing.state()
+    bags.playing.open(params.text("path"))
+    return bags.playing.state()
 
 
-def _play(studio: Studio, params: Params) -> Any:
+def _play(bags: Bags, params: Params) -> Any:
     """``bag.play``."""
-    studio.shared(Playing).play(clock=params.flag("clock", False))
+    bags.playing.play(clock=params.flag("clock", False))
     return {}
 
 
-def _pause(studio: Studio, _params: Params) -> Any:
+def _pause(bags: Bags, _params: Params) -> Any:
     """``bag.pause``."""
-    studio.shared(Playing).pause()
+    bags.playing.pause()
     return {}
 
 
-def _seek(studio: Studio, params: Params) -> Any:
+def _seek(bags: Bags, params: Params) -> Any:
     """``bag.seek``."""
-    studio.shared(Playing).seek(params.number("time_s"))
+    bags.playing.seek(params.number("time_s"))
     return {}
 
 
-def _rate(studio: Studio, params: Params) -> Any:
+def _rate(bags: Bags, params: Params) -> Any:
     """``bag.rate``."""
-    studio.shared(Playing).set_rate(params.number("factor", least=0.001, most=1000.0))
+    bags.playing.set_rate(params.number("factor", least=0.001, most=1000.0))
     return {}
 
 
-def _close(studio: Studio, _params: Params) -> Any:
+def _close(bags: Bags, _params: Params) -> Any:
     """``bag.close``."""
-    studio.shared(Playing).close()
+    bags.playing.close()
     return {}
 
 
-def _open_states(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+def _open_states(bags: Bags, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``bag``: recorder and player, five times a second."""
 
     def value() -> BagState:
-        recorder, player = studio.shared(Recording), studio.shared(Playing)
-        return {"recorder": recorder.state(), "player": player.state()}
+        return {"recorder": bags.recording.state(), "player": bags.playing.state()}
 
     def tick() -> None:
         if not channel.closed:
@@ -88,7 +86,7 @@ def _open_states(studio: Studio, channel: Channel, _params: Params) -> OpenStrea
     return OpenStream(lambda: None)
 
 
-METHODS: dict[str, Callable[[Studio, Params], Any]] = {
+METHODS: dict[str, Method[Bags]] = {
     "bag.close": _close,
     "bag.open": _open,
     "bag.pause": _pause,
@@ -98,4 +96,4 @@ METHODS: dict[str, Callable[[Studio, Params], Any]] = {
     "bag.record_stop": _record_stop,
     "bag.seek": _seek,
 }
-STREAMS: dict[str, StreamKind] = {"bag": StreamKind(latest=True, open=_open_states)}
+STREAMS: dict[str, StreamKind[Bags]] = {"bag": StreamKind(latest=True, open=_open_states)}

@@ -12,15 +12,14 @@ from gazelle.studio.displays.pictures import (
     checked_colormap,
     encoded_picture,
 )
-from gazelle.studio.displays.showing import Site, open_newest, open_on
+from gazelle.studio.displays.showing import DisplayContext, Site, open_newest, open_on
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Channel, Frame, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.taps import Sample, Taps
 
 __all__ = ["CameraInfo", "info_topic", "open_camera", "open_image", "open_picture"]
 
@@ -28,9 +27,9 @@ _SUFFIXES = ("/compressedDepth", "/compressed")
 _LARGEST_PX = 16_384
 
 
-def open_image(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_image(context: DisplayContext, channel: Channel, params: Params) -> OpenStream:
     """Stream ``image``."""
-    return open_on(Site(studio, channel, params), open_picture)
+    return open_on(Site(context, channel, params), open_picture)
 
 
 def open_picture(site: Site) -> OpenStream:
@@ -42,7 +41,7 @@ def open_camera(site: Site) -> OpenStream:
     """Display Camera: the pictures, and the camera and where it stands ahead of them."""
     make = _maker(site)
     topic = site.params.text("topic")
-    info = CameraInfo(site.studio, info_topic(topic))
+    info = CameraInfo(site.taps, info_topic(topic))
     told: Any = None
 
     def with_camera(sample: Sample) -> Any:
@@ -82,11 +81,11 @@ class CameraInfo:
         close: listens no more.
     """
 
-    def __init__(self, studio: Studio, topic: str) -> None:
+    def __init__(self, taps: Taps, topic: str) -> None:
         """Listen to the topic."""
         self.topic = topic
         self._sample: Sample | None = None
-        self.close: Callable[[], None] = studio.taps.listen(topic, self._take)
+        self.close: Callable[[], None] = taps.listen(topic, self._take)
 
     def message(self) -> Message | None:
         """Return the last one, None before it."""

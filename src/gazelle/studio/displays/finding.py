@@ -11,7 +11,6 @@ from gazelle.extensions import Extension, ExtensionGroup, load_extensions
 from gazelle.studio.displays.display import Display, DisplayRow, display_row
 from gazelle.studio.displays.registry import DISPLAYS, own_display
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = ["Added", "AddedDisplays", "added_displays", "find_display", "list_added"]
 
@@ -59,7 +58,7 @@ def added_displays() -> Added:
     return Added(displays, tuple(problems))
 
 
-def list_added(_studio: Studio, _params: Params) -> AddedDisplays:
+def list_added(_params: Params) -> AddedDisplays:
     """``display.list``."""
     added = added_displays()
     rows = [display_row(display) for display in added.displays.values()]

@@ -13,7 +13,6 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.pacing import every
-from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.shapes import MeshPartValue, mesh_geometry
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import OpenStream
@@ -35,7 +34,7 @@ _INIT = "visualization_msgs/msg/InteractiveMarkerInit"
 def open_markers(site: Site) -> OpenStream:
     """Displays Marker and MarkerArray, of a topic of either type."""
     markers = _Markers(site)
-    leave = site.studio.taps.listen(site.params.text("topic"), markers.take)
+    leave = site.taps.listen(site.params.text("topic"), markers.take)
     every(site.channel, _RETRY_S, markers.again)
     return OpenStream(leave)
 
@@ -80,7 +79,7 @@ class _Markers:
         waiting = self._waiting()
         shown, poses, late = [], [], []
         problem = ""
-        now_s = self._site.studio.graph.clock.now_ns() * 1e-9
+        now_s = self._site.frames.clock.now_ns() * 1e-9
         for one, came_s in waiting:
             try:
                 poses.append(pose_values(_pose(self._site, one)))
@@ -117,7 +116,7 @@ class _Meshes:
     """Meshes of markers by their URI, each read once."""
 
     def __init__(self, site: Site) -> None:
-        self._assets = site.studio.shared(Assets)
+        self._assets = site.assets
         self._known: dict[str, Any] = {}
         self._workspace: Workspace | None = None
 
@@ -148,8 +147,8 @@ def open_interactive(site: Site) -> OpenStream:
     base = topic.removesuffix("/update").removesuffix("/update_full")
     markers = _Interactive(site)
     ends = [
-        site.studio.taps.listen(f"{base}/update_full", markers.take),
-        site.studio.taps.listen(f"{base}/update", markers.take),
+        site.taps.listen(f"{base}/update_full", markers.take),
+        site.taps.listen(f"{base}/update", markers.take),
     ]
     markers.ask(f"{base}/get_interactive_markers")
     every(site.channel, _RETRY_S, markers.again)
@@ -176,11 +175,11 @@ class _Interactive:
 
     def ask(self, service: str) -> None:
         """Get all markers from a server of ROS 2; one of ROS 1 tells them on ``update_full``."""
-        offered = {one.name for one in self._site.studio.graph.services(include_hidden=True)}
+        offered = {one.name for one in self._site.taps.node.graph.services(include_hidden=True)}
         if service not in offered:
             return
         kind = service_type(_GET)
-        client = self._site.studio.node.create_client(service, kind)
+        client = self._site.taps.node.create_client(service, kind)
         try:
             answer = client.call(kind.Request(), _SERVICE_S)
         finally:
@@ -235,7 +234,7 @@ class _Interactive:
             return None
         return {
             "pose": None,
-            "stamp_s": self._site.studio.graph.clock.now_ns() * 1e-9,
+            "stamp_s": self._site.frames.clock.now_ns() * 1e-9,
             "frame": shown[0].header.frame_id if shown else "",
             "message": {
                 "server_id": self._server,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from gazelle.geometry import Pose
@@ -12,20 +13,36 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import Frames
 from gazelle.studio.pacing import every
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
+from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.taps import Sample, Taps
 
-__all__ = ["Site", "open_newest", "open_on"]
+__all__ = ["DisplayContext", "Site", "open_newest", "open_on"]
 
 _RETRY_S = 0.5
+
+
+@dataclass(frozen=True)
+class DisplayContext:
+    """What all displays are shown with.
+
+    Attributes:
+        taps: topics; its node calls services for displays.
+        frames: where frames are.
+        assets: keeps meshes for pages.
+    """
+
+    taps: Taps
+    frames: Frames
+    assets: Assets
 
 
 class Site:
     """Where a display is shown.
 
     Attributes:
-        studio: whose graph.
+        taps: topics; its node calls services for displays.
+        assets: keeps meshes for pages.
         channel: where its frames go.
         params: topic, fixed frame and the display's own properties.
         frames: where frames are.
@@ -34,16 +51,17 @@ class Site:
 
     def __init__(
         self,
-        studio: Studio,
+        context: DisplayContext,
         channel: Channel,
         params: Params,
         convert: Callable[[Any], Any] | None = None,
     ) -> None:
         """Note the site of a display; `convert` makes a message into one that it shows."""
-        self.studio = studio
+        self.taps = context.taps
+        self.assets = context.assets
         self.channel = channel
         self.params = params
-        self.frames = studio.shared(Frames)
+        self.frames = context.frames
         self.leave = self.frames.use() if "fixed_frame" in params else lambda: None
         self._fixed = params.text("fixed_frame", "map")
         self._convert = convert
@@ -116,7 +134,7 @@ def open_newest(
         refresh_s: try again so often also when it went well, for what stays and moves along.
     """
     newest = _Newest(site, make)
-    leave = site.studio.taps.listen(topic or site.params.text("topic"), newest.take)
+    leave = site.taps.listen(topic or site.params.text("topic"), newest.take)
     every(site.channel, refresh_s or _RETRY_S, newest.again_always if refresh_s else newest.again)
     return OpenStream(leave)
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from gazelle.studio.displays.cameras import open_picture
-from gazelle.studio.displays.showing import Site
+from gazelle.studio.displays.showing import DisplayContext, Site
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 
 __all__ = ["open_turtles"]
@@ -14,8 +13,8 @@ _NODE = "/turtlesim"
 _QUALITY = 92
 
 
-def open_turtles(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_turtles(context: DisplayContext, channel: Channel, params: Params) -> OpenStream:
     """Stream ``turtles`` of a ``node``: its hidden topic ``~_canvas`` as pictures."""
-    node = studio.node.resolve_name(params.text("node", _NODE))
+    node = context.taps.node.resolve_name(params.text("node", _NODE))
     wanted = Params(params.where, {"topic": f"{node}/_canvas", "quality": _QUALITY})
-    return open_picture(Site(studio, channel, wanted))
+    return open_picture(Site(context, channel, wanted))

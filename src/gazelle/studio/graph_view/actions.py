@@ -5,12 +5,12 @@ from __future__ import annotations
 import threading
 from typing import Any
 
+from gazelle.graph import Clock, Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.studio.errors import unknown
 from gazelle.studio.graph_view.forms import filled
 from gazelle.studio.json_text import message_value
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 
 __all__ = ["open_action"]
@@ -18,14 +18,14 @@ __all__ = ["open_action"]
 _SERVER_S = 2.0
 
 
-def open_action(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_action(node: Node, channel: Channel, params: Params) -> OpenStream:
     """Stream ``action``: sends the goal; closing the channel cancels it."""
-    name = studio.node.resolve_name(params.text("action"))
-    type_name = params.text("type", "") or _type_of(studio, name)
-    client = ActionClient(studio.node, name, type_name)
+    name = node.resolve_name(params.text("action"))
+    type_name = params.text("type", "") or _type_of(node.graph, name)
+    client = ActionClient(node, name, type_name)
     try:
         client.require_server(_SERVER_S)
-        goal = filled_goal(client, params.object("goal", {}), studio)
+        goal = filled_goal(client, params.object("goal", {}), node.clock)
         talk = _Talk(channel, client)
         talk.goal = client.send_goal(
             goal, on_feedback=talk.tell, on_done=talk.finish, on_transition=talk.tell
@@ -37,11 +37,11 @@ def open_action(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     return OpenStream(talk.close, {"type": client.type_name, "goal_id": talk.goal.goal_id})
 
 
-def filled_goal(client: ActionClient, values: dict[str, Any], studio: Studio) -> Any:
+def filled_goal(client: ActionClient, values: dict[str, Any], clock: Clock) -> Any:
     """Return the goal message of a form."""
     from gazelle.interfaces import action_type
 
-    return filled(action_type(client.type_name).Goal, values, studio.graph.clock.now_ns())
+    return filled(action_type(client.type_name).Goal, values, clock.now_ns())
 
 
 class _Talk:
@@ -86,8 +86,8 @@ class _Talk:
         self._client.close()
 
 
-def _type_of(studio: Studio, name: str) -> str:
-    types = {one.name: one.type_name for one in studio.graph.actions()}
+def _type_of(graph: Graph, name: str) -> str:
+    types = {one.name: one.type_name for one in graph.actions()}
     if name not in types:
         raise unknown("action", name, types)
     return types[name]

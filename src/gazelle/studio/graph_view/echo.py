@@ -7,10 +7,9 @@ from typing import Any, TypedDict
 from gazelle.studio.json_text import message_value
 from gazelle.studio.pacing import Pace
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.taps import Sample, Taps
 
 __all__ = ["EchoedMessage", "open_echo"]
 
@@ -24,15 +23,14 @@ class EchoedMessage(TypedDict):
     message: Any
 
 
-def open_echo(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_echo(taps: Taps, channel: Channel, params: Params) -> OpenStream:
     """Stream ``topic.echo``."""
-    echo = _Echo(studio, channel, params.number("rate_hz", 10.0, least=0.01, most=1000.0))
-    return OpenStream(studio.taps.listen(params.text("topic"), echo.take))
+    echo = _Echo(channel, params.number("rate_hz", 10.0, least=0.01, most=1000.0))
+    return OpenStream(taps.listen(params.text("topic"), echo.take))
 
 
 class _Echo:
-    def __init__(self, studio: Studio, channel: Channel, rate_hz: float) -> None:
-        self._studio = studio
+    def __init__(self, channel: Channel, rate_hz: float) -> None:
         self._channel = channel
         self._pace = Pace(channel, self._offer, rate_hz)
         self._count = 0

@@ -9,14 +9,13 @@ from gazelle.interfaces.stamps import set_stamp
 from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.publishing import Outbox
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = ["publish_joints"]
 
 _TOPIC = "/joint_states"
 
 
-def publish_joints(studio: Studio, params: Params) -> dict[str, Any]:
+def publish_joints(outbox: Outbox, params: Params) -> dict[str, Any]:
     """``joints.publish``: one ``sensor_msgs/JointState`` of now."""
     names, positions = params.texts("names"), params.numbers("positions")
     if len(names) != len(positions):
@@ -24,6 +23,6 @@ def publish_joints(studio: Studio, params: Params) -> dict[str, Any]:
     message_class = message_type("sensor_msgs/msg/JointState")
     message = message_class(name=names, position=positions)
     stamp = message.header.stamp
-    set_stamp(stamp, studio.graph.clock.now_ns())
-    studio.shared(Outbox).publisher(params.text("topic", _TOPIC), message_class).publish(message)
+    set_stamp(stamp, outbox.node.clock.now_ns())
+    outbox.publisher(params.text("topic", _TOPIC), message_class).publish(message)
     return {}

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.graph import Endpoint
+from gazelle.graph import Endpoint, Node
 from gazelle.interfaces import message_type
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.graph_view.services import request_response, services_by_type
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = ["get_node", "kill_node", "list_loggers", "set_logger"]
 
@@ -18,10 +17,10 @@ _ROS2_GET, _ROS2_SET = "rcl_interfaces/srv/GetLoggerLevels", "rcl_interfaces/srv
 _ROS2_LEVELS = {"debug": 10, "info": 20, "warn": 30, "error": 40, "fatal": 50}
 
 
-def get_node(studio: Studio, params: Params) -> dict[str, Any]:
+def get_node(node: Node, params: Params) -> dict[str, Any]:
     """``node.info``."""
-    info = studio.graph.node_info(params.text("node"))
-    actions = studio.graph.actions()
+    info = node.graph.node_info(params.text("node"))
+    actions = node.graph.actions()
     return {
         "name": info.name,
         "publications": _ends(info.publications),
@@ -39,44 +38,44 @@ def get_node(studio: Studio, params: Params) -> dict[str, Any]:
     }
 
 
-def kill_node(studio: Studio, params: Params) -> dict[str, Any]:
+def kill_node(node: Node, params: Params) -> dict[str, Any]:
     """``node.kill``: asks it to shut down."""
     name = params.text("node")
-    if studio.node.resolve_name(name) == studio.node.name:
+    if node.resolve_name(name) == node.name:
         raise StudioError("this is Studio's own node; end `gazelle studio` itself")
-    return {"answered": studio.graph.kill_node(name)}
+    return {"answered": node.graph.kill_node(name)}
 
 
-def list_loggers(studio: Studio, params: Params) -> list[dict[str, Any]]:
+def list_loggers(node: Node, params: Params) -> list[dict[str, Any]]:
     """``logger.list``: the loggers of one node, or all nodes that have some."""
     if "node" not in params:
-        return [{"node": node} for node in sorted(_offering(studio))]
-    node = studio.node.resolve_name(params.text("node"))
-    if _generation(studio, node) == 1:
-        found = request_response(studio, f"{node}/get_loggers", _ROS1_GET).loggers
+        return [{"node": name} for name in sorted(_offering(node))]
+    target = node.resolve_name(params.text("node"))
+    if _generation(node, target) == 1:
+        found = request_response(node, f"{target}/get_loggers", _ROS1_GET).loggers
         return [{"name": one.name, "level": one.level.lower()} for one in found]
-    own = node.strip("/").replace("/", ".")
-    answer = request_response(studio, f"{node}/get_logger_levels", _ROS2_GET, names=[own])
+    own = target.strip("/").replace("/", ".")
+    answer = request_response(node, f"{target}/get_logger_levels", _ROS2_GET, names=[own])
     words = {number: word for word, number in _ROS2_LEVELS.items()}
     return [{"name": one.name, "level": words.get(one.level, "info")} for one in answer.levels]
 
 
-def set_logger(studio: Studio, params: Params) -> dict[str, Any]:
+def set_logger(node: Node, params: Params) -> dict[str, Any]:
     """``logger.set``."""
-    node = studio.node.resolve_name(params.text("node"))
+    target = node.resolve_name(params.text("node"))
     logger, level = params.text("logger"), params.text("level").lower()
     if level not in _ROS2_LEVELS:
         raise StudioError(f"there is no level '{level}'", known=_ROS2_LEVELS)
-    if _generation(studio, node) == 1:
-        name = f"{node}/set_logger_level"
-        request_response(studio, name, _ROS1_SET, logger=logger, level=level)
+    if _generation(node, target) == 1:
+        name = f"{target}/set_logger_level"
+        request_response(node, name, _ROS1_SET, logger=logger, level=level)
         return {}
     row = message_type("rcl_interfaces/msg/LoggerLevel")(name=logger, level=_ROS2_LEVELS[level])
-    name = f"{node}/set_logger_levels"
-    results = request_response(studio, name, _ROS2_SET, levels=[row]).results
+    name = f"{target}/set_logger_levels"
+    results = request_response(node, name, _ROS2_SET, levels=[row]).results
     refused = next((one.reason for one in results if not one.successful), "")
     if refused:
-        raise StudioError(f"{node}: {refused}")
+        raise StudioError(f"{target}: {refused}")
     return {}
 
 
@@ -84,18 +83,19 @@ def _ends(endpoints: tuple[Endpoint, ...]) -> list[dict[str, str]]:
     return [{"name": one.name, "type": one.type_name} for one in endpoints]
 
 
-def _offering(studio: Studio) -> dict[str, int]:
+def _offering(node: Node) -> dict[str, int]:
     """Nodes that let their loggers be set, with the generation of the services."""
     found = {
-        name.removesuffix("/get_logger_levels"): 2 for name in services_by_type(studio, _ROS2_GET)
+        name.removesuffix("/get_logger_levels"): 2
+        for name in services_by_type(node.graph, _ROS2_GET)
     }
     return found | {
-        name.removesuffix("/get_loggers"): 1 for name in services_by_type(studio, _ROS1_GET)
+        name.removesuffix("/get_loggers"): 1 for name in services_by_type(node.graph, _ROS1_GET)
     }
 
 
-def _generation(studio: Studio, node: str) -> int:
-    offering = _offering(studio)
-    if node not in offering:
-        raise unknown("node with loggers", node, offering)
-    return offering[node]
+def _generation(node: Node, target: str) -> int:
+    offering = _offering(node)
+    if target not in offering:
+        raise unknown("node with loggers", target, offering)
+    return offering[target]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, TypedDict
 
+from gazelle.graph import Graph, Node
 from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
 from gazelle.interfaces import message_type
 from gazelle.parameters.trees import leaves_at, values_only
@@ -11,7 +12,6 @@ from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.graph_view.services import request_response, services_by_type
 from gazelle.studio.json_text import finite_number, message_value
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = [
     "NodeParameter",
@@ -61,67 +61,67 @@ class NodeParameter(TypedDict):
     descriptor: ParameterDescriptor
 
 
-def list_parameters(studio: Studio, params: Params) -> list[ParameterRow]:
+def list_parameters(node: Node, params: Params) -> list[ParameterRow]:
     """``param.list``: names and values below a namespace, all by default."""
-    tree = _value(studio, params.text("name", "/"))
+    tree = _value(node.graph, params.text("name", "/"))
     start = params.text("name", "/").rstrip("/")
     leaves = sorted(values_only(leaves_at(start, tree)), key=lambda leaf: leaf[0].split("/"))
     return [{"name": name, "value": value} for name, value in leaves]
 
 
-def get_parameter(studio: Studio, params: Params) -> Any:
+def get_parameter(node: Node, params: Params) -> Any:
     """``param.get``."""
-    return _value(studio, params.text("name"))
+    return _value(node.graph, params.text("name"))
 
 
-def set_parameter(studio: Studio, params: Params) -> dict[str, Any]:
+def set_parameter(node: Node, params: Params) -> dict[str, Any]:
     """``param.set``."""
     if "value" not in params.values:
         raise StudioError(f"{params.where}: parameter 'value' is missing")
-    studio.graph.parameters.set(params.text("name"), params.values["value"])
+    node.graph.parameters.set(params.text("name"), params.values["value"])
     return {}
 
 
-def delete_parameter(studio: Studio, params: Params) -> dict[str, Any]:
+def delete_parameter(node: Node, params: Params) -> dict[str, Any]:
     """``param.delete``."""
     name = params.text("name")
     try:
-        studio.graph.parameters.delete(name)
+        node.graph.parameters.delete(name)
     except KeyError:
-        raise unknown("parameter", name, studio.graph.parameters.names()) from None
+        raise unknown("parameter", name, node.graph.parameters.names()) from None
     return {}
 
 
-def get_node_parameters(studio: Studio, params: Params) -> list[NodeParameter]:
+def get_node_parameters(node: Node, params: Params) -> list[NodeParameter]:
     """``node.params`` of a ROS 2 node."""
-    node = _node(studio, params)
-    listed = request_response(studio, f"{node}/list_parameters", _LIST)
+    target = _target(node, params)
+    listed = request_response(node, f"{target}/list_parameters", _LIST)
     names = sorted(listed.result.names)
-    values = request_response(studio, f"{node}/get_parameters", _GET, names=names).values
-    told = request_response(studio, f"{node}/describe_parameters", _DESCRIBE, names=names)
+    values = request_response(node, f"{target}/get_parameters", _GET, names=names).values
+    told = request_response(node, f"{target}/describe_parameters", _DESCRIBE, names=names)
     rows = zip(names, values, told.descriptors, strict=False)
     return [_row(name, value, descriptor) for name, value, descriptor in rows]
 
 
-def set_node_parameter(studio: Studio, params: Params) -> dict[str, Any]:
+def set_node_parameter(node: Node, params: Params) -> dict[str, Any]:
     """``node.param_set``; a whole number becomes a double where the node has one."""
-    node, name = _node(studio, params), params.text("name")
-    present = request_response(studio, f"{node}/get_parameters", _GET, names=[name]).values
+    target, name = _target(node, params), params.text("name")
+    present = request_response(node, f"{target}/get_parameters", _GET, names=[name]).values
     value = _fitting(params.values.get("value"), present[0].type if present else 0)
     row = message_type("rcl_interfaces/msg/Parameter")(name=name, value=value_message(value))
-    answer = request_response(studio, f"{node}/set_parameters", _SET, parameters=[row]).results
+    answer = request_response(node, f"{target}/set_parameters", _SET, parameters=[row]).results
     if not answer:
-        raise StudioError(f"{node} gave no answer for parameter '{name}'")
+        raise StudioError(f"{target} gave no answer for parameter '{name}'")
     return {"successful": bool(answer[0].successful), "reason": answer[0].reason}
 
 
-def _node(studio: Studio, params: Params) -> str:
-    node = studio.node.resolve_name(params.text("node"))
-    offering = services_by_type(studio, _LIST)
-    if f"{node}/list_parameters" not in offering:
+def _target(node: Node, params: Params) -> str:
+    target = node.resolve_name(params.text("node"))
+    offering = services_by_type(node.graph, _LIST)
+    if f"{target}/list_parameters" not in offering:
         nodes = [name.removesuffix("/list_parameters") for name in offering]
-        raise unknown("ROS 2 node with parameters", node, nodes)
-    return node
+        raise unknown("ROS 2 node with parameters", target, nodes)
+    return target
 
 
 def _row(name: str, value: Any, descriptor: Any) -> NodeParameter:
@@ -153,8 +153,8 @@ def _double(value: Any) -> Any:
     return value if number is None else number
 
 
-def _value(studio: Studio, name: str) -> Any:
+def _value(graph: Graph, name: str) -> Any:
     try:
-        return studio.graph.parameters.get(name)
+        return graph.parameters.get(name)
     except KeyError:
-        raise unknown("parameter", name, studio.graph.parameters.names()) from None
+        raise unknown("parameter", name, graph.parameters.names()) from None

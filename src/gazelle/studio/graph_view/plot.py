@@ -9,10 +9,9 @@ from typing import Any, TypedDict
 from gazelle.errors import GazelleError
 from gazelle.studio.graph_view.curves import Curve, curves_of, read_number
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.taps import Sample, Taps
 
 __all__ = ["PlotCurves", "PlotPoints", "open_plot"]
 
@@ -40,14 +39,14 @@ class PlotPoints(TypedDict):
     v: list[float | None]
 
 
-def open_plot(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_plot(taps: Taps, channel: Channel, params: Params) -> OpenStream:
     """Stream ``topic.plot``; ``opened.info`` names the curves."""
-    looker = _Looker(studio)
-    known = studio.graph.entities()
+    looker = _Looker(taps)
+    known = taps.node.graph.entities()
     curves: list[Curve] = []
     for name in params.texts("curves"):
         curves += [one for one in curves_of(name, known, looker.last) if one not in curves]
-    plot = _Plot(studio, channel, curves)
+    plot = _Plot(taps, channel, curves)
     info: PlotCurves = {"curves": [one.name for one in curves]}
     return OpenStream(plot.close, info)
 
@@ -55,8 +54,8 @@ def open_plot(studio: Studio, channel: Channel, params: Params) -> OpenStream:
 class _Looker:
     """Waits a moment for a topic's message, which tells how long its arrays are."""
 
-    def __init__(self, studio: Studio) -> None:
-        self._studio = studio
+    def __init__(self, taps: Taps) -> None:
+        self._taps = taps
 
     def last(self, topic: str) -> Any:
         came = threading.Event()
@@ -66,15 +65,15 @@ class _Looker:
             found.append(sample)
             came.set()
 
-        end = self._studio.taps.listen(topic, take)
+        end = self._taps.listen(topic, take)
         came.wait(_FIRST_MESSAGE_S)
         end()
         return found[0].message() if found else None
 
 
 class _Plot:
-    def __init__(self, studio: Studio, channel: Channel, curves: list[Curve]) -> None:
-        self._studio = studio
+    def __init__(self, taps: Taps, channel: Channel, curves: list[Curve]) -> None:
+        self._taps = taps
         self._channel = channel
         self._curves = curves
         self._lock = threading.Lock()
@@ -98,10 +97,10 @@ class _Plot:
             if first:
                 self._channel.later(_GATHER_S, self._start)
 
-        return self._studio.taps.listen(topic, take)
+        return self._taps.listen(topic, take)
 
     def _start(self) -> None:
-        self._studio.workers.submit(self._drain)
+        self._channel.work(self._drain)
 
     def _drain(self) -> None:
         with self._turn:

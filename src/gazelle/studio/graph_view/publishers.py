@@ -7,67 +7,70 @@ import time
 from typing import Any
 
 from gazelle.errors import GazelleError
-from gazelle.graph import Publisher
+from gazelle.graph import Node, Publisher
 from gazelle.interfaces import Message, message_type
 from gazelle.interfaces.definition import FORMATS, Array, Field, attribute_name
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.graph_view.expressions import Expression, expression
 from gazelle.studio.graph_view.forms import filled
+from gazelle.studio.pages import Pages
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.taps import topic_name
 
-__all__ = ["list_publishers", "remove_publisher", "set_publisher"]
+__all__ = ["Publishers", "list_publishers", "remove_publisher", "set_publisher"]
 
 _MOST_PUBLISHERS = 100
 _ALONE_S = 10.0
 _LOOK_S = 0.2
 
 
-def set_publisher(studio: Studio, params: Params) -> dict[str, Any]:
+def set_publisher(publishers: Publishers, params: Params) -> dict[str, Any]:
     """``publisher.set``: make or change one."""
-    return studio.shared(_Publishers).set(params)
+    return publishers.set(params)
 
 
-def remove_publisher(studio: Studio, params: Params) -> dict[str, Any]:
+def remove_publisher(publishers: Publishers, params: Params) -> dict[str, Any]:
     """``publisher.remove``."""
-    studio.shared(_Publishers).remove(params.text("id"))
+    publishers.remove(params.text("id"))
     return {}
 
 
-def list_publishers(studio: Studio, _params: Params) -> list[dict[str, Any]]:
+def list_publishers(publishers: Publishers, _params: Params) -> list[dict[str, Any]]:
     """``publisher.list``."""
-    return studio.shared(_Publishers).rows()
+    return publishers.rows()
 
 
-class _Publishers:
-    """All of a Studio's; they stop when no page has been there for ten seconds."""
+class Publishers:
+    """All of a graph's pages; they stop when no page has been there for ten seconds."""
 
-    def __init__(self, studio: Studio) -> None:
-        self._studio = studio
+    def __init__(self, node: Node, pages: Pages) -> None:
+        """Publish as a node, for pages that may go."""
+        self._node = node
+        self._pages = pages
         self._lock = threading.Lock()
         self._made: dict[str, _Repeater] = {}
         self._closed = threading.Event()
-        studio.on_close(self._close)
         threading.Thread(target=self._watch, name="studio publishers", daemon=True).start()
 
     def set(self, params: Params) -> dict[str, Any]:
+        """Make or change one."""
         name = params.text("id")
         with self._lock:
             old = self._made.get(name)
             if old is None and len(self._made) >= _MOST_PUBLISHERS:
                 raise StudioError(f"there are {_MOST_PUBLISHERS} publishers already")
             settings = _Settings(params, old.settings if old else None)
-            settings.check(self._studio)
+            settings.check(self._node)
             if old is not None and old.settings.end == settings.end:
                 old.apply(settings)
                 return {"count": old.count}
             if old is not None:
                 old.close()
-            made = self._made[name] = _Repeater(self._studio, settings)
+            made = self._made[name] = _Repeater(self._node, settings)
             return {"count": made.count}
 
     def remove(self, name: str) -> None:
+        """Stop one and forget it."""
         with self._lock:
             found = self._made.pop(name, None)
             if found is None:
@@ -75,10 +78,12 @@ class _Publishers:
         found.close()
 
     def rows(self) -> list[dict[str, Any]]:
+        """Return what they do."""
         with self._lock:
             return [{"id": name, **one.row()} for name, one in self._made.items()]
 
-    def _close(self) -> None:
+    def close(self) -> None:
+        """Stop all."""
         self._closed.set()
         with self._lock:
             made, self._made = self._made, {}
@@ -89,7 +94,7 @@ class _Publishers:
         """A robot must not go on driving when the page that drives it has gone."""
         seen_s = time.monotonic()
         while not self._closed.wait(_LOOK_S):
-            if self._studio.pages:
+            if len(self._pages):
                 seen_s = time.monotonic()
             elif time.monotonic() - seen_s > _ALONE_S:
                 with self._lock:
@@ -122,14 +127,14 @@ class _Settings:
         """What a publisher is made for."""
         return self.topic, self.message_class.TYPE_NAME
 
-    def check(self, studio: Studio) -> None:
+    def check(self, node: Node) -> None:
         """Make the first message, so that what is wrong is told at once."""
-        topic_name(studio.node, self.topic)
-        self.message(studio, 0.0, 0)
+        topic_name(node, self.topic)
+        self.message(node, 0.0, 0)
 
-    def message(self, studio: Studio, t_s: float, count: int) -> Message:
+    def message(self, node: Node, t_s: float, count: int) -> Message:
         """Return the message of a time and count."""
-        made = filled(self.message_class, self.values, studio.graph.clock.now_ns())
+        made = filled(self.message_class, self.values, node.clock.now_ns())
         for (steps, kind), formula in self.compiled:
             owner: Any = made
             for step in steps[:-1]:
@@ -141,14 +146,12 @@ class _Settings:
 class _Repeater:
     """One publisher with its thread, which waits while it is disabled."""
 
-    def __init__(self, studio: Studio, settings: _Settings) -> None:
+    def __init__(self, node: Node, settings: _Settings) -> None:
         self.settings = settings
         self.count = 0
         self.error = ""
-        self._studio = studio
-        self._publisher: Publisher = studio.node.create_publisher(
-            settings.topic, settings.message_class
-        )
+        self._node = node
+        self._publisher: Publisher = node.create_publisher(settings.topic, settings.message_class)
         self._changed = threading.Condition()
         self._closed = False
         self._start_s = time.monotonic()
@@ -212,7 +215,7 @@ class _Repeater:
     def _publish(self, settings: _Settings) -> None:
         t_s = time.monotonic() - self._start_s
         try:
-            message = settings.message(self._studio, t_s, self.count - self._start_count)
+            message = settings.message(self._node, t_s, self.count - self._start_count)
             self._publisher.publish(message)
         except GazelleError as error:
             if not self._closed:

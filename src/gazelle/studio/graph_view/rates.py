@@ -7,9 +7,8 @@ from typing import TypedDict
 
 from gazelle.studio.pacing import every
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Arrival, Sample
+from gazelle.studio.taps import Arrival, Sample, Taps, topic_name
 
 __all__ = ["TopicStats", "open_stats"]
 
@@ -32,15 +31,15 @@ class TopicStats(TypedDict):
     count: int
 
 
-def open_stats(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_stats(taps: Taps, channel: Channel, params: Params) -> OpenStream:
     """Stream ``topic.stats``; named topics are subscribed to, else those shown are counted."""
     named = params.texts("topics") if "topics" in params else None
-    ends = [studio.taps.listen(topic, _ignore) for topic in named or ()]
-    shown = None if named is None else [studio.node.resolve_name(topic) for topic in named]
+    ends = [taps.listen(topic, _ignore) for topic in named or ()]
+    shown = None if named is None else [topic_name(taps.node, topic) for topic in named]
 
     def rows() -> list[TopicStats]:
-        topics = studio.taps.topics if shown is None else shown
-        return [_row(topic, *studio.taps.arrivals(topic)) for topic in topics]
+        topics = taps.topics if shown is None else shown
+        return [_row(topic, *taps.arrivals(topic)) for topic in topics]
 
     def close() -> None:
         for end in ends:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from typing import Any, TypedDict
 
+from gazelle.graph import Node
 from gazelle.graph.reconfigure import (
     DynamicGroup,
     DynamicParameter,
@@ -13,9 +14,9 @@ from gazelle.graph.reconfigure import (
 )
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = [
+    "DynamicClients",
     "DynamicGroupRow",
     "DynamicParameterRow",
     "Reconfigurable",
@@ -60,43 +61,49 @@ class Reconfigurable(TypedDict):
     groups: list[DynamicGroupRow]
 
 
-def list_reconfigurable(studio: Studio, _params: Params) -> list[str]:
+def list_reconfigurable(node: Node, _params: Params) -> list[str]:
     """``reconfigure.list``."""
-    return server_names(studio.graph)
+    return server_names(node.graph)
 
 
-def get_reconfigurable(studio: Studio, params: Params) -> Reconfigurable:
+def get_reconfigurable(clients: DynamicClients, params: Params) -> Reconfigurable:
     """``reconfigure.get``: groups with the values of now."""
-    client = studio.shared(_Clients).client(params)
+    client = clients.client(params)
     group, values = client.description, client.values
     assert group is not None
     return {"groups": _groups(group, values or {})}
 
 
-def set_reconfigurable(studio: Studio, params: Params) -> dict[str, Any]:
+def set_reconfigurable(clients: DynamicClients, params: Params) -> dict[str, Any]:
     """``reconfigure.set``: all values as they are afterwards."""
-    client = studio.shared(_Clients).client(params)
+    client = clients.client(params)
     return dict(client.set(params.object("values"), timeout_s=_TIMEOUT_S))
 
 
-class _Clients:
+class DynamicClients:
     """Clients that stay: descriptions and values come once, then with every change."""
 
-    def __init__(self, studio: Studio) -> None:
-        self._studio = studio
+    def __init__(self, node: Node) -> None:
+        """Ask as `node`."""
+        self._node = node
         self._lock = threading.Lock()
         self._made: dict[str, ReconfigureClient] = {}
 
     def client(self, params: Params) -> ReconfigureClient:
-        name = self._studio.node.resolve_name(params.text("node"))
-        names = server_names(self._studio.graph)
+        """Return the client of the ``node`` that is named, which has told its values.
+
+        Raises:
+            StudioError: there is no such node, or it tells nothing.
+        """
+        name = self._node.resolve_name(params.text("node"))
+        names = server_names(self._node.graph)
         if name not in names:
             self._forget(name)
             raise unknown("node with dynamic_reconfigure", name, names)
         with self._lock:
             made = self._made.get(name)
             if made is None:
-                made = self._made[name] = ReconfigureClient(self._studio.node, name)
+                made = self._made[name] = ReconfigureClient(self._node, name)
         if made.wait_for_values(_TIMEOUT_S) is None:
             raise StudioError(f"{name} does not describe its parameters")
         return made

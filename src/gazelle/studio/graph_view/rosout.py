@@ -12,9 +12,8 @@ from gazelle.graph.console import Level, level_of
 from gazelle.interfaces.stamps import seconds_of
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.taps import Sample, Taps
 
 __all__ = ["Console", "LogLine", "open_rosout"]
 
@@ -40,25 +39,29 @@ class LogLine(TypedDict):
     line: int
 
 
-def open_rosout(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_rosout(console: Console, channel: Channel, params: Params) -> OpenStream:
     """Stream ``rosout``: the last 200 first."""
     word = params.text("level", "debug").lower()
     try:
         least = list(Level).index(level_of(word))
     except KeyError:
         raise StudioError(f"there is no level '{word}'", known=_WORDS) from None
-    return OpenStream(studio.shared(Console).follow(channel, least))
+    return OpenStream(console.follow(channel, least))
 
 
 class Console:
-    """Keeps what nodes said last, from the first look on."""
+    """Keeps what nodes said last, from the first look on.
 
-    def __init__(self, studio: Studio) -> None:
-        """Listen to ``/rosout`` of a Studio's graph."""
+    Attributes:
+        close: listens no more.
+    """
+
+    def __init__(self, taps: Taps) -> None:
+        """Listen to ``/rosout``."""
         self._kept: deque[LogLine] = deque(maxlen=_KEPT)
         self._followers: list[tuple[Channel, int]] = []
         self._lock = threading.Lock()
-        studio.on_close(studio.taps.listen(_TOPIC, self._take))
+        self.close: Callable[[], None] = taps.listen(_TOPIC, self._take)
 
     def follow(self, channel: Channel, least: int) -> Callable[[], None]:
         """Send a channel what was kept and what comes, of this level's number and above."""

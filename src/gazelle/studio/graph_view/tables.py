@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
+from gazelle.graph import Node
+from gazelle.studio.frames import Frames
 from gazelle.studio.graph_view.actions import open_action
 from gazelle.studio.graph_view.echo import open_echo
 from gazelle.studio.graph_view.joints import publish_joints
@@ -17,15 +16,18 @@ from gazelle.studio.graph_view.parameters import (
     set_node_parameter,
     set_parameter,
 )
+from gazelle.studio.graph_view.parts import GraphParts
 from gazelle.studio.graph_view.plot import open_plot
 from gazelle.studio.graph_view.publishers import (
+    Publishers,
     list_publishers,
     remove_publisher,
     set_publisher,
 )
-from gazelle.studio.graph_view.publishing import publish
+from gazelle.studio.graph_view.publishing import Outbox, publish
 from gazelle.studio.graph_view.rates import open_stats
 from gazelle.studio.graph_view.reconfigure import (
+    DynamicClients,
     get_reconfigurable,
     list_reconfigurable,
     set_reconfigurable,
@@ -35,15 +37,14 @@ from gazelle.studio.graph_view.services import call_service
 from gazelle.studio.graph_view.topology import get_graph, open_graph
 from gazelle.studio.graph_view.transforms import open_tf, open_tree
 from gazelle.studio.graph_view.types import get_type, list_types
-from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
+from gazelle.studio.rows import Method, methods_of, methods_without, streams_of
 from gazelle.studio.streams import StreamKind
+from gazelle.studio.taps import Taps
 
 __all__ = ["METHODS", "STREAMS"]
 
-METHODS: dict[str, Callable[[Studio, Params], Any]] = {
+_NODE_METHODS: dict[str, Method[Node]] = {
     "graph.get": get_graph,
-    "joints.publish": publish_joints,
     "logger.list": list_loggers,
     "logger.set": set_logger,
     "node.info": get_node,
@@ -54,24 +55,43 @@ METHODS: dict[str, Callable[[Studio, Params], Any]] = {
     "param.get": get_parameter,
     "param.list": list_parameters,
     "param.set": set_parameter,
+    "reconfigure.list": list_reconfigurable,
+    "service.call": call_service,
+}
+_OUTBOX_METHODS: dict[str, Method[Outbox]] = {
+    "joints.publish": publish_joints,
+    "topic.publish": publish,
+}
+_PUBLISHER_METHODS: dict[str, Method[Publishers]] = {
     "publisher.list": list_publishers,
     "publisher.remove": remove_publisher,
     "publisher.set": set_publisher,
-    "reconfigure.get": get_reconfigurable,
-    "reconfigure.list": list_reconfigurable,
-    "reconfigure.set": set_reconfigurable,
-    "service.call": call_service,
-    "topic.publish": publish,
-    "type.get": get_type,
-    "type.list": list_types,
 }
-STREAMS: dict[str, StreamKind] = {
-    "action": StreamKind(latest=False, open=open_action),
-    "graph": StreamKind(latest=False, open=open_graph),
-    "rosout": StreamKind(latest=False, open=open_rosout),
-    "tf": StreamKind(latest=True, open=open_tf),
-    "tf.tree": StreamKind(latest=True, open=open_tree),
+_CLIENT_METHODS: dict[str, Method[DynamicClients]] = {
+    "reconfigure.get": get_reconfigurable,
+    "reconfigure.set": set_reconfigurable,
+}
+_TOPIC_STREAMS: dict[str, StreamKind[Taps]] = {
     "topic.echo": StreamKind(latest=True, open=open_echo),
     "topic.plot": StreamKind(latest=False, open=open_plot),
     "topic.stats": StreamKind(latest=True, open=open_stats),
+}
+_FRAME_STREAMS: dict[str, StreamKind[Frames]] = {
+    "tf": StreamKind(latest=True, open=open_tf),
+    "tf.tree": StreamKind(latest=True, open=open_tree),
+}
+
+METHODS: dict[str, Method[GraphParts]] = {
+    **methods_of(lambda parts: parts.node, _NODE_METHODS),
+    **methods_of(lambda parts: parts.outbox, _OUTBOX_METHODS),
+    **methods_of(lambda parts: parts.publishers(), _PUBLISHER_METHODS),
+    **methods_of(lambda parts: parts.clients, _CLIENT_METHODS),
+    **methods_without({"type.get": get_type, "type.list": list_types}),
+}
+STREAMS: dict[str, StreamKind[GraphParts]] = {
+    **streams_of(lambda parts: parts.taps, _TOPIC_STREAMS),
+    **streams_of(lambda parts: parts.frames, _FRAME_STREAMS),
+    **streams_of(lambda parts: parts.node, {"action": StreamKind(False, open_action)}),
+    **streams_of(lambda parts: parts.topology(), {"graph": StreamKind(False, open_graph)}),
+    **streams_of(lambda parts: parts.console(), {"rosout": StreamKind(False, open_rosout)}),
 }

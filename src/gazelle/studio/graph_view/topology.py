@@ -5,12 +5,11 @@ from __future__ import annotations
 import threading
 from typing import Any, TypedDict
 
-from gazelle.graph import Entity, Kind
+from gazelle.graph import Entity, Graph, Kind, Node
 from gazelle.graph.actions.listing import actions_of
 from gazelle.graph.introspection import services_of, topics_of
 from gazelle.graph.names import is_hidden, split
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 
 __all__ = [
@@ -78,34 +77,32 @@ class GraphValue(TypedDict):
     actions: list[ActionRow]
 
 
-def get_graph(studio: Studio, _params: Params) -> GraphValue:
+def get_graph(node: Node, _params: Params) -> GraphValue:
     """``graph.get``."""
-    return graph_value(studio.graph.entities())
+    return graph_value(node.graph.entities())
 
 
-def open_graph(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+def open_graph(topology: Topology, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``graph``: the value now and at every change."""
-    topology = studio.shared(Topology)
     return OpenStream(topology.follow(channel))
 
 
 class Topology:
     """Tells channels when the graph changes; changes that come together are told once."""
 
-    def __init__(self, studio: Studio) -> None:
-        """Listen to the graph of a Studio until that closes."""
-        self._studio = studio
+    def __init__(self, graph: Graph) -> None:
+        """Listen to a graph until `close`."""
+        self._graph = graph
         self._channels: list[Channel] = []
         self._lock = threading.Lock()
         self._dirty = threading.Event()
         self._closed = False
-        studio.graph.discovery.listen(self._on_change)
-        studio.on_close(self._close)
+        graph.discovery.listen(self._on_change)
         threading.Thread(target=self._run, name="studio graph", daemon=True).start()
 
     def follow(self, channel: Channel) -> Any:
         """Send a channel the value now and at every change; returns what ends that."""
-        channel.send(graph_value(self._studio.graph.entities()))
+        channel.send(graph_value(self._graph.entities()))
         with self._lock:
             self._channels.append(channel)
         self._dirty.set()
@@ -119,7 +116,8 @@ class Topology:
         if not entity.name.startswith(OWN_PREFIX):
             self._dirty.set()
 
-    def _close(self) -> None:
+    def close(self) -> None:
+        """Tell nobody any more."""
         self._closed = True
         self._dirty.set()
 
@@ -131,7 +129,7 @@ class Topology:
             self._dirty.clear()
             with self._lock:
                 channels = tuple(self._channels)
-            value = graph_value(self._studio.graph.discovery.known()) if channels else None
+            value = graph_value(self._graph.discovery.known()) if channels else None
             if value is None or value == last:
                 continue
             last = value

@@ -9,7 +9,6 @@ import numpy as np
 from gazelle.studio.frames import NO_POSE, Frames, pose_values, poses_in
 from gazelle.studio.pacing import Pace, every
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, Frame, OpenStream
 
 __all__ = ["KIND_FRAMES", "FrameNames", "FrameRow", "TfFrame", "open_tf", "open_tree"]
@@ -49,10 +48,9 @@ class FrameRow(TypedDict):
     static: bool
 
 
-def open_tf(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_tf(frames: Frames, channel: Channel, params: Params) -> OpenStream:
     """Stream ``tf``: poses in a fixed frame, their names ahead whenever these change."""
-    frames = studio.shared(Frames)
-    poses = _Poses(studio, frames, params.text("fixed_frame"))
+    poses = _Poses(frames, params.text("fixed_frame"))
     rate_hz = params.number("rate_hz", 30.0, least=0.1, most=100.0)
     pace = Pace(channel, lambda: channel.offer(poses.frames), rate_hz)
     leave = frames.use(pace)
@@ -60,16 +58,14 @@ def open_tf(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     return OpenStream(leave)
 
 
-def open_tree(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+def open_tree(frames: Frames, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``tf.tree``."""
-    frames = studio.shared(Frames)
-    every(channel, _TREE_S, lambda: channel.offer(lambda: _tree(studio, frames)))
+    every(channel, _TREE_S, lambda: channel.offer(lambda: _tree(frames)))
     return OpenStream(frames.use())
 
 
 class _Poses:
-    def __init__(self, studio: Studio, frames: Frames, fixed_frame: str) -> None:
-        self._clock = studio.graph.clock
+    def __init__(self, frames: Frames, fixed_frame: str) -> None:
         self._frames = frames
         self._fixed = fixed_frame
         self._told: list[TfFrame] | None = None
@@ -90,7 +86,7 @@ class _Poses:
         ]
         values = [NO_POSE if (pose := poses[name]) is None else pose_values(pose) for name in rows]
         data = np.array(values, np.float32).reshape(-1, 7)
-        frame = Frame(KIND_FRAMES, len(rows), self._clock.now_ns() * 1e-9, (data,))
+        frame = Frame(KIND_FRAMES, len(rows), self._frames.clock.now_ns() * 1e-9, (data,))
         if names == self._told:
             return frame
         self._told = names
@@ -98,8 +94,8 @@ class _Poses:
         return (told, frame)
 
 
-def _tree(studio: Studio, frames: Frames) -> list[FrameRow]:
-    now_ns = studio.graph.clock.now_ns()
+def _tree(frames: Frames) -> list[FrameRow]:
+    now_ns = frames.clock.now_ns()
     return [
         {
             "frame": one.name,

@@ -10,7 +10,6 @@ from gazelle.interfaces.definition import Array
 from gazelle.interfaces.type_names import split_name
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = ["TypeConstant", "TypeField", "TypeValue", "field_tree", "get_type", "list_types"]
 
@@ -62,7 +61,7 @@ class TypeValue(TypedDict):
     constants: NotRequired[list[TypeConstant]]
 
 
-def get_type(_studio: Studio, params: Params) -> TypeValue:
+def get_type(params: Params) -> TypeValue:
     """``type.get``: text and fields; those of a service are ``request`` and ``response``."""
     name = params.text("type")
     package, part, bare = split_name(name)
@@ -74,7 +73,7 @@ def get_type(_studio: Studio, params: Params) -> TypeValue:
     raise missing
 
 
-def list_types(_studio: Studio, params: Params) -> list[str]:
+def list_types(params: Params) -> list[str]:
     """``type.list``."""
     kind = params.text("kind", "msg")
     if kind not in _KINDS:

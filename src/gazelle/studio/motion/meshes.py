@@ -12,7 +12,6 @@ import numpy as np
 
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = ["MotionMesh", "read_mesh"]
 
@@ -26,7 +25,7 @@ class MotionMesh(TypedDict):
     triangles: list[list[int]]
 
 
-def read_mesh(_studio: Studio, params: Params) -> MotionMesh:
+def read_mesh(params: Params) -> MotionMesh:
     """Read the file ``name`` with the content ``base64``; vertices in metres."""
     # Readers of meshes are needed by few pages.
     from gazelle.errors import GazelleError

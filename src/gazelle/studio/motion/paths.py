@@ -7,14 +7,13 @@ from typing import Any
 from gazelle.studio.errors import StudioError
 from gazelle.studio.json_text import message_value
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.taps import Sample, Taps
 
 __all__ = ["open_path"]
 
 
-def open_path(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_path(taps: Taps, channel: Channel, params: Params) -> OpenStream:
     """Send each ``moveit_msgs/DisplayTrajectory`` of a ``topic``."""
 
     def value(sample: Sample) -> Any:
@@ -26,4 +25,4 @@ def open_path(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     def take(sample: Sample) -> None:
         channel.offer(lambda: value(sample))
 
-    return OpenStream(studio.taps.listen(params.text("topic"), take))
+    return OpenStream(taps.listen(params.text("topic"), take))

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypedDict
 
-from gazelle.graph import Kind
+from gazelle.graph import Graph, Kind
 from gazelle.sensors.scene_types import SceneValue
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
-from gazelle.studio.scenes.assets import Assets
+from gazelle.studio.scenes.robot import RobotContext, description_text
 from gazelle.studio.scenes.shapes import PageGeometry, page_scene
-from gazelle.studio.session import Studio
+from gazelle.studio.taps import Taps
 
 if TYPE_CHECKING:
     from gazelle.description.moveit import MoveItConfig
@@ -116,7 +116,7 @@ class MotionRobot(_RobotPart):
     scene: SceneValue[PageGeometry]
 
 
-def get_motion_robot(studio: Studio, params: Params) -> MotionRobot:
+def get_motion_robot(robots: RobotContext, params: Params) -> MotionRobot:
     """Return groups, joints, states and shapes of the robot of a move_group.
 
     ``namespace`` is that of the move_group, ``description`` the name of the parameter.
@@ -129,9 +129,9 @@ def get_motion_robot(studio: Studio, params: Params) -> MotionRobot:
     from gazelle.workspace import Workspace
 
     description = params.text("description", _DESCRIPTION).lstrip("/") or _DESCRIPTION
-    node, prefix = _move_group(studio, params.text("namespace", ""))
+    node, prefix = _move_group(robots.taps.node.graph, params.text("namespace", ""))
     found = Diagnostics()
-    tree = _parameters(studio, node, prefix, description)
+    tree = _parameters(robots.taps, node, prefix, description)
     config = config_from_parameters(
         tree, workspace=Workspace.discover(), diagnostics=found, description=description
     )
@@ -143,15 +143,15 @@ def get_motion_robot(studio: Studio, params: Params) -> MotionRobot:
         "node": node,
         "prefix": prefix,
         **_robot_value(robot, config),
-        "scene": page_scene(robot_value(robot.description), studio.shared(Assets)),
+        "scene": page_scene(robot_value(robot.description), robots.assets),
     }
 
 
-def _move_group(studio: Studio, namespace: str) -> tuple[str, str]:
+def _move_group(graph: Graph, namespace: str) -> tuple[str, str]:
     """Return a move_group's node and what its names begin with."""
     offered = {
         one.name: one.node
-        for one in studio.graph.entities()
+        for one in graph.entities()
         if one.kind is Kind.SERVICE and one.type_name == _TYPE and one.name.endswith(f"/{_PLAN}")
     }
     if not offered:
@@ -168,11 +168,11 @@ def _before(service: str) -> str:
     return service.removesuffix(_PLAN)
 
 
-def _parameters(studio: Studio, node: str, prefix: str, description: str) -> dict[str, Any]:
+def _parameters(taps: Taps, node: str, prefix: str, description: str) -> dict[str, Any]:
     """ROS 2 gives a move_group its parameters, ROS 1 has the descriptions beside it."""
     from gazelle.parameters.trees import nested
 
-    store = studio.graph.parameters
+    store = taps.node.graph.parameters
     own = store.get(node) if store.has(node) else {}
     tree = nested(own) if isinstance(own, Mapping) else {}
     for part in _PARTS:
@@ -183,17 +183,15 @@ def _parameters(studio: Studio, node: str, prefix: str, description: str) -> dic
                 tree[name] = nested(value) if isinstance(value, Mapping) else value
     for name in (description, f"{description}_semantic"):
         if not tree.get(name):
-            tree[name] = _of_topic(studio, f"{prefix}{name}")
+            tree[name] = _of_topic(taps, f"{prefix}{name}")
     return tree
 
 
-def _of_topic(studio: Studio, topic: str) -> str:
+def _of_topic(taps: Taps, topic: str) -> str:
     """A description that is no parameter is on a topic of its name."""
-    from gazelle.studio.scenes.robot import description_text
-
-    if topic not in {one.name for one in studio.graph.topics()}:
+    if topic not in {one.name for one in taps.node.graph.topics()}:
         raise StudioError(f"there is neither a parameter nor a topic '{topic}'", hint=_START)
-    return description_text(studio, topic)
+    return description_text(taps, topic)
 
 
 def _robot_value(robot: RobotModel, config: MoveItConfig) -> _RobotPart:

@@ -10,9 +10,8 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.services import request_response
 from gazelle.studio.json_text import message_value
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.taps import Sample, Taps
 
 __all__ = ["PlanningScene", "open_scene"]
 
@@ -35,13 +34,13 @@ class PlanningScene(TypedDict):
     attached: NotRequired[list[Any]]
 
 
-def open_scene(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_scene(taps: Taps, channel: Channel, params: Params) -> OpenStream:
     """Ask the ``service`` for the whole scene, then follow its changes on the ``topic``."""
     scene = _Scene(channel)
-    leave = studio.taps.listen(params.text("topic"), scene.take)
+    leave = taps.listen(params.text("topic"), scene.take)
     try:
-        name = studio.node.resolve_name(params.text("service"))
-        scene.begin(request_response(studio, name, _GET).scene)
+        name = taps.node.resolve_name(params.text("service"))
+        scene.begin(request_response(taps.node, name, _GET).scene)
     except GazelleError:
         leave()
         raise

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from gazelle.studio.motion.meshes import read_mesh
 from gazelle.studio.motion.paths import open_path
 from gazelle.studio.motion.robot import get_motion_robot
 from gazelle.studio.motion.scenes import open_scene
-from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
+from gazelle.studio.rows import Method, methods_without
+from gazelle.studio.scenes.robot import RobotContext
 from gazelle.studio.streams import StreamKind
+from gazelle.studio.taps import Taps
 
 __all__ = ["METHODS", "STREAMS"]
 
-METHODS: dict[str, Callable[[Studio, Params], Any]] = {
-    "motion.mesh": read_mesh,
+METHODS: dict[str, Method[RobotContext]] = {
+    **methods_without({"motion.mesh": read_mesh}),
     "motion.robot": get_motion_robot,
 }
-STREAMS: dict[str, StreamKind] = {
+STREAMS: dict[str, StreamKind[Taps]] = {
     "motion.path": StreamKind(latest=True, open=open_path),
     "motion.scene": StreamKind(latest=True, open=open_scene),
 }

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 if TYPE_CHECKING:
     from gazelle.studio.streams import Channel
-    from gazelle.studio.workers import Workers
 
 __all__ = ["Follower", "PanelEvent"]
 
@@ -31,10 +30,9 @@ class Follower:
         channel: of the stream ``plugin``.
     """
 
-    def __init__(self, channel: Channel, workers: Workers) -> None:
+    def __init__(self, channel: Channel) -> None:
         """Wrap a channel."""
         self.channel = channel
-        self._workers = workers
         self._waiting: dict[tuple[str, str | int], PanelEvent] = {}
         self._numbers = itertools.count()
         self._lock = threading.Lock()
@@ -52,7 +50,7 @@ class Follower:
             self._waiting.pop(key, None)
             self._waiting[key] = event
         if first:
-            self.channel.later(_GATHER_S, lambda: self._workers.submit(self._flush))
+            self.channel.later(_GATHER_S, lambda: self.channel.work(self._flush))
 
     def _flush(self) -> None:
         with self._sending:

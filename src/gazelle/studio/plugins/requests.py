@@ -11,7 +11,6 @@ from gazelle.studio.plugins.rqt.manifests import rqt_plugins
 from gazelle.studio.plugins.rqt.porting import how_to_port
 from gazelle.studio.plugins.shows import Desk
 from gazelle.studio.plugins.sources import Source
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.workspace import Workspace
 
@@ -56,7 +55,7 @@ class PanelInfo(TypedDict):
     module: str | None
 
 
-def list_panels(studio: Studio, _params: Params) -> list[PanelEntry]:
+def list_panels(desk: Desk, _params: Params) -> list[PanelEntry]:
     """``plugin.list``: what could be opened; no code of it runs."""
     panels: list[PanelEntry] = [
         {
@@ -67,7 +66,7 @@ def list_panels(studio: Studio, _params: Params) -> list[PanelEntry]:
             "about": source.texts.get("about") or source.origin,
             "problem": source.problem,
         }
-        for source in studio.shared(Desk).sources().values()
+        for source in desk.sources().values()
     ]
     foreign: list[PanelEntry] = [
         {
@@ -83,9 +82,9 @@ def list_panels(studio: Studio, _params: Params) -> list[PanelEntry]:
     return panels + foreign
 
 
-def open_panel(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_panel(desk: Desk, channel: Channel, params: Params) -> OpenStream:
     """Stream ``plugin``: events of one panel, whose code starts with its first page."""
-    show = studio.shared(Desk).show(params.text("name"))
+    show = desk.show(params.text("name"))
     leave = show.follow(channel)
     source = show.source
     script = _script(source)
@@ -97,32 +96,31 @@ def open_panel(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     return OpenStream(leave, info)
 
 
-def take_event(studio: Studio, params: Params) -> dict[str, Any]:
+def take_event(desk: Desk, params: Params) -> dict[str, Any]:
     """``plugin.event``: what a person did with a widget."""
-    life = studio.shared(Desk).shown(params.text("name")).life
+    life = desk.shown(params.text("name")).life
     if life is None:
         raise StudioError(f"the panel '{params.text('name')}' is not open")
     life.event(params.text("widget", ""), params.any("value", None))
     return {}
 
 
-def reload_panel(studio: Studio, params: Params) -> dict[str, Any]:
+def reload_panel(desk: Desk, params: Params) -> dict[str, Any]:
     """``plugin.reload``: the panel begins anew with its file as it is now."""
-    desk, name = studio.shared(Desk), params.text("name")
+    name = params.text("name")
     show = desk.shown(name)
     # A file that cannot be read now is no panel of the list; trying it tells why.
     show.reload(desk.sources().get(name, show.source))
     return {}
 
 
-def port_panel(_studio: Studio, params: Params) -> dict[str, Any]:
+def port_panel(params: Params) -> dict[str, Any]:
     """``plugin.port``: how a plug-in of rqt becomes a panel."""
     return how_to_port(params.text("name"), Workspace.discover())
 
 
-def file_answer(studio: Studio, rest: str) -> Answer | None:
+def file_answer(desk: Desk, rest: str) -> Answer | None:
     """``/plugin/<name>.js``: the ES module; ``/plugin/<name>/<widget>``: a picture."""
-    desk = studio.shared(Desk)
     name, slash, widget = rest.partition("/")
     if slash:
         try:

@@ -8,13 +8,13 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from gazelle.errors import GazelleError
+from gazelle.graph import Graph
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.files import Answer
 from gazelle.studio.plugins.following import Follower
 from gazelle.studio.plugins.life import Life
 from gazelle.studio.plugins.pictures import picture_answer
 from gazelle.studio.plugins.sources import Source, all_sources, named_file
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel
 from gazelle.workspace import Workspace
 
@@ -34,10 +34,10 @@ class Show:
         life: the object at work, None while no page shows it.
     """
 
-    def __init__(self, studio: Studio, source: Source) -> None:
+    def __init__(self, graph: Graph, source: Source) -> None:
         self.source = source
         self.life: Life | None = None
-        self._studio = studio
+        self._graph = graph
         self._followers: tuple[Follower, ...] = ()
         self._problem: dict[str, Any] | None = None
         self._stamp_ns = 0
@@ -52,7 +52,7 @@ class Show:
         Raises:
             StudioError: the panel does not return from ``start``.
         """
-        follower = Follower(channel, self._studio.workers)
+        follower = Follower(channel)
         with self._taking_turns():
             if self.life is None:
                 self._begin(again=False)
@@ -96,7 +96,7 @@ class Show:
         self._problem = None
         self._over = threading.Event()
         self._stamp_ns = self._modified()
-        life = self.life = Life(self._studio.graph, self.source, self._tell_all)
+        life = self.life = Life(self._graph, self.source, self._tell_all)
         life.begin(again=again)
         watch = threading.Thread(target=self._watch, args=(self._over,), daemon=True)
         watch.start()
@@ -152,14 +152,13 @@ class Show:
 
 
 class Desk:
-    """All panels of a Studio: those that could be opened, and those that are."""
+    """All panels of a graph's pages: those that could be opened, and those that are."""
 
-    def __init__(self, studio: Studio) -> None:
-        self._studio = studio
+    def __init__(self, graph: Graph) -> None:
+        self._graph = graph
         self._named: dict[str, tuple[Source, ...]] = {}
         self._shows: dict[str, Show] = {}
         self._turn = threading.Lock()
-        studio.on_close(self._close)
 
     def name_file(self, words: str) -> tuple[Source, ...]:
         """Add the panels of ``FILE.py[:Class]``.
@@ -196,7 +195,7 @@ class Desk:
         """Return a panel to be shown."""
         with self._turn:
             if name not in self._shows:
-                self._shows[name] = Show(self._studio, self.source(name))
+                self._shows[name] = Show(self._graph, self.source(name))
             return self._shows[name]
 
     def shown(self, name: str) -> Show:
@@ -217,6 +216,7 @@ class Desk:
         value = state.values.get(widget) if state is not None else None
         return None if value is None else picture_answer(value)
 
-    def _close(self) -> None:
+    def close(self) -> None:
+        """End all panels."""
         for show in self._shows.values():
             show.close()

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-from gazelle.studio.files import Route
-from gazelle.studio.params import Params
 from gazelle.studio.plugins.requests import (
     file_answer,
     list_panels,
@@ -15,16 +10,17 @@ from gazelle.studio.plugins.requests import (
     reload_panel,
     take_event,
 )
-from gazelle.studio.session import Studio
+from gazelle.studio.plugins.shows import Desk
+from gazelle.studio.rows import Method, Route, methods_without
 from gazelle.studio.streams import StreamKind
 
 __all__ = ["METHODS", "ROUTES", "STREAMS"]
 
-METHODS: dict[str, Callable[[Studio, Params], Any]] = {
+METHODS: dict[str, Method[Desk]] = {
     "plugin.event": take_event,
     "plugin.list": list_panels,
-    "plugin.port": port_panel,
+    **methods_without({"plugin.port": port_panel}),
     "plugin.reload": reload_panel,
 }
-STREAMS: dict[str, StreamKind] = {"plugin": StreamKind(latest=False, open=open_panel)}
-ROUTES: dict[str, Route] = {"plugin": file_answer}
+STREAMS: dict[str, StreamKind[Desk]] = {"plugin": StreamKind(latest=False, open=open_panel)}
+ROUTES: dict[str, Route[Desk]] = {"plugin": file_answer}

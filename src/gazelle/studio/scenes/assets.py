@@ -12,15 +12,11 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gazelle.geometry import MeshPart
 from gazelle.studio.files import Answer
-
-if TYPE_CHECKING:
-    from gazelle.studio.session import Studio
 
 __all__ = ["Assets", "mesh_answer", "texture_answer"]
 
@@ -31,20 +27,20 @@ _LARGEST_TEXTURE_PX = 4096
 _PASSED_ON = {"PNG": "image/png", "JPEG": "image/jpeg"}
 
 
-def mesh_answer(studio: Studio, key: str) -> Answer | None:
+def mesh_answer(assets: Assets, key: str) -> Answer | None:
     """``/mesh/<key>``."""
-    return studio.shared(Assets).get("mesh", key)
+    return assets.get("mesh", key)
 
 
-def texture_answer(studio: Studio, key: str) -> Answer | None:
+def texture_answer(assets: Assets, key: str) -> Answer | None:
     """``/texture/<key>``."""
-    return studio.shared(Assets).get("texture", key)
+    return assets.get("texture", key)
 
 
 class Assets:
     """What scenes of a Studio refer to, oldest forgotten first."""
 
-    def __init__(self, _studio: Studio) -> None:
+    def __init__(self) -> None:
         """Hold nothing."""
         self._lock = threading.Lock()
         self._made: OrderedDict[tuple[str, str], Callable[[], Answer | None]] = OrderedDict()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import dataclass
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
@@ -11,23 +12,35 @@ from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.params import Params
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.shapes import PageGeometry, page_scene
-from gazelle.studio.session import Studio
-from gazelle.studio.taps import Sample
+from gazelle.studio.taps import Sample, Taps
 from gazelle.workspace import Workspace
 
-__all__ = ["description_text", "get_robot"]
+__all__ = ["RobotContext", "description_text", "get_robot"]
 
 _PARAMETER = "/robot_description"
 _TOPIC_S = 2.0
 
 
-def get_robot(studio: Studio, params: Params) -> SceneValue[PageGeometry]:
+@dataclass(frozen=True)
+class RobotContext:
+    """What descriptions of robots are read with.
+
+    Attributes:
+        taps: topics that bring them; its node has their parameters.
+        assets: keeps their meshes for pages.
+    """
+
+    taps: Taps
+    assets: Assets
+
+
+def get_robot(robots: RobotContext, params: Params) -> SceneValue[PageGeometry]:
     """``robot.get``: of ``parameter`` or ``topic``, of ``/robot_description`` in either."""
     # Readers of descriptions take a third of the server's start; few pages wait for them.
     from gazelle.description.loader import load_models
     from gazelle.sensors.scene_value import robot_value
 
-    text = _description(studio, params)
+    text = _description(robots.taps, params)
     found = Diagnostics()
     models = load_models(text, workspace=Workspace.discover(), diagnostics=found, inserts=False)
     findings: list[dict[str, Any]] = [
@@ -37,7 +50,7 @@ def get_robot(studio: Studio, params: Params) -> SceneValue[PageGeometry]:
     if not models:
         reasons = "\n".join(item["text"] for item in findings)
         raise StudioError("the robot description cannot be read", hint=reasons)
-    value = page_scene(robot_value(models[0]), studio.shared(Assets))
+    value = page_scene(robot_value(models[0]), robots.assets)
     prefix = params.text("tf_prefix", "").strip("/")
     for body in value["bodies"]:
         body["frame"] = f"{prefix}/{body['link']}" if prefix else body["link"]
@@ -45,24 +58,24 @@ def get_robot(studio: Studio, params: Params) -> SceneValue[PageGeometry]:
     return value
 
 
-def _description(studio: Studio, params: Params) -> str:
+def _description(taps: Taps, params: Params) -> str:
     if "topic" in params:
-        return description_text(studio, params.text("topic"))
-    name = params.text("parameter", _PARAMETER)
+        return description_text(taps, params.text("topic"))
+    graph, name = taps.node.graph, params.text("parameter", _PARAMETER)
     try:
-        value = studio.graph.parameters.get(name)
+        value = graph.parameters.get(name)
     except KeyError:
-        topics = {one.name for one in studio.graph.topics()}
+        topics = {one.name for one in graph.topics()}
         if name in topics:
-            return description_text(studio, name)
-        known = studio.graph.parameters.names()
+            return description_text(taps, name)
+        known = graph.parameters.names()
         raise unknown("parameter or topic", name, {*known, *topics}) from None
     if not isinstance(value, str):
         raise StudioError(f"parameter '{name}' is no text but a {type(value).__name__}")
     return value
 
 
-def description_text(studio: Studio, topic: str) -> str:
+def description_text(taps: Taps, topic: str) -> str:
     """Return the latched text of a topic.
 
     Raises:
@@ -75,7 +88,7 @@ def description_text(studio: Studio, topic: str) -> str:
         samples.append(sample)
         came.set()
 
-    end = studio.taps.listen(topic, take)
+    end = taps.listen(topic, take)
     came.wait(_TOPIC_S)
     end()
     if not samples:

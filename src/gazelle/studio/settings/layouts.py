@@ -13,7 +13,6 @@ from gazelle.documents.versions import refused_version
 from gazelle.folders import config_folder
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = ["delete_layout", "layout_folder", "list_layouts", "load_layout", "save_layout"]
 
@@ -28,18 +27,18 @@ def layout_folder(environ: Mapping[str, str] = os.environ) -> Path:
     return config_folder(environ) / "layouts"
 
 
-def list_layouts(_studio: Studio, _params: Params) -> list[str]:
+def list_layouts(_params: Params) -> list[str]:
     """``layout.list``: names, sorted."""
     return sorted(unquote(file.stem) for file in layout_folder().glob(f"*{_SUFFIX}"))
 
 
-def load_layout(studio: Studio, params: Params) -> Any:
+def load_layout(params: Params) -> Any:
     """``layout.load``."""
     name = params.text("name")
     try:
         saved = json.loads(_file(name).read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise unknown("layout", name, list_layouts(studio, params)) from None
+        raise unknown("layout", name, list_layouts(params)) from None
     except (OSError, ValueError) as error:
         raise StudioError(f"the layout '{name}' cannot be read: {error}") from None
     # Before there were versions a file held the layout itself.
@@ -50,7 +49,7 @@ def load_layout(studio: Studio, params: Params) -> Any:
     return saved.get("layout")
 
 
-def save_layout(_studio: Studio, params: Params) -> dict[str, Any]:
+def save_layout(params: Params) -> dict[str, Any]:
     """``layout.save``: a crash leaves the old one whole."""
     name = params.text("name")
     text = json.dumps({"version": _VERSION, "layout": params.any("value")})
@@ -67,13 +66,13 @@ def save_layout(_studio: Studio, params: Params) -> dict[str, Any]:
     return {}
 
 
-def delete_layout(studio: Studio, params: Params) -> dict[str, Any]:
+def delete_layout(params: Params) -> dict[str, Any]:
     """``layout.delete``."""
     name = params.text("name")
     try:
         _file(name).unlink()
     except FileNotFoundError:
-        raise unknown("layout", name, list_layouts(studio, params)) from None
+        raise unknown("layout", name, list_layouts(params)) from None
     return {}
 
 

@@ -11,7 +11,6 @@ from typing import Any
 from gazelle.documents import read_text_limited
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = ["open_perspective", "perspective_value"]
 
@@ -22,7 +21,7 @@ _SETTINGS = {"rqt_plot": ("topics", "curves"), "rqt_image_view": ("topic", "topi
 _USUAL = "The panels that are there stay."
 
 
-def open_perspective(_studio: Studio, params: Params) -> dict[str, Any]:
+def open_perspective(params: Params) -> dict[str, Any]:
     """``perspective.open``: of a ``path`` on this machine or of a ``text``."""
     if "text" in params:
         return perspective_value(params.text("text"), params.text("name", "the perspective"))

@@ -13,7 +13,6 @@ from gazelle.studio.displays.finding import find_display
 from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
 __all__ = ["RvizDisplay", "RvizFile", "RvizTool", "RvizView", "open_rviz", "rviz_value"]
 
@@ -80,7 +79,7 @@ class RvizFile(TypedDict):
     unknown: list[str]
 
 
-def open_rviz(_studio: Studio, params: Params) -> RvizFile:
+def open_rviz(params: Params) -> RvizFile:
     """``rviz.open``: of a ``path`` on this machine or of a ``text``."""
     if "text" in params:
         return rviz_value(params.text("text"), params.text("name", "the .rviz file"))

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
+from gazelle.studio.rows import Method, methods_without
 from gazelle.studio.settings.layouts import (
     delete_layout,
     list_layouts,
@@ -18,11 +14,13 @@ from gazelle.studio.settings.rviz_files import open_rviz
 
 __all__ = ["METHODS"]
 
-METHODS: dict[str, Callable[[Studio, Params], Any]] = {
-    "layout.delete": delete_layout,
-    "layout.list": list_layouts,
-    "layout.load": load_layout,
-    "layout.save": save_layout,
-    "perspective.open": open_perspective,
-    "rviz.open": open_rviz,
-}
+METHODS: dict[str, Method[object]] = methods_without(
+    {
+        "layout.delete": delete_layout,
+        "layout.list": list_layouts,
+        "layout.load": load_layout,
+        "layout.save": save_layout,
+        "perspective.open": open_perspective,
+        "rviz.open": open_rviz,
+    }
+)

@@ -58,6 +58,7 @@ from gazelle.studio.motion.robot import (
     MotionVariable,
 )
 from gazelle.studio.motion.scenes import PlanningScene
+from gazelle.studio.pages import GraphPlace, Hello, Show
 from gazelle.studio.plugins.following import PanelEvent
 from gazelle.studio.plugins.requests import PanelEntry, PanelInfo
 from gazelle.studio.plugins.state import PanelState
@@ -67,7 +68,6 @@ from gazelle.studio.scenes.shapes import (
     MissingGeometry,
     PageGeometry,
 )
-from gazelle.studio.session import GraphPlace, Hello, Show
 from gazelle.studio.settings.rviz_files import RvizDisplay, RvizFile, RvizTool, RvizView
 from gazelle.studio.world.models import ModelEntry
 from gazelle.studio.world.watching import PageScene, WorldJoint

@@ -114,7 +114,7 @@ def _serve(graph: Graph, request: Request | None, stop: threading.Event, say: _S
     with Server(Studio(graph), port=page_port(graph)) as server:
         offer(server)
         if request is not None:
-            server.studio.show(request.panel, request.params)
+            server.studio.pages.show(request.panel, request.params)
             say(f"{request.panel}: {server.url}")
             open_browser(server.url)
         stop.wait()
@@ -126,7 +126,7 @@ def offer(server: Any) -> None:
 
     def answer(request: Any) -> Any:
         words = json.loads(request.request)
-        studio.show(str(words["panel"]), dict(words.get("params") or {}))
+        studio.pages.show(str(words["panel"]), dict(words.get("params") or {}))
         return service_type(_DO).Response(response=json.dumps({"url": server.url}))
 
     studio.node.create_service(SERVICE, service_type(_DO), answer)

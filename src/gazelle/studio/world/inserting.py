@@ -10,8 +10,7 @@ from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
-from gazelle.studio.world.link import call_world, pose_message, pose_of
+from gazelle.studio.world.link import WorldLink, pose_message, pose_of
 from gazelle.studio.world.models import model_folder
 
 __all__ = ["insert", "primitive_sdf"]
@@ -25,16 +24,15 @@ _NUMBER = re.compile(r"_(\d+)$")
 _PLACE = re.compile(r"<[a-z_]+>(?=:\d+:\d+)")
 
 
-def insert(studio: Studio, params: Params) -> Any:
+def insert(world: WorldLink, params: Params) -> Any:
     """``world.insert``: puts a model into the world; returns the name that it has there."""
     source = Params("world.insert", params.object("source"))
     text, wanted = _text_of(source)
-    names = call_world(studio, "get_world_properties", "gazebo_msgs/GetWorldProperties")
+    names = world.call("get_world_properties", "gazebo_msgs/GetWorldProperties")
     name = _free_name(params.text("name", "") or wanted, set(names.model_names))
     service = "spawn_urdf_model" if _is_urdf(text) else "spawn_sdf_model"
     try:
-        call_world(
-            studio,
+        world.call(
             service,
             "gazebo_msgs/SpawnModel",
             model_name=name,

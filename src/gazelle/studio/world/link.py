@@ -3,51 +3,64 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from typing import Any
 
+from gazelle.graph import Node
 from gazelle.graph.world import SHOWN_SPACE, offered_name
 from gazelle.interfaces import message_type
 from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.services import request_response
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 
-__all__ = ["ask_world", "call_world", "has_world", "pose_message", "pose_of"]
+__all__ = ["WorldLink", "pose_message", "pose_of"]
 
 _DO = "/_gazelle/do"
 
 
-def has_world(studio: Studio) -> bool:
-    """Tell whether a world is on the graph."""
-    return studio.graph.has_service(_DO)
+@dataclass(frozen=True)
+class WorldLink:
+    """The running world, if there is one.
 
-
-def call_world(studio: Studio, name: str, type_name: str, **fields: Any) -> Any:
-    """Call ``/gazebo/NAME``, or what it is hidden as, and return the response.
-
-    Raises:
-        StudioError: there is no world, or it refuses.
+    Attributes:
+        node: who calls it.
     """
-    _check(studio)
-    service = offered_name(studio.graph, f"{SHOWN_SPACE}/{name}")
-    response = request_response(studio, service, type_name, **fields)
-    if not getattr(response, "success", True):
-        raise StudioError(response.status_message)
-    return response
 
+    node: Node
 
-def ask_world(studio: Studio, **request: Any) -> Any:
-    """Send a request to ``/_gazelle/do`` and return its value.
+    def call(self, name: str, type_name: str, **fields: Any) -> Any:
+        """Call ``/gazebo/NAME``, or what it is hidden as, and return the response.
 
-    Raises:
-        StudioError: there is no world, or it refuses.
-    """
-    _check(studio)
-    response = request_response(studio, _DO, "gazelle_msgs/Do", request=json.dumps(request))
-    answer = json.loads(response.response)
-    if "error" in answer:
-        raise StudioError(answer["error"]["message"])
-    return answer["value"]
+        Raises:
+            StudioError: there is no world, or it refuses.
+        """
+        self._check()
+        service = offered_name(self.node.graph, f"{SHOWN_SPACE}/{name}")
+        response = request_response(self.node, service, type_name, **fields)
+        if not getattr(response, "success", True):
+            raise StudioError(response.status_message)
+        return response
+
+    def ask(self, **request: Any) -> Any:
+        """Send a request to ``/_gazelle/do`` and return its value.
+
+        Raises:
+            StudioError: there is no world, or it refuses.
+        """
+        self._check()
+        text = json.dumps(request)
+        response = request_response(self.node, _DO, "gazelle_msgs/Do", request=text)
+        answer = json.loads(response.response)
+        if "error" in answer:
+            raise StudioError(answer["error"]["message"])
+        return answer["value"]
+
+    def _check(self) -> None:
+        if not self.node.graph.has_service(_DO):
+            raise StudioError(
+                "no world is running on this graph",
+                hint="start one with roslaunch, gzserver or gazebo",
+            )
 
 
 def pose_of(params: Params, name: str = "pose") -> list[float]:
@@ -66,11 +79,3 @@ def pose_message(values: list[float]) -> Any:
     place, turn = message.position, message.orientation
     place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w = values
     return message
-
-
-def _check(studio: Studio) -> None:
-    if not has_world(studio):
-        raise StudioError(
-            "no world is running on this graph",
-            hint="start one with roslaunch, gzserver or gazebo",
-        )

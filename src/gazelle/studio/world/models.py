@@ -14,7 +14,6 @@ from gazelle.errors import GazelleError
 from gazelle.studio.errors import StudioError
 from gazelle.studio.files import Answer
 from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
 from gazelle.workspace import Workspace
 
 __all__ = ["ModelEntry", "list_models", "model_folder", "thumbnail"]
@@ -40,7 +39,7 @@ class ModelEntry(TypedDict):
     thumbnail: str
 
 
-def list_models(_studio: Studio, _params: Params) -> list[ModelEntry]:
+def list_models(_params: Params) -> list[ModelEntry]:
     """``world.models``: sorted by title."""
     models = [_described(name, folder) for name, folder in Workspace.discover().models.items()]
     return sorted(models, key=lambda model: model["title"].lower())
@@ -63,7 +62,7 @@ def model_folder(name: str) -> Path:
     return folder
 
 
-def thumbnail(_studio: Studio, name: str) -> Answer | None:
+def thumbnail(_part: object, name: str) -> Answer | None:
     """``/thumbnail/<model>``: the model's own picture, else one drawn now; blank for lights."""
     from PIL import Image
 

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-from gazelle.studio.files import Route
-from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
+from gazelle.studio.rows import Method, Route, methods_of, methods_without, streams_of
 from gazelle.studio.streams import StreamKind
+from gazelle.studio.taps import Taps
 from gazelle.studio.world.editing import (
     apply_wrench,
     command_joint,
@@ -19,9 +15,12 @@ from gazelle.studio.world.editing import (
     set_property,
 )
 from gazelle.studio.world.inserting import insert
+from gazelle.studio.world.link import WorldLink
 from gazelle.studio.world.models import list_models, thumbnail
+from gazelle.studio.world.parts import WorldParts
 from gazelle.studio.world.time import pause, play, reset, set_factor, step
 from gazelle.studio.world.watching import (
+    Scene,
     open_contacts,
     open_joints,
     open_poses,
@@ -31,13 +30,12 @@ from gazelle.studio.world.watching import (
 
 __all__ = ["METHODS", "ROUTES", "STREAMS"]
 
-METHODS: dict[str, Callable[[Studio, Params], Any]] = {
+_CALLS: dict[str, Method[WorldLink]] = {
     "world.delete": delete_model,
     "world.factor": set_factor,
     "world.insert": insert,
     "world.joint": command_joint,
     "world.light": set_light,
-    "world.models": list_models,
     "world.pause": pause,
     "world.play": play,
     "world.properties": get_properties,
@@ -47,11 +45,22 @@ METHODS: dict[str, Callable[[Studio, Params], Any]] = {
     "world.step": step,
     "world.wrench": apply_wrench,
 }
-STREAMS: dict[str, StreamKind] = {
+_TOPICS: dict[str, StreamKind[Taps]] = {
     "world.contacts": StreamKind(latest=True, open=open_contacts),
-    "world.joints": StreamKind(latest=True, open=open_joints),
     "world.poses": StreamKind(latest=True, open=open_poses),
-    "world.scene": StreamKind(latest=False, open=open_scene),
     "world.stats": StreamKind(latest=True, open=open_stats),
 }
-ROUTES: dict[str, Route] = {"thumbnail": thumbnail}
+_SCENE: dict[str, StreamKind[Scene]] = {
+    "world.joints": StreamKind(latest=True, open=open_joints),
+    "world.scene": StreamKind(latest=False, open=open_scene),
+}
+
+METHODS: dict[str, Method[WorldParts]] = {
+    **methods_of(lambda parts: parts.link, _CALLS),
+    **methods_without({"world.models": list_models}),
+}
+STREAMS: dict[str, StreamKind[WorldParts]] = {
+    **streams_of(lambda parts: parts.taps, _TOPICS),
+    **streams_of(lambda parts: parts.scene(), _SCENE),
+}
+ROUTES: dict[str, Route[object]] = {"thumbnail": thumbnail}

@@ -13,9 +13,9 @@ from gazelle.studio.errors import unknown
 from gazelle.studio.params import Params
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.shapes import PageGeometry, page_scene
-from gazelle.studio.session import Studio
 from gazelle.studio.streams import Channel, Frame, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.taps import Sample, Taps
+from gazelle.studio.workers import Workers
 
 __all__ = [
     "Scene",
@@ -50,17 +50,24 @@ class WorldJoint(TypedDict):
 
 
 class Scene:
-    """The world's scene value as it is now, for all pages; None while there is no world."""
+    """The world's scene value as it is now, for all pages; None while there is no world.
 
-    def __init__(self, studio: Studio) -> None:
-        """Follow the world of a Studio's graph."""
-        self._studio = studio
+    Attributes:
+        taps: topics; what moves in the scene is on some of them.
+        close: follows the world no more.
+    """
+
+    def __init__(self, taps: Taps, workers: Workers, assets: Assets) -> None:
+        """Follow the world of a graph; workers read meshes, `assets` keeps them."""
+        self.taps = taps
+        self._workers = workers
+        self._assets = assets
         self._lock = threading.Lock()
         self._followers: list[Channel] = []
         self._value: PageScene | None = None
         self._count = self._shown = 0
-        studio.graph.discovery.listen(self._on_entity)
-        studio.on_close(studio.taps.listen(_SCENE, self._take))
+        taps.node.graph.discovery.listen(self._on_entity)
+        self.close: Callable[[], None] = taps.listen(_SCENE, self._take)
 
     @property
     def value(self) -> PageScene | None:
@@ -91,11 +98,10 @@ class Scene:
         with self._lock:
             self._count += 1
             number = self._count
-        self._studio.workers.submit(lambda: self._show(number, make()))
+        self._workers.submit(lambda: self._show(number, make()))
 
     def _show(self, number: int, value: SceneValue[WorldGeometry] | None) -> None:
-        assets = self._studio.shared(Assets)
-        finished = None if value is None else page_scene(value, assets)
+        finished = None if value is None else page_scene(value, self._assets)
         with self._lock:
             # Workers do not finish in order.
             if number <= self._shown:
@@ -105,34 +111,33 @@ class Scene:
                 channel.add(finished)
 
 
-def open_scene(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+def open_scene(scene: Scene, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``world.scene``."""
-    return OpenStream(studio.shared(Scene).follow(channel))
+    return OpenStream(scene.follow(channel))
 
 
-def open_poses(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+def open_poses(taps: Taps, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``world.poses``."""
-    return _frames(studio, channel, "/_gazelle/poses", _POSES)
+    return _frames(taps, channel, "/_gazelle/poses", _POSES)
 
 
-def open_contacts(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+def open_contacts(taps: Taps, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``world.contacts``."""
-    return _frames(studio, channel, "/_gazelle/contacts", _CONTACTS)
+    return _frames(taps, channel, "/_gazelle/contacts", _CONTACTS)
 
 
-def open_stats(studio: Studio, channel: Channel, _params: Params) -> OpenStream:
+def open_stats(taps: Taps, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``world.stats``."""
 
     def take(sample: Sample) -> None:
         channel.offer(lambda: json.loads(sample.message().data))
 
-    return OpenStream(studio.taps.listen("/_gazelle/stats", take))
+    return OpenStream(taps.listen("/_gazelle/stats", take))
 
 
-def open_joints(studio: Studio, channel: Channel, params: Params) -> OpenStream:
+def open_joints(scene: Scene, channel: Channel, params: Params) -> OpenStream:
     """Stream ``world.joints`` of one model."""
-    scene, model = studio.shared(Scene), params.text("model")
-    value = scene.value
+    model, value = params.text("model"), scene.value
     names = [one["name"] for one in value["models"]] if value is not None else []
     if model not in names:
         raise unknown("model", model, names)
@@ -140,10 +145,10 @@ def open_joints(studio: Studio, channel: Channel, params: Params) -> OpenStream:
     def take(sample: Sample) -> None:
         channel.offer(lambda: _joint_rows(scene.value, model, sample.message()))
 
-    return OpenStream(studio.taps.listen("/_gazelle/joints", take))
+    return OpenStream(scene.taps.listen("/_gazelle/joints", take))
 
 
-def _frames(studio: Studio, channel: Channel, topic: str, kind: int) -> OpenStream:
+def _frames(taps: Taps, channel: Channel, topic: str, kind: int) -> OpenStream:
     def make(sample: Sample) -> Frame:
         message = sample.message()
         count = len(message.values) // message.width
@@ -152,7 +157,7 @@ def _frames(studio: Studio, channel: Channel, topic: str, kind: int) -> OpenStre
     def take(sample: Sample) -> None:
         channel.offer(lambda: make(sample))
 
-    return OpenStream(studio.taps.listen(topic, take))
+    return OpenStream(taps.listen(topic, take))
 
 
 def _joint_rows(scene: PageScene | None, model: str, frames: Any) -> list[WorldJoint] | None:

@@ -1,0 +1,36 @@
+"""What methods and streams of the world work on."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from dataclasses import dataclass
+
+from gazelle.studio.once import Once, closed_with
+from gazelle.studio.scenes.assets import Assets
+from gazelle.studio.taps import Taps
+from gazelle.studio.workers import Workers
+from gazelle.studio.world.link import WorldLink
+from gazelle.studio.world.watching import Scene
+
+__all__ = ["WorldParts", "world_parts"]
+
+
+@dataclass(frozen=True)
+class WorldParts:
+    """The world of a graph, if one is running.
+
+    Attributes:
+        link: calls it.
+        taps: its topics.
+        scene: what is in it; followed from the first look on.
+    """
+
+    link: WorldLink
+    taps: Taps
+    scene: Once[Scene]
+
+
+def world_parts(taps: Taps, workers: Workers, assets: Assets, ending: ExitStack) -> WorldParts:
+    """Return the parts that end with others."""
+    scene = Once(lambda: closed_with(ending, Scene(taps, workers, assets)))
+    return WorldParts(WorldLink(taps.node), taps, scene)
