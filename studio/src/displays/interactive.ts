@@ -1,12 +1,13 @@
 /** InteractiveMarkers: markers of programs that people drag, press and open menus of. */
 import * as THREE from 'three';
+import type { InteractiveFrame, InteractiveMarker, InteractiveMarkerControl } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
 import { freeLabel, label } from '../scene/labels';
 import type { Drawing, Drawer, Site } from './display';
-import { ControlDrag, controlAxis, defaultHandle, type Control, type InteractiveMarker } from './interactive_controls';
+import { ControlDrag, controlAxis, defaultHandle } from './interactive_controls';
 import { MarkerSet } from './marker_set';
-import { arrayMatrix, list, part, poseMatrix, type PoseMessage } from './message';
+import { arrayMatrix, poseMatrix } from './message';
 import { flag } from './properties';
 
 /** Event types of InteractiveMarkerFeedback. */
@@ -26,8 +27,8 @@ export const INTERACTIVE_MARKERS: Drawing = {
 
 /** What the tool Interact finds at an object: `userData.interact`. */
 export interface Handle {
-  marker: InteractiveMarker;
-  control: Control;
+  marker: Pick<InteractiveMarker, 'name' | 'menu_entries'>;
+  control: InteractiveMarkerControl;
   begin(ray: THREE.Ray): ControlDrag;
   moveTo(pose: THREE.Matrix4): void;
   send(event: number, menu?: number, point?: THREE.Vector3): void;
@@ -47,19 +48,18 @@ class InteractiveDrawer implements Drawer {
   constructor(private readonly site: Site) {}
 
   take(value: JsonObject): void {
-    const message = part(value, 'message');
+    const { message, poses: bases } = value as unknown as InteractiveFrame;
     const { status, frames } = this.site;
-    for (const name of list<string>(message, 'erases')) this.erase(name);
-    const bases = list<number[] | null>(value, 'poses');
+    for (const name of message.erases) this.erase(name);
     let lost = '';
-    list<InteractiveMarker>(message, 'markers').forEach((marker, index) => {
-      const base = arrayMatrix(bases[index] as never);
+    message.markers.forEach((marker, index) => {
+      const base = arrayMatrix(bases[index]);
       if (base) this.build(marker, base);
       else lost = marker.header.frame_id;
     });
-    for (const update of list<{ name: string; pose: PoseMessage }>(message, 'poses')) {
+    for (const update of message.poses) {
       const found = this.markers.get(update.name);
-      if (found && !found.held) setPose(found, found.base.clone().multiply(poseMatrix(update.pose as never)));
+      if (found && !found.held) setPose(found, found.base.clone().multiply(poseMatrix(update.pose)));
     }
     if (lost) status('Transform', 'error', `No transform from [${lost}] to [${frames.fixed}]`);
     else status('Transform', 'ok', 'Transform OK');
@@ -95,7 +95,7 @@ class InteractiveDrawer implements Drawer {
     const node = new THREE.Group();
     node.name = marker.name;
     const shown: Shown = { marker, base, node, sets: [], held: false };
-    setPose(shown, base.clone().multiply(poseMatrix(marker.pose as never)));
+    setPose(shown, base.clone().multiply(poseMatrix(marker.pose)));
     const size = marker.scale || 1;
     if (marker.description && this.site.props.flag('Show Descriptions')) {
       const words = label(marker.description, { height: 0.12 * size, onTop: true });
@@ -108,11 +108,11 @@ class InteractiveDrawer implements Drawer {
     this.markers.set(marker.name, shown);
   }
 
-  private control(shown: Shown, control: Control, size: number): THREE.Object3D {
+  private control(shown: Shown, control: InteractiveMarkerControl, size: number): THREE.Object3D {
     const group = new THREE.Group();
     group.name = control.name || 'control';
     if (control.interaction_mode > 0) group.userData.interact = this.handle(shown, control);
-    const own = control.markers ?? [];
+    const own = control.markers;
     if (!own.length) {
       const mesh = defaultHandle(control, size);
       if (mesh) group.add(mesh);
@@ -125,7 +125,7 @@ class InteractiveDrawer implements Drawer {
     return group;
   }
 
-  private handle(shown: Shown, control: Control): Handle {
+  private handle(shown: Shown, control: InteractiveMarkerControl): Handle {
     return {
       marker: shown.marker,
       control,
@@ -147,7 +147,7 @@ class InteractiveDrawer implements Drawer {
     };
   }
 
-  private feedback(shown: Shown, control: Control, event: number, menu: number, point?: THREE.Vector3): void {
+  private feedback(shown: Shown, control: InteractiveMarkerControl, event: number, menu: number, point?: THREE.Vector3): void {
     const { connection, graph, frames } = this.site;
     shown.node.updateMatrix();
     const pose = poseOf(shown.node.matrix);

@@ -1,30 +1,7 @@
 /** The controls of interactive markers: what they look like and how they are dragged. */
 import * as THREE from 'three';
 import { arrowGeometry, joined, shared } from '../model/geometry';
-import type { MarkerMessage } from './marker_shapes';
-import type { PoseMessage } from './message';
-
-/** One control of visualization_msgs/InteractiveMarkerControl. */
-export interface Control {
-  name: string;
-  orientation: { x: number; y: number; z: number; w: number };
-  orientation_mode: number;
-  interaction_mode: number;
-  always_visible: boolean;
-  markers: MarkerMessage[];
-  description: string;
-}
-
-/** visualization_msgs/InteractiveMarker. */
-export interface InteractiveMarker {
-  header: { frame_id: string };
-  name: string;
-  description: string;
-  scale: number;
-  pose: PoseMessage;
-  menu_entries: { id: number; parent_id: number; title: string; command: string; command_type: number }[];
-  controls: Control[];
-}
+import type { InteractiveMarkerControl } from '../generated/messages';
 
 export const MENU = 1, BUTTON = 2, MOVE_AXIS = 3, MOVE_PLANE = 4, ROTATE_AXIS = 5, MOVE_ROTATE = 6,
   MOVE_3D = 7, ROTATE_3D = 8, MOVE_ROTATE_3D = 9;
@@ -33,7 +10,7 @@ export const MENU = 1, BUTTON = 2, MOVE_AXIS = 3, MOVE_PLANE = 4, ROTATE_AXIS = 
 export const isDragged = (mode: number): boolean => mode >= MOVE_AXIS;
 
 /** The direction a control acts along, in the marker's frame: its orientation's x axis. */
-export function controlAxis(control: Control): THREE.Vector3 {
+export function controlAxis(control: InteractiveMarkerControl): THREE.Vector3 {
   const { x, y, z, w } = control.orientation;
   const turn = new THREE.Quaternion(x, y, z, w);
   if (turn.lengthSq() < 1e-9) turn.identity();
@@ -41,7 +18,7 @@ export function controlAxis(control: Control): THREE.Vector3 {
 }
 
 /** The handle of a control without markers of its own: arrows both ways, or a ring. */
-export function defaultHandle(control: Control, size: number): THREE.Mesh | null {
+export function defaultHandle(control: InteractiveMarkerControl, size: number): THREE.Mesh | null {
   const mode = control.interaction_mode;
   if (mode < MOVE_AXIS) return null;
   const axis = controlAxis(control);

@@ -1,11 +1,12 @@
 /** All markers of a display: instanced pools by shape and opacity, and single objects. */
 import * as THREE from 'three';
-import { solidGeometry, instancesOf, singleOf, type Instance, type MarkerMessage, type Single, type Solid } from './marker_shapes';
+import type { Marker } from '../generated/messages';
+import { solidGeometry, instancesOf, singleOf, type Instance, type Single, type Solid } from './marker_shapes';
 import { poseMatrix, seconds } from './message';
 import { InstancePool } from './shapes';
 
 interface Kept {
-  marker: MarkerMessage;
+  marker: Marker;
   base: THREE.Matrix4;
   single: Single | null;
   instances: Instance[];
@@ -34,7 +35,7 @@ export class MarkerSet {
   }
 
   /** Take a marker; `base` is where its header's frame is. Returns what is wrong with it. */
-  take(marker: MarkerMessage, base: THREE.Matrix4): string | null {
+  take(marker: Marker, base: THREE.Matrix4): string | null {
     const key = `${marker.ns}/${marker.id}`;
     if (marker.action === DELETE_ALL) return this.clear(), null;
     if (marker.action === DELETE) return this.remove(key), null;
@@ -43,11 +44,11 @@ export class MarkerSet {
     const problem = wrong(marker);
     const instances = instancesOf(marker, base);
     const single = instances.length ? null : singleOf(marker, this.changed);
-    const life = seconds(marker.lifetime as never);
+    const life = seconds(marker.lifetime);
     const until_ms = life > 0 ? performance.now() + life * 1000 : Infinity;
     this.kept.set(key, { marker, base, single, instances, until_ms });
     if (single) {
-      single.object.applyMatrix4(base.clone().multiply(poseMatrix(marker.pose as never)));
+      single.object.applyMatrix4(base.clone().multiply(poseMatrix(marker.pose)));
       single.object.visible = this.shows(marker.ns);
       this.root.add(single.object);
     }
@@ -131,7 +132,7 @@ export class MarkerSet {
 }
 
 /** What RViz would warn of. */
-function wrong({ scale, color, type, ns, id, points, mesh, mesh_resource: resource }: MarkerMessage): string | null {
+function wrong({ scale, color, type, ns, id, points, mesh, mesh_resource: resource }: Marker): string | null {
   const name = `${ns}/${id}`;
   if (color.a === 0 && type !== 10 && !(points.length && type >= 4)) return `Marker ${name} is invisible: its color.a is 0`;
   if (type <= 3 && !points.length && scale.x * scale.y * scale.z === 0) return `Marker ${name}: scale contains 0.0 in x, y or z`;

@@ -3,36 +3,10 @@ import * as THREE from 'three';
 import { loadMesh } from '../model/assets';
 import { arrowGeometry, shared, unit } from '../model/geometry';
 import { material } from '../model/materials';
-import type { MeshPartValue } from '../generated/messages';
+import type { ColorRGBA, Marker, Vector3 } from '../generated/messages';
 import { freeLabel, label } from '../scene/labels';
 import { strip, WideLines } from './lines';
-import { poseMatrix, type PoseMessage, type XYZ } from './message';
-
-export interface Colour {
-  r: number;
-  g: number;
-  b: number;
-  a: number;
-}
-
-/** A marker as the server sends it: ROS 2's fields, the mesh already fetched. */
-export interface MarkerMessage {
-  ns: string;
-  id: number;
-  type: number;
-  action: number;
-  pose: PoseMessage;
-  scale: XYZ;
-  color: Colour;
-  lifetime: { sec: number; nanosec: number };
-  frame_locked: boolean;
-  points: XYZ[];
-  colors: Colour[];
-  text: string;
-  mesh_resource: string;
-  mesh_use_embedded_materials: boolean;
-  mesh?: MeshPartValue[];
-}
+import { poseMatrix } from './message';
 
 export const ARROW = 0, CUBE = 1, SPHERE = 2, CYLINDER = 3, LINE_STRIP = 4, LINE_LIST = 5,
   CUBE_LIST = 6, SPHERE_LIST = 7, POINTS = 8, TEXT = 9, MESH = 10, TRIANGLES = 11;
@@ -41,7 +15,7 @@ export const ARROW = 0, CUBE = 1, SPHERE = 2, CYLINDER = 3, LINE_STRIP = 4, LINE
 export interface Instance {
   solid: Solid;
   matrix: THREE.Matrix4;
-  colour: Colour;
+  colour: ColorRGBA;
 }
 export type Solid = 'cube' | 'sphere' | 'cylinder' | 'arrow' | 'square' | 'ball';
 
@@ -58,11 +32,11 @@ export function solidGeometry(solid: Solid): THREE.BufferGeometry {
 }
 
 /** The instances of a marker, in the frame its base pose is in; none for other types. */
-export function instancesOf(marker: MarkerMessage, base: THREE.Matrix4): Instance[] {
-  const at = base.clone().multiply(poseMatrix(marker.pose as never));
+export function instancesOf(marker: Marker, base: THREE.Matrix4): Instance[] {
+  const at = base.clone().multiply(poseMatrix(marker.pose));
   const { scale, color } = marker;
-  const one = (solid: Solid, size: XYZ): Instance[] => [{ solid, matrix: at.clone().scale(new THREE.Vector3(size.x, size.y, size.z)), colour: color }];
-  const all = (solid: Solid, size: XYZ): Instance[] => marker.points.map((point, index) => ({
+  const one = (solid: Solid, size: Vector3): Instance[] => [{ solid, matrix: at.clone().scale(new THREE.Vector3(size.x, size.y, size.z)), colour: color }];
+  const all = (solid: Solid, size: Vector3): Instance[] => marker.points.map((point, index) => ({
     solid,
     matrix: at.clone().multiply(new THREE.Matrix4().makeScale(size.x, size.y, size.z).setPosition(point.x, point.y, point.z)),
     colour: marker.colors[index] ?? color,
@@ -86,7 +60,7 @@ export interface Single {
 }
 
 /** Draw a marker by itself, in its own frame; null for a type that is not known. */
-export function singleOf(marker: MarkerMessage, changed: () => void): Single | null {
+export function singleOf(marker: Marker, changed: () => void): Single | null {
   switch (marker.type) {
     case ARROW: return pointArrow(marker);
     case LINE_STRIP: return lines(marker, strip(marker.points), pairs(marker));
@@ -98,11 +72,11 @@ export function singleOf(marker: MarkerMessage, changed: () => void): Single | n
   }
 }
 
-function rgb({ r, g, b }: Colour): [number, number, number] {
+function rgb({ r, g, b }: ColorRGBA): [number, number, number] {
   return [r, g, b];
 }
 
-function phong(colour: Colour): THREE.MeshPhongMaterial {
+function phong(colour: ColorRGBA): THREE.MeshPhongMaterial {
   const made = new THREE.MeshPhongMaterial({ opacity: colour.a, transparent: colour.a < 0.9998, side: THREE.DoubleSide });
   made.color.setRGB(...rgb(colour));
   made.depthWrite = !made.transparent;
@@ -110,7 +84,7 @@ function phong(colour: Colour): THREE.MeshPhongMaterial {
 }
 
 /** From the first point to the second: scale.x is the shaft's diameter, y the head's, z its length. */
-function pointArrow({ points, scale, color }: MarkerMessage): Single {
+function pointArrow({ points, scale, color }: Marker): Single {
   const from = new THREE.Vector3(points[0].x, points[0].y, points[0].z);
   const along = new THREE.Vector3(points[1].x, points[1].y, points[1].z).sub(from);
   const length = Math.max(along.length(), 1e-6);
@@ -122,12 +96,12 @@ function pointArrow({ points, scale, color }: MarkerMessage): Single {
   return { object, free: () => [geometry, object.material].forEach((each) => each.dispose()) };
 }
 
-function pairs({ colors, points }: MarkerMessage): Colour[] {
+function pairs({ colors, points }: Marker): ColorRGBA[] {
   if (colors.length !== points.length) return [];
   return colors.slice(1).flatMap((colour, index) => [colors[index], colour]);
 }
 
-function lines({ scale, color, ...marker }: MarkerMessage, points: number[], colours: readonly Colour[]): Single {
+function lines({ scale, color, ...marker }: Marker, points: number[], colours: readonly ColorRGBA[]): Single {
   const object = new THREE.Group();
   const drawn = new WideLines(object);
   const own = colours.length * 3 === points.length && colours.length > 0;
@@ -136,12 +110,12 @@ function lines({ scale, color, ...marker }: MarkerMessage, points: number[], col
   return { object, free: () => drawn.dispose() };
 }
 
-function text({ text: words, scale, color }: MarkerMessage): Single {
+function text({ text: words, scale, color }: Marker): Single {
   const object = label(words || ' ', { height: scale.z * 1.25, colour: rgb(color), alpha: color.a });
   return { object, free: () => freeLabel(object) };
 }
 
-function mesh(marker: MarkerMessage, changed: () => void): Single {
+function mesh(marker: Marker, changed: () => void): Single {
   const object = new THREE.Group();
   const { x, y, z } = marker.scale;
   const owned: THREE.Material[] = [];
@@ -161,7 +135,7 @@ function mesh(marker: MarkerMessage, changed: () => void): Single {
   return { object, free: () => owned.forEach((each) => each.dispose()) };
 }
 
-function triangles({ points, colors, color, scale }: MarkerMessage): Single {
+function triangles({ points, colors, color, scale }: Marker): Single {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.Float32BufferAttribute(points.flatMap(({ x, y, z }) => [x, y, z]), 3));
   const paint = phong(colors.length ? { r: 1, g: 1, b: 1, a: colors[0].a } : color);

@@ -1,9 +1,9 @@
 /** Marker and MarkerArray. */
+import type { MarkerFrame } from '../generated/messages';
 import type { JsonObject } from '../json';
 import type { Drawing, Drawer, Site } from './display';
 import { MarkerSet } from './marker_set';
-import type { MarkerMessage } from './marker_shapes';
-import { arrayMatrix, list, part } from './message';
+import { arrayMatrix } from './message';
 import { flag } from './properties';
 
 /** RViz's Marker and MarkerArray; like RViz's it also understands arrays on `<topic>_array`. */
@@ -27,15 +27,13 @@ class MarkersDrawer implements Drawer {
   }
 
   take(value: JsonObject): void {
-    const message = part(value, 'message');
-    const markers = 'markers' in message ? list<MarkerMessage>(message, 'markers') : [message as unknown as MarkerMessage];
-    const poses = 'markers' in message ? list<number[] | null>(value, 'poses') : [value['pose']];
+    const { message: { markers }, poses } = value as unknown as MarkerFrame;
     let problem: string | null = null;
     let lost = '';
     markers.forEach((marker, index) => {
-      const base = arrayMatrix(poses[index] as never);
+      const base = arrayMatrix(poses[index]);
       const deletes = marker.action === 2 || marker.action === 3;
-      if (base === null && !deletes) lost ||= frameOf(marker);
+      if (base === null && !deletes) lost ||= marker.header.frame_id;
       else problem = this.set.take(marker, base ?? IDENTITY) ?? problem;
     });
     const { status, frames } = this.site;
@@ -62,10 +60,6 @@ class MarkersDrawer implements Drawer {
   counts(): Record<string, number> {
     return this.set.counts();
   }
-}
-
-function frameOf(marker: MarkerMessage): string {
-  return String(part(marker as never, 'header')['frame_id'] ?? '');
 }
 
 const IDENTITY = arrayMatrix([0, 0, 0, 0, 0, 0, 1]) as NonNullable<ReturnType<typeof arrayMatrix>>;

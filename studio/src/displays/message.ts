@@ -1,17 +1,7 @@
 /** Fields of messages as the displays need them: ROS 2's names, read with care. */
 import * as THREE from 'three';
+import type { Duration, Pose, Time, Vector3 } from '../generated/messages';
 import { isObject, type Json, type JsonObject } from '../json';
-
-export interface XYZ {
-  x: number;
-  y: number;
-  z: number;
-}
-
-export interface PoseMessage {
-  position: XYZ;
-  orientation: XYZ & { w: number };
-}
 
 /** The object under a path of names; empty where there is none. */
 export function part(value: Json | undefined, ...names: string[]): JsonObject {
@@ -27,17 +17,17 @@ export function list<T>(value: JsonObject, name: string): T[] {
 }
 
 /** A vector of three fields. */
-export function vector(value: Json | undefined): THREE.Vector3 {
-  const { x, y, z } = part(value) as unknown as Partial<XYZ>;
+export function vector(value: Vector3 | Json | undefined): THREE.Vector3 {
+  const { x, y, z } = part(value as Json) as unknown as Partial<Vector3>;
   return new THREE.Vector3(x ?? 0, y ?? 0, z ?? 0);
 }
 
 /** A `geometry_msgs/Pose` as a matrix; a quaternion of zeros counts as no turn, as in RViz. */
-export function poseMatrix(value: Json | undefined): THREE.Matrix4 {
-  const { x = 0, y = 0, z = 0, w = 1 } = part(value, 'orientation') as unknown as Partial<PoseMessage['orientation']>;
+export function poseMatrix(value: Pose | Json | undefined): THREE.Matrix4 {
+  const { x = 0, y = 0, z = 0, w = 1 } = part(value as Json, 'orientation') as unknown as Partial<Pose['orientation']>;
   const turn = new THREE.Quaternion(x, y, z, w);
   if (turn.lengthSq() < 1e-12) turn.set(0, 0, 0, 1);
-  return new THREE.Matrix4().compose(vector(part(value)['position']), turn.normalize(), ONE);
+  return new THREE.Matrix4().compose(vector(part(value as Json)['position']), turn.normalize(), ONE);
 }
 
 const ONE = new THREE.Vector3(1, 1, 1);
@@ -50,8 +40,8 @@ export function arrayMatrix(value: Json | undefined): THREE.Matrix4 | null {
 }
 
 /** Seconds of a duration or stamp, by ROS 1's or ROS 2's names. */
-export function seconds(value: Json | undefined): number {
-  const { sec, secs, nanosec, nsecs } = part(value) as Record<string, number>;
+export function seconds(value: Duration | Time | Json | undefined): number {
+  const { sec, secs, nanosec, nsecs } = part(value as Json) as Record<string, number>;
   return (sec ?? secs ?? 0) + (nanosec ?? nsecs ?? 0) * 1e-9;
 }
 

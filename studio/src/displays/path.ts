@@ -1,9 +1,10 @@
 /** Path and Polygon: lines through points. */
 import type * as THREE from 'three';
+import type { Point, PoseStamped } from '../generated/messages';
 import type { JsonObject } from '../json';
 import type { Drawing, Drawer, Site } from './display';
 import { strip, ThinLines, WideLines } from './lines';
-import { list, part, poseMatrix, vector, type PoseMessage, type XYZ } from './message';
+import { list, part, poseMatrix, vector } from './message';
 import { choice, colour, num } from './properties';
 import { PoseShapes, shapeProperties } from './shapes';
 
@@ -24,7 +25,7 @@ class PathDrawer implements Drawer {
   private readonly thin: ThinLines;
   private readonly wide: WideLines;
   private readonly shapes: PoseShapes;
-  private poses: { pose: PoseMessage }[] = [];
+  private poses: PoseStamped[] = [];
 
   constructor(private readonly site: Site) {
     this.thin = new ThinLines(site.root);
@@ -67,7 +68,7 @@ class PathDrawer implements Drawer {
     this.wide.set(isWide ? points : []);
     const style = this.site.props.text('Pose Style');
     this.site.props.set('Pose', style === 'Axes' ? 'Axes' : 'Arrow');
-    const matrices = style === 'None' ? [] : this.poses.map((each) => poseMatrix(each.pose as never));
+    const matrices = style === 'None' ? [] : this.poses.map((each) => poseMatrix(each.pose));
     this.shapes.set(matrices);
   }
 }
@@ -83,7 +84,7 @@ export const POLYGON: Drawing = {
     let corners = 0;
     return {
       take(value) {
-        const points = list<XYZ>(part(value, 'message', 'polygon'), 'points');
+        const points = list<Point>(part(value, 'message', 'polygon'), 'points');
         corners = points.length;
         lines.set(strip(points.map((point) => vector(point as never) as THREE.Vector3), true));
       },

@@ -1,8 +1,9 @@
 /** Imu, Range, Wrench and GridCells. */
 import * as THREE from 'three';
+import type { Point } from '../generated/messages';
 import { arrowGeometry, shared, unit } from '../model/geometry';
 import type { Drawing } from './display';
-import { list, part, vector, type XYZ } from './message';
+import { list, part, vector } from './message';
 import { colour, flag, num } from './properties';
 import { InstancePool } from './shapes';
 
@@ -141,7 +142,7 @@ export const GRID_CELLS: Drawing = {
         const message = part(value, 'message');
         const [width, height] = [Number(message['cell_width']), Number(message['cell_height'])];
         pool.begin();
-        for (const { x, y, z } of list<XYZ>(message, 'cells')) pool.put(matrix.makeScale(width, height, 1).setPosition(x, y, z));
+        for (const { x, y, z } of list<Point>(message, 'cells')) pool.put(matrix.makeScale(width, height, 1).setPosition(x, y, z));
         pool.end();
         if (!(width > 0 && height > 0)) site.status('Cells', 'error', `Cells of ${width} x ${height} m cannot be drawn`);
       },

@@ -76,6 +76,80 @@ export interface GraphValue {
   actions: ActionRow[];
 }
 
+/** A topic, service or action of a node. */
+export interface EndpointRow {
+  name: string;
+  type: string;
+}
+
+/** What a node is. */
+export interface NodeInfo {
+  name: string;
+  publications: EndpointRow[];
+  subscriptions: EndpointRow[];
+  services: EndpointRow[];
+  clients: EndpointRow[];
+  action_servers: EndpointRow[];
+  action_clients: EndpointRow[];
+  /** null where nobody knows. */
+  pid: number | null;
+  host: string;
+}
+
+/** Whether a node that was asked to shut down has answered. */
+export interface NodeKill {
+  answered: boolean;
+}
+
+/** A node that lets the levels of its loggers be set. */
+export interface LoggerNode {
+  node: string;
+}
+
+/** A logger of a node; its level in a small word, `debug` to `fatal`. */
+export interface LoggerRow {
+  name: string;
+  level: string;
+}
+
+/** How many messages a publisher has sent. */
+export interface PublisherCount {
+  count: number;
+}
+
+/** A publisher that goes on by itself. */
+export interface PublisherRow {
+  count: number;
+  topic: string;
+  type: string;
+  rate_hz: number;
+  message: Record<string, Json>;
+  /** by the path of a number in the message. */
+  expressions: Record<string, Json>;
+  enabled: boolean;
+  /** why it went off by itself, empty while nothing is wrong. */
+  error: string;
+  /** chosen by the page. */
+  id: string;
+}
+
+/** What is told when the stream `action` is open: the goal is on its way. */
+export interface ActionOpened {
+  type: string;
+  goal_id: string;
+}
+
+/** How a goal stands, of the stream `action`. */
+export interface GoalState {
+  /** in capitals, as in `SUCCEEDED`. */
+  state: string;
+  text: string;
+  /** the last one, null before it. */
+  feedback: Json;
+  /** null before it. */
+  result: Json;
+}
+
 /** What came on a topic in the last seconds. */
 export interface TopicStats {
   topic: string;
@@ -283,6 +357,44 @@ export interface RvizFile {
   panels: string[];
   /** its parts that mean nothing here. */
   unknown: string[];
+}
+
+/** What is added to a marker with a mesh: its parts, none where it cannot be read. */
+export interface MarkerMesh {
+  mesh?: MeshPartValue[];
+}
+
+/** Markers that came, of `visualization_msgs/Marker` and `MarkerArray` alike. */
+export interface MarkerList {
+  markers: Marker[];
+}
+
+/** A frame of the displays Marker and MarkerArray. */
+export interface MarkerFrame {
+  pose: null;
+  stamp_s: number;
+  frame: string;
+  message: MarkerList;
+  /** of each marker's frame in the fixed one. */
+  poses: [number, number, number, number, number, number, number][];
+}
+
+/** What changed of a server's interactive markers; `erases` are names of those that went. */
+export interface InteractiveMarkers {
+  server_id: string;
+  markers: InteractiveMarker[];
+  poses: InteractiveMarkerPose[];
+  erases: string[];
+}
+
+/** A frame of the display InteractiveMarkers. */
+export interface InteractiveFrame {
+  pose: null;
+  stamp_s: number;
+  frame: string;
+  message: InteractiveMarkers;
+  /** of each marker's frame in the fixed one. */
+  poses: [number, number, number, number, number, number, number][];
 }
 
 /** How a surface looks; colours are r, g, b, a from 0 to 1. */
@@ -681,6 +793,183 @@ export interface PanelState {
   values: Record<string, Json>;
   /** of its plots: `[t, value…]` each. */
   points: Record<string, Json[]>;
+}
+
+/** A widget of Qt, and the Python expression that makes ours. */
+export interface PortedWidget {
+  /** its `objectName`. */
+  name: string;
+  /** its class in Qt. */
+  qt: string;
+  /** in the `.ui` file. */
+  line: number;
+  /** empty when there is none. */
+  ours: string;
+  /** what to know about it. */
+  note: string;
+}
+
+/** A form of Qt Designer, and what stands for its widgets. */
+export interface PortedForm {
+  file: string;
+  widgets: PortedWidget[];
+}
+
+/** How a plug-in of rqt becomes a panel. */
+export interface PortedPlugin {
+  name: string;
+  title: string;
+  text: string;
+  /** file and line that name it. */
+  manifest: string;
+  /** its file, empty where it is not known. */
+  source: string;
+  /** where the panel belongs. */
+  target: string;
+  forms: PortedForm[];
+  /** of a panel to begin with. */
+  code: string;
+}
+
+/** `builtin_interfaces/msg/Time`. */
+export interface Time {
+  sec: number;
+  nanosec: number;
+}
+
+/** `std_msgs/msg/Header`. */
+export interface Header {
+  stamp: Time;
+  frame_id: string;
+}
+
+/** `geometry_msgs/msg/Point`. */
+export interface Point {
+  x: number;
+  y: number;
+  z: number;
+}
+
+/** `geometry_msgs/msg/Quaternion`. */
+export interface Quaternion {
+  x: number;
+  y: number;
+  z: number;
+  w: number;
+}
+
+/** `geometry_msgs/msg/Pose`. */
+export interface Pose {
+  position: Point;
+  orientation: Quaternion;
+}
+
+/** `geometry_msgs/msg/PoseStamped`. */
+export interface PoseStamped {
+  header: Header;
+  pose: Pose;
+}
+
+/** `geometry_msgs/msg/Vector3`. */
+export interface Vector3 {
+  x: number;
+  y: number;
+  z: number;
+}
+
+/** `std_msgs/msg/ColorRGBA`. */
+export interface ColorRGBA {
+  r: number;
+  g: number;
+  b: number;
+  a: number;
+}
+
+/** `builtin_interfaces/msg/Duration`. */
+export interface Duration {
+  sec: number;
+  nanosec: number;
+}
+
+/** `sensor_msgs/msg/CompressedImage`. */
+export interface CompressedImage {
+  header: Header;
+  format: string;
+  data: number[];
+}
+
+/** `visualization_msgs/msg/UVCoordinate`. */
+export interface UVCoordinate {
+  u: number;
+  v: number;
+}
+
+/** `visualization_msgs/msg/MeshFile`. */
+export interface MeshFile {
+  filename: string;
+  data: number[];
+}
+
+/** `visualization_msgs/msg/Marker`. */
+export interface Marker extends MarkerMesh {
+  header: Header;
+  ns: string;
+  id: number;
+  type: number;
+  action: number;
+  pose: Pose;
+  scale: Vector3;
+  color: ColorRGBA;
+  lifetime: Duration;
+  frame_locked: boolean;
+  points: Point[];
+  colors: ColorRGBA[];
+  texture_resource: string;
+  texture: CompressedImage;
+  uv_coordinates: UVCoordinate[];
+  text: string;
+  mesh_resource: string;
+  mesh_file: MeshFile;
+  mesh_use_embedded_materials: boolean;
+}
+
+/** `visualization_msgs/msg/MenuEntry`. */
+export interface MenuEntry {
+  id: number;
+  parent_id: number;
+  title: string;
+  command: string;
+  command_type: number;
+}
+
+/** `visualization_msgs/msg/InteractiveMarkerControl`. */
+export interface InteractiveMarkerControl {
+  name: string;
+  orientation: Quaternion;
+  orientation_mode: number;
+  interaction_mode: number;
+  always_visible: boolean;
+  markers: Marker[];
+  independent_marker_orientation: boolean;
+  description: string;
+}
+
+/** `visualization_msgs/msg/InteractiveMarker`. */
+export interface InteractiveMarker {
+  header: Header;
+  pose: Pose;
+  name: string;
+  description: string;
+  scale: number;
+  menu_entries: MenuEntry[];
+  controls: InteractiveMarkerControl[];
+}
+
+/** `visualization_msgs/msg/InteractiveMarkerPose`. */
+export interface InteractiveMarkerPose {
+  header: Header;
+  pose: Pose;
+  name: string;
 }
 
 export type PageBody = BodyValue<BoxGeometry | SphereGeometry | RoundGeometry | EllipsoidGeometry | PlaneGeometry | MeshGeometry | MissingGeometry>;

@@ -4,7 +4,7 @@ import { CallError, inOneLine } from '../errors';
 import type { GraphStore } from '../graph_store';
 import { isObject, numberOf, type Json, type JsonObject } from '../json';
 import { jointGoal, outcomeOf, pathOf, poseMessage, robotState, type Outcome } from './messages';
-import type { MotionRobot } from '../generated/messages';
+import type { GoalState, MotionRobot } from '../generated/messages';
 import { groupOf, tipOf } from './robot';
 import type { MotionStore } from './store';
 
@@ -171,12 +171,11 @@ export class Planning {
         finish(() => this.fail(inOneLine(problem ?? new CallError(`${action} gave no result.`))));
       const channel = store.connection.open('action', { action, type: `moveit_msgs/action/${kind}`, goal }, {
         onData: (value) => {
-          for (const item of (Array.isArray(value) ? value : [value]).filter(isObject)) {
-            if (!OVER.test(String(item['state'])) || (!isObject(item['result']) && item['result'] !== null)) continue;
-            if (!isObject(item['result'])) finish(() => this.fail(String(item['text'] || item['state'])));
-            else finish(() => done(item['result'] as JsonObject, outcomeOf(item['result'] as JsonObject)));
-            channel.close();
-          }
+          const { state, text, result } = value as unknown as GoalState;
+          if (!OVER.test(state)) return;
+          if (isObject(result)) finish(() => done(result, outcomeOf(result)));
+          else finish(() => this.fail(text || state));
+          channel.close();
         },
         onFailed: lost, onEnded: lost,
       });

@@ -1,11 +1,12 @@
 /** A marker of six degrees of freedom that the tool Interact drags: of a goal, of an object. */
 import * as THREE from 'three';
 import { FEEDBACK, type Handle } from '../displays/interactive';
-import { ControlDrag, controlAxis, defaultHandle, MOVE_AXIS, ROTATE_AXIS, type Control, type InteractiveMarker } from '../displays/interactive_controls';
+import { ControlDrag, controlAxis, defaultHandle, MOVE_AXIS, ROTATE_AXIS } from '../displays/interactive_controls';
+import type { InteractiveMarkerControl, Quaternion } from '../generated/messages';
 
 const HALF = Math.SQRT1_2;
 /** Orientations that turn x to x, z and y, as in the tutorials of interactive markers. */
-const AXES: readonly [string, Control['orientation']][] = [
+const AXES: readonly [string, Quaternion][] = [
   ['x', { x: HALF, y: 0, z: 0, w: HALF }], ['z', { x: 0, y: HALF, z: 0, w: HALF }], ['y', { x: 0, y: 0, z: HALF, w: HALF }],
 ];
 
@@ -34,10 +35,11 @@ export class SixDof {
     if (!this.held) pose.decompose(this.root.position, this.root.quaternion, this.root.scale);
   }
 
-  private control(axis: string, orientation: Control['orientation'], mode: number): THREE.Object3D {
+  private control(axis: string, orientation: Quaternion, mode: number): THREE.Object3D {
     const name = `${mode === MOVE_AXIS ? 'move' : 'rotate'}_${axis}`;
-    const control: Control = {
-      name, orientation, orientation_mode: 0, interaction_mode: mode, always_visible: false, markers: [], description: '',
+    const control: InteractiveMarkerControl = {
+      name, orientation, orientation_mode: 0, interaction_mode: mode, always_visible: false, markers: [],
+      independent_marker_orientation: false, description: '',
     };
     const group = new THREE.Group();
     group.name = name;
@@ -47,10 +49,9 @@ export class SixDof {
     return group;
   }
 
-  private handle(control: Control): Handle {
-    const marker = { name: this.name, menu_entries: [] } as unknown as InteractiveMarker;
+  private handle(control: InteractiveMarkerControl): Handle {
     return {
-      marker, control,
+      marker: { name: this.name, menu_entries: [] }, control,
       begin: (ray) => {
         this.held = true;
         this.root.updateWorldMatrix(true, false);

@@ -1,7 +1,8 @@
 /** One trip: a goal, all waypoints as one action, or, where the robot has none for that, one goal after the other. */
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
-import { isObject, textOf, type Json, type JsonObject } from '../json';
+import type { GoalState } from '../generated/messages';
+import { isObject, textOf, type JsonObject } from '../json';
 import { missed, order, progress, type Order, type Progress } from './drivers';
 import { poseOf, type Waypoint } from './waypoints';
 
@@ -57,21 +58,19 @@ export class Trip {
 
   private open({ action, type, goal }: Order): void {
     this.channel = this.connection.open('action', { action, type, goal }, {
-      onData: (value) => this.take(value),
+      onData: (value) => this.take(value as unknown as GoalState),
       onFailed: (problem) => this.fail(problem.message),
       onEnded: (problem) => problem && this.fail(problem.message),
     });
   }
 
-  private take(value: Json): void {
-    for (const item of Array.isArray(value) ? value : [value]) {
-      if (!isObject(item) || this.standing.over) continue;
-      const feedback = isObject(item['feedback']) ? progress(item['feedback']) : {};
-      this.change({ state: textOf(item, 'state') || this.standing.state, text: textOf(item, 'text'), progress: { ...this.standing.progress, ...feedback } });
-      if (feedback.current !== undefined) this.passed(feedback.current);
-      if (feedback.remaining !== undefined) this.passed(this.waypoints.length - feedback.remaining);
-      if (OVER.test(textOf(item, 'state'))) this.finish(textOf(item, 'state'), isObject(item['result']) ? item['result'] : {});
-    }
+  private take({ state, text, feedback, result }: GoalState): void {
+    if (this.standing.over) return;
+    const news = isObject(feedback) ? progress(feedback) : {};
+    this.change({ state, text, progress: { ...this.standing.progress, ...news } });
+    if (news.current !== undefined) this.passed(news.current);
+    if (news.remaining !== undefined) this.passed(this.waypoints.length - news.remaining);
+    if (OVER.test(state)) this.finish(state, isObject(result) ? result : {});
   }
 
   /** The waypoint of a number is driven to now. */

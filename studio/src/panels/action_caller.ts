@@ -1,7 +1,7 @@
 /** Action caller: a goal from a form, its feedback, its result, cancelling. */
 
 import type { Channel } from '../channel';
-import type { TypeField } from '../generated/messages';
+import type { GoalState, TypeField, TypeValue } from '../generated/messages';
 import { isObject, textOf, type Json, type JsonObject } from '../json';
 import { button, h, notice, setText, spacer, toolbar } from '../widgets/dom';
 import { MessageForm } from '../widgets/message_form';
@@ -76,21 +76,17 @@ export class ActionCaller extends BasePanel {
     setText(this.status, 'sent');
     this.cancelButton.disabled = false;
     this.channel = this.stream('action', { action: this.action, type: this.type, goal: this.form.message() }, {
-      onData: (value) => this.take(value),
+      onData: (value) => this.take(value as unknown as GoalState),
       onFailed: (problem) => { this.host.fail(problem); this.finish('failed'); },
       onEnded: (problem) => { if (problem) this.host.fail(problem); this.cancelButton.disabled = true; },
     });
   }
 
-  private take(value: Json): void {
-    for (const item of Array.isArray(value) ? value : [value]) {
-      if (!isObject(item)) continue;
-      const state = textOf(item, 'state');
-      if (state) setText(this.status, state);
-      if (isObject(item['feedback'])) setText(this.feedback, asYaml(item['feedback']));
-      if (isObject(item['result'])) setText(this.result, asYaml(item['result']) || '(the result has no fields)');
-      if (OVER.test(state)) this.finish(state);
-    }
+  private take({ state, feedback, result }: GoalState): void {
+    setText(this.status, state);
+    if (isObject(feedback)) setText(this.feedback, asYaml(feedback));
+    if (isObject(result)) setText(this.result, asYaml(result) || '(the result has no fields)');
+    if (OVER.test(state)) this.finish(state);
   }
 
   private finish(state: string): void {
@@ -106,6 +102,5 @@ export class ActionCaller extends BasePanel {
 }
 
 function goalFields(type: Json): TypeField[] {
-  if (!isObject(type) || !Array.isArray(type['fields'])) return [];
-  return (type['fields'] as unknown as TypeField[]).find((field) => field.name === 'goal')?.fields ?? [];
+  return (type as unknown as TypeValue | null)?.fields.find((field) => field.name === 'goal')?.fields ?? [];
 }

@@ -1,6 +1,7 @@
 /** Logger Level: nodes, their loggers, the level of each. */
 
-import { isObject, textOf, type Json, type JsonObject } from '../json';
+import type { LoggerRow } from '../generated/messages';
+import { textOf, type JsonObject } from '../json';
 import { button, h, notice, toolbar } from '../widgets/dom';
 import { BasePanel } from './base';
 
@@ -47,8 +48,8 @@ export class LoggerLevel extends BasePanel {
 
   private async showLoggers(): Promise<void> {
     this.levels = new Map();
-    const list = this.node ? await this.ask('logger.list', { node: this.node }) : null;
-    for (const [name, level] of pairs(list)) this.levels.set(name, level);
+    const list = (this.node ? await this.ask('logger.list', { node: this.node }) : null) as unknown as LoggerRow[] | null;
+    for (const { name, level } of list ?? []) this.levels.set(name, level);
     if (!this.levels.has(this.logger)) this.logger = [...this.levels.keys()][0] ?? '';
     this.drawLoggers();
     if (this.node && this.levels.size === 0) this.loggers.replaceChildren(notice('This node tells of no logger.'));
@@ -60,7 +61,7 @@ export class LoggerLevel extends BasePanel {
   }
 
   private showLevels(): void {
-    const now = (this.levels.get(this.logger) ?? '').toLowerCase();
+    const now = this.levels.get(this.logger);
     fill(this.choices, [...LEVELS], LEVELS.find((level) => level.toLowerCase() === now) ?? '', (level) => void this.set(level));
   }
 
@@ -79,9 +80,4 @@ function fill(list: HTMLElement, names: readonly string[], chosen: string, choos
   list.replaceChildren(...names.map((name) => h('button', {
     type: 'button', class: 'choice', role: 'option', 'aria-selected': String(name === chosen), on: { click: () => choose(name) },
   }, name)));
-}
-
-function pairs(value: Json): [string, string][] {
-  if (!Array.isArray(value)) return [];
-  return value.filter(isObject).map((each) => [textOf(each, 'logger') || textOf(each, 'name'), textOf(each, 'level')]);
 }

@@ -1,6 +1,7 @@
 /** Nodes: what each node publishes, subscribes to and serves, its process, and an end to it. */
 
-import { isObject, numberOf, textOf, type Json, type JsonObject } from '../json';
+import type { EndpointRow, NodeInfo } from '../generated/messages';
+import { textOf, type JsonObject } from '../json';
 import { confirmDanger } from '../shell/dialog';
 import { button, h, notice, spacer, toolbar } from '../widgets/dom';
 import { BasePanel } from './base';
@@ -51,9 +52,9 @@ export class Nodes extends BasePanel {
   private async read(): Promise<void> {
     const { node } = this;
     if (!node || !this.visible) return;
-    const info = await this.connection.call('node.info', { node }).catch(() => null);
+    const info = await this.connection.call('node.info', { node }).catch(() => null) as unknown as NodeInfo | null;
     if (node !== this.node) return;
-    if (isObject(info)) this.show(info);
+    if (info) this.show(info);
     else this.body.replaceChildren(notice(`${node} is not there any more.`));
   }
 
@@ -62,9 +63,8 @@ export class Nodes extends BasePanel {
     void this.read();
   }
 
-  private show(info: JsonObject): void {
-    const pid = numberOf(info, 'pid');
-    const process = [pid ? `process ${pid}` : '', textOf(info, 'host')].filter(Boolean).join(' on ');
+  private show(info: NodeInfo): void {
+    const process = [info.pid ? `process ${info.pid}` : '', info.host].filter(Boolean).join(' on ');
     this.body.replaceChildren(
       toolbar(`Node ${this.node}`, h('strong', {}, this.node), h('span', { class: 'dim' }, process), spacer(),
         button('Kill', () => void this.kill(), { icon: 'stop', title: `Ask ${this.node} to shut down` })),
@@ -79,10 +79,8 @@ export class Nodes extends BasePanel {
   }
 }
 
-function section(title: string, rows: Json | undefined): HTMLElement[] {
-  if (!Array.isArray(rows) || rows.length === 0) return [];
-  const items = rows.map((row) => isObject(row)
-    ? h('li', {}, textOf(row, 'name'), h('span', { class: 'dim' }, ` ${textOf(row, 'type')}`))
-    : h('li', {}, String(row)));
+function section(title: string, rows: readonly EndpointRow[]): HTMLElement[] {
+  if (rows.length === 0) return [];
+  const items = rows.map(({ name, type }) => h('li', {}, name, h('span', { class: 'dim' }, ` ${type}`)));
   return [h('h3', {}, `${title} (${rows.length})`), h('ul', {}, ...items)];
 }

@@ -1,7 +1,8 @@
 /** The answer to a plug-in of rqt: which of our widgets stands for each of its own. */
 
 import '../styles/plugins.css';
-import { isObject, textOf, type Json, type JsonObject } from '../json';
+import type { PortedForm, PortedPlugin, PortedWidget } from '../generated/messages';
+import type { JsonObject } from '../json';
 import { button, h, notice, spacer, toolbar } from '../widgets/dom';
 import { BasePanel } from './base';
 
@@ -25,22 +26,20 @@ export class PortPanel extends BasePanel {
   private async load(): Promise<void> {
     try {
       const answer = await this.connection.call('plugin.port', { name: this.name });
-      if (isObject(answer)) this.fill(answer);
+      this.fill(answer as unknown as PortedPlugin);
     } catch (problem) {
       this.body.replaceChildren(notice(problem instanceof Error ? problem.message : String(problem)));
     }
   }
 
-  private fill(answer: JsonObject): void {
-    this.code = textOf(answer, 'code');
-    this.host.setTitle(textOf(answer, 'title', this.title));
-    const source = textOf(answer, 'source');
-    const forms = Array.isArray(answer['forms']) ? answer['forms'].filter(isObject) : [];
+  private fill({ code, title, text, manifest, source, forms, target }: PortedPlugin): void {
+    this.code = code;
+    this.host.setTitle(title);
     this.body.replaceChildren(
-      h('p', {}, textOf(answer, 'text')),
-      h('p', { class: 'dim' }, `Listed by ${textOf(answer, 'manifest')}${source ? `, written in ${source}` : ''}`),
+      h('p', {}, text),
+      h('p', { class: 'dim' }, `Listed by ${manifest}${source ? `, written in ${source}` : ''}`),
       ...forms.flatMap((form) => formPart(form)),
-      h('h3', {}, `A panel to begin with: ${textOf(answer, 'target')}`),
+      h('h3', {}, `A panel to begin with: ${target}`),
       h('pre', { class: 'mono own-code', tabindex: 0, 'aria-label': 'Python code' }, this.code));
   }
 
@@ -54,17 +53,18 @@ export class PortPanel extends BasePanel {
   }
 }
 
-function formPart(form: JsonObject): HTMLElement[] {
-  const widgets = Array.isArray(form['widgets']) ? form['widgets'].filter(isObject) : [];
+const COLUMNS = ['line', 'qt', 'name', 'ours', 'note'] as const;
+
+function formPart({ file, widgets }: PortedForm): HTMLElement[] {
   const heads = ['Line', 'Widget of Qt', 'Name', 'Ours', ''].map((text) => h('th', { scope: 'col' }, text));
-  const rows = widgets.map((widget) => h('tr', {}, ...['line', 'qt', 'name', 'ours', 'note'].map((key) => cell(key, widget[key]))));
+  const rows = widgets.map((widget) => h('tr', {}, ...COLUMNS.map((key) => cell(key, widget))));
   return [
-    h('h3', {}, textOf(form, 'file')),
+    h('h3', {}, file),
     h('table', { class: 'own-table', 'aria-label': 'Widgets' }, h('thead', {}, h('tr', {}, ...heads)), h('tbody', {}, ...rows)),
   ];
 }
 
-function cell(key: string, value: Json): HTMLElement {
-  const text = value === '' && key === 'ours' ? '–' : String(value ?? '');
+function cell(key: keyof PortedWidget, widget: PortedWidget): HTMLElement {
+  const text = key === 'ours' && !widget.ours ? '–' : String(widget[key]);
   return h('td', { class: key === 'ours' ? 'mono' : '' }, text);
 }

@@ -2,8 +2,8 @@
 
 import type { Connection } from '../connection';
 import { inOneLine } from '../errors';
-import type { TypeField } from '../generated/messages';
-import { isObject, numberOf, textOf, type Json, type JsonObject } from '../json';
+import type { PublisherCount, PublisherRow, TypeValue } from '../generated/messages';
+import type { Json, JsonObject } from '../json';
 import type { PanelHost } from '../panel';
 import { button, h, setText } from '../widgets/dom';
 import { MessageForm } from '../widgets/message_form';
@@ -71,7 +71,7 @@ export class PublisherCard {
   private async load(body: HTMLElement): Promise<void> {
     try {
       const type = await this.connection.call('type.get', { type: this.start.type, kind: 'msg' });
-      const fields = isObject(type) && Array.isArray(type['fields']) ? (type['fields'] as unknown as TypeField[]) : [];
+      const { fields } = type as unknown as TypeValue;
       const changed = () => this.changed();
       this.form = this.easy ? new SliderForm(fields, this.start.ranges ?? {}, changed) : new MessageForm(fields, { expressions: true, changed });
       this.form.fill(this.start.texts);
@@ -106,7 +106,8 @@ export class PublisherCard {
       id: this.id, topic: this.start.topic, type: this.start.type, rate_hz: Number(this.rate.value),
       message: this.form.message(), expressions: this.form.expressions(), enabled: this.enabled,
     };
-    await this.attempt('publisher.set', params);
+    const made = await this.attempt('publisher.set', params) as unknown as PublisherCount | null;
+    if (made) this.tellCount(made);
     this.watch();
   }
 
@@ -114,7 +115,7 @@ export class PublisherCard {
     const mine = await this.row();
     if (!mine) return;
     this.made = true;
-    this.enabled = mine['enabled'] === true;
+    this.enabled = mine.enabled;
     this.tick.checked = this.enabled;
     if (this.enabled) this.watch();
   }
@@ -124,26 +125,31 @@ export class PublisherCard {
     if (this.enabled) this.poll = window.setInterval(() => void this.showCount(), 1000);
   }
 
-  private async row(): Promise<JsonObject | null> {
-    const list = await this.connection.call('publisher.list').catch(() => null);
-    const mine = Array.isArray(list) ? list.find((each) => isObject(each) && each['id'] === this.id) : null;
-    return isObject(mine) ? mine : null;
+  private async row(): Promise<PublisherRow | null> {
+    const list = await this.connection.call('publisher.list').catch(() => null) as unknown as PublisherRow[] | null;
+    return list?.find((each) => each.id === this.id) ?? null;
   }
 
   private async showCount(): Promise<void> {
     const mine = await this.row();
     if (!mine) return;
-    setText(this.sent, `${numberOf(mine, 'count')} sent`);
-    if (textOf(mine, 'error')) setText(this.problem, textOf(mine, 'error'));
+    this.tellCount(mine);
+    if (mine.error) setText(this.problem, mine.error);
   }
 
-  private async attempt(method: string, params: JsonObject): Promise<void> {
+  private tellCount({ count: sent }: PublisherCount): void {
+    setText(this.sent, `${sent} sent`);
+  }
+
+  /** Asks the server and shows what goes wrong; null then. */
+  private async attempt(method: string, params: JsonObject): Promise<Json> {
     try {
       const value = await this.connection.call(method, params);
       setText(this.problem, '');
-      if (isObject(value) && 'count' in value) setText(this.sent, `${numberOf(value, 'count')} sent`);
+      return value;
     } catch (problem) {
       setText(this.problem, inOneLine(problem));
+      return null;
     }
   }
 }

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
+from typing import Annotated, Any, NotRequired, TypedDict
 
 from gazelle.geometry.pose import IDENTITY_POSE
 from gazelle.interfaces import message_type, service_type
-from gazelle.sensors.scene_types import MeshFile
+from gazelle.sensors.scene_types import Floats7, MeshFile
 from gazelle.studio.displays.showing import Site
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
@@ -19,7 +19,15 @@ from gazelle.studio.streams import OpenStream
 from gazelle.studio.taps import Sample
 from gazelle.workspace import Workspace
 
-__all__ = ["open_interactive", "open_markers"]
+__all__ = [
+    "InteractiveFrame",
+    "InteractiveMarkers",
+    "MarkerFrame",
+    "MarkerList",
+    "MarkerMesh",
+    "open_interactive",
+    "open_markers",
+]
 
 _MESH = 10
 _DELETE_ALL = 3
@@ -29,6 +37,55 @@ _WAIT_S = 10.0
 _SERVICE_S = 2.0
 _GET = "visualization_msgs/srv/GetInteractiveMarkers"
 _INIT = "visualization_msgs/msg/InteractiveMarkerInit"
+
+
+class MarkerMesh(TypedDict):
+    """What is added to a marker with a mesh: its parts, none where it cannot be read."""
+
+    mesh: NotRequired[list[MeshPartValue]]
+
+
+class MarkerList(TypedDict):
+    """Markers that came, of `visualization_msgs/Marker` and `MarkerArray` alike."""
+
+    markers: list[Annotated[Any, "visualization_msgs/msg/Marker"]]
+
+
+class MarkerFrame(TypedDict):
+    """A frame of the displays Marker and MarkerArray.
+
+    Attributes:
+        poses: of each marker's frame in the fixed one.
+    """
+
+    pose: None
+    stamp_s: float
+    frame: str
+    message: MarkerList
+    poses: list[Floats7]
+
+
+class InteractiveMarkers(TypedDict):
+    """What changed of a server's interactive markers; `erases` are names of those that went."""
+
+    server_id: str
+    markers: list[Annotated[Any, "visualization_msgs/msg/InteractiveMarker"]]
+    poses: list[Annotated[Any, "visualization_msgs/msg/InteractiveMarkerPose"]]
+    erases: list[str]
+
+
+class InteractiveFrame(TypedDict):
+    """A frame of the display InteractiveMarkers.
+
+    Attributes:
+        poses: of each marker's frame in the fixed one.
+    """
+
+    pose: None
+    stamp_s: float
+    frame: str
+    message: InteractiveMarkers
+    poses: list[Floats7]
 
 
 def open_markers(site: Site) -> OpenStream:
@@ -75,14 +132,14 @@ class _Markers:
         found, self._late = self._late, []
         return found[-_MOST_WAITING:]
 
-    def _frame(self) -> Any:
+    def _frame(self) -> MarkerFrame | None:
         waiting = self._waiting()
         shown, poses, late = [], [], []
         problem = ""
         now_s = self._site.frames.clock.now_ns() * 1e-9
         for one, came_s in waiting:
             try:
-                poses.append(pose_values(_pose(self._site, one)))
+                poses.append(list(pose_values(_pose(self._site, one))))
             except StudioError as error:
                 problem = str(error)
                 # Its frame may still come; RViz waits as well.
@@ -211,7 +268,7 @@ class _Interactive:
                 self._poses.pop(name, None)
                 self._erased.add(name)
 
-    def _frame(self) -> Any:
+    def _frame(self) -> InteractiveFrame | None:
         with self._lock:
             samples, self._samples = self._samples, []
         for sample in samples:
@@ -247,7 +304,7 @@ class _Interactive:
 
     def _place(self, marker: Any) -> Any:
         try:
-            return pose_values(self._site.pose(marker.header))
+            return list(pose_values(self._site.pose(marker.header)))
         except StudioError as error:
             return str(error)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.graph import Clock, Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
@@ -13,9 +13,31 @@ from gazelle.studio.json_text import message_value
 from gazelle.studio.params import Params
 from gazelle.studio.streams import Channel, OpenStream
 
-__all__ = ["open_action"]
+__all__ = ["ActionOpened", "GoalState", "open_action"]
 
 _SERVER_S = 2.0
+
+
+class ActionOpened(TypedDict):
+    """What is told when the stream `action` is open: the goal is on its way."""
+
+    type: str
+    goal_id: str
+
+
+class GoalState(TypedDict):
+    """How a goal stands, of the stream `action`.
+
+    Attributes:
+        state: in capitals, as in `SUCCEEDED`.
+        feedback: the last one, null before it.
+        result: null before it.
+    """
+
+    state: str
+    text: str
+    feedback: Any
+    result: Any
 
 
 def open_action(node: Node, channel: Channel, params: Params) -> OpenStream:
@@ -34,7 +56,8 @@ def open_action(node: Node, channel: Channel, params: Params) -> OpenStream:
         client.close()
         raise
     talk.tell(talk.goal)
-    return OpenStream(talk.close, {"type": client.type_name, "goal_id": talk.goal.goal_id})
+    info: ActionOpened = {"type": client.type_name, "goal_id": talk.goal.goal_id}
+    return OpenStream(talk.close, info)
 
 
 def filled_goal(client: ActionClient, values: dict[str, Any], clock: Clock) -> Any:
@@ -59,14 +82,13 @@ class _Talk:
         goal = self.goal
         if goal is None:
             return
-        self._channel.send(
-            {
-                "state": goal.status.name,
-                "text": goal.text,
-                "feedback": None if goal.feedback is None else message_value(goal.feedback),
-                "result": None if goal.result is None else message_value(goal.result),
-            }
-        )
+        state: GoalState = {
+            "state": goal.status.name,
+            "text": goal.text,
+            "feedback": None if goal.feedback is None else message_value(goal.feedback),
+            "result": None if goal.result is None else message_value(goal.result),
+        }
+        self._channel.send(state)
 
     def finish(self, goal: ClientGoal) -> None:
         """Send the result; the stream is over."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TypedDict
 
 from gazelle.graph import Endpoint, Node
 from gazelle.interfaces import message_type
@@ -10,14 +10,68 @@ from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.graph_view.services import request_response, services_by_type
 from gazelle.studio.params import Params
 
-__all__ = ["get_node", "kill_node", "list_loggers", "set_logger"]
+__all__ = [
+    "EndpointRow",
+    "LoggerNode",
+    "LoggerRow",
+    "NodeInfo",
+    "NodeKill",
+    "get_node",
+    "kill_node",
+    "list_loggers",
+    "set_logger",
+]
 
 _ROS1_GET, _ROS1_SET = "roscpp/srv/GetLoggers", "roscpp/srv/SetLoggerLevel"
 _ROS2_GET, _ROS2_SET = "rcl_interfaces/srv/GetLoggerLevels", "rcl_interfaces/srv/SetLoggerLevels"
 _ROS2_LEVELS = {"debug": 10, "info": 20, "warn": 30, "error": 40, "fatal": 50}
 
 
-def get_node(node: Node, params: Params) -> dict[str, Any]:
+class EndpointRow(TypedDict):
+    """A topic, service or action of a node."""
+
+    name: str
+    type: str
+
+
+class NodeInfo(TypedDict):
+    """What a node is.
+
+    Attributes:
+        pid: null where nobody knows.
+    """
+
+    name: str
+    publications: list[EndpointRow]
+    subscriptions: list[EndpointRow]
+    services: list[EndpointRow]
+    clients: list[EndpointRow]
+    action_servers: list[EndpointRow]
+    action_clients: list[EndpointRow]
+    pid: int | None
+    host: str
+
+
+class NodeKill(TypedDict):
+    """Whether a node that was asked to shut down has answered."""
+
+    answered: bool
+
+
+class LoggerNode(TypedDict):
+    """A node that lets the levels of its loggers be set."""
+
+    node: str
+
+
+class LoggerRow(TypedDict):
+    """A logger of a node; its level in a small word, `debug` to `fatal`."""
+
+    name: str
+    level: str
+
+
+def get_node(node: Node, params: Params) -> NodeInfo:
     """``node.info``."""
     info = node.graph.node_info(params.text("node"))
     actions = node.graph.actions()
@@ -38,7 +92,7 @@ def get_node(node: Node, params: Params) -> dict[str, Any]:
     }
 
 
-def kill_node(node: Node, params: Params) -> dict[str, Any]:
+def kill_node(node: Node, params: Params) -> NodeKill:
     """``node.kill``: asks it to shut down."""
     name = params.text("node")
     if node.resolve_name(name) == node.name:
@@ -46,21 +100,15 @@ def kill_node(node: Node, params: Params) -> dict[str, Any]:
     return {"answered": node.graph.kill_node(name)}
 
 
-def list_loggers(node: Node, params: Params) -> list[dict[str, Any]]:
+def list_loggers(node: Node, params: Params) -> list[LoggerNode] | list[LoggerRow]:
     """``logger.list``: the loggers of one node, or all nodes that have some."""
-    if "node" not in params:
-        return [{"node": name} for name in sorted(_offering(node))]
-    target = node.resolve_name(params.text("node"))
-    if _generation(node, target) == 1:
-        found = request_response(node, f"{target}/get_loggers", _ROS1_GET).loggers
-        return [{"name": one.name, "level": one.level.lower()} for one in found]
-    own = target.strip("/").replace("/", ".")
-    answer = request_response(node, f"{target}/get_logger_levels", _ROS2_GET, names=[own])
-    words = {number: word for word, number in _ROS2_LEVELS.items()}
-    return [{"name": one.name, "level": words.get(one.level, "info")} for one in answer.levels]
+    if "node" in params:
+        return _loggers(node, node.resolve_name(params.text("node")))
+    nodes: list[LoggerNode] = [{"node": name} for name in sorted(_offering(node))]
+    return nodes
 
 
-def set_logger(node: Node, params: Params) -> dict[str, Any]:
+def set_logger(node: Node, params: Params) -> dict[str, str]:
     """``logger.set``."""
     target = node.resolve_name(params.text("node"))
     logger, level = params.text("logger"), params.text("level").lower()
@@ -79,7 +127,17 @@ def set_logger(node: Node, params: Params) -> dict[str, Any]:
     return {}
 
 
-def _ends(endpoints: tuple[Endpoint, ...]) -> list[dict[str, str]]:
+def _loggers(node: Node, target: str) -> list[LoggerRow]:
+    if _generation(node, target) == 1:
+        found = request_response(node, f"{target}/get_loggers", _ROS1_GET).loggers
+        return [{"name": one.name, "level": one.level.lower()} for one in found]
+    own = target.strip("/").replace("/", ".")
+    answer = request_response(node, f"{target}/get_logger_levels", _ROS2_GET, names=[own])
+    words = {number: word for word, number in _ROS2_LEVELS.items()}
+    return [{"name": one.name, "level": words.get(one.level, "info")} for one in answer.levels]
+
+
+def _ends(endpoints: tuple[Endpoint, ...]) -> list[EndpointRow]:
     return [{"name": one.name, "type": one.type_name} for one in endpoints]
 
 

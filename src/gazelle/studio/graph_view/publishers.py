@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Any
+from typing import Any, TypedDict
 
 from gazelle.errors import GazelleError
 from gazelle.graph import Node, Publisher
@@ -17,14 +17,49 @@ from gazelle.studio.pages import Pages
 from gazelle.studio.params import Params
 from gazelle.studio.taps import topic_name
 
-__all__ = ["Publishers", "list_publishers", "remove_publisher", "set_publisher"]
+__all__ = [
+    "PublisherCount",
+    "PublisherRow",
+    "Publishers",
+    "list_publishers",
+    "remove_publisher",
+    "set_publisher",
+]
 
 _MOST_PUBLISHERS = 100
 _ALONE_S = 10.0
 _LOOK_S = 0.2
 
 
-def set_publisher(publishers: Publishers, params: Params) -> dict[str, Any]:
+class PublisherCount(TypedDict):
+    """How many messages a publisher has sent."""
+
+    count: int
+
+
+class _PublisherState(PublisherCount):
+    topic: str
+    type: str
+    rate_hz: float
+    message: dict[str, Any]
+    expressions: dict[str, Any]
+    enabled: bool
+    error: str
+
+
+class PublisherRow(_PublisherState):
+    """A publisher that goes on by itself.
+
+    Attributes:
+        id: chosen by the page.
+        expressions: by the path of a number in the message.
+        error: why it went off by itself, empty while nothing is wrong.
+    """
+
+    id: str
+
+
+def set_publisher(publishers: Publishers, params: Params) -> PublisherCount:
     """``publisher.set``: make or change one."""
     return publishers.set(params)
 
@@ -35,7 +70,7 @@ def remove_publisher(publishers: Publishers, params: Params) -> dict[str, Any]:
     return {}
 
 
-def list_publishers(publishers: Publishers, _params: Params) -> list[dict[str, Any]]:
+def list_publishers(publishers: Publishers, _params: Params) -> list[PublisherRow]:
     """``publisher.list``."""
     return publishers.rows()
 
@@ -52,7 +87,7 @@ class Publishers:
         self._closed = threading.Event()
         threading.Thread(target=self._watch, name="studio publishers", daemon=True).start()
 
-    def set(self, params: Params) -> dict[str, Any]:
+    def set(self, params: Params) -> PublisherCount:
         """Make or change one."""
         name = params.text("id")
         with self._lock:
@@ -77,7 +112,7 @@ class Publishers:
                 raise unknown("publisher", name, self._made)
         found.close()
 
-    def rows(self) -> list[dict[str, Any]]:
+    def rows(self) -> list[PublisherRow]:
         """Return what they do."""
         with self._lock:
             return [{"id": name, **one.row()} for name, one in self._made.items()]
@@ -176,7 +211,7 @@ class _Repeater:
             self._changed.notify()
         self._publisher.unregister()
 
-    def row(self) -> dict[str, Any]:
+    def row(self) -> _PublisherState:
         now = self.settings
         return {
             "topic": now.topic,

@@ -8,7 +8,7 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.files import Answer
 from gazelle.studio.params import Params
 from gazelle.studio.plugins.rqt.manifests import rqt_plugins
-from gazelle.studio.plugins.rqt.porting import how_to_port
+from gazelle.studio.plugins.rqt.porting import PortedPlugin, how_to_port
 from gazelle.studio.plugins.shows import Desk
 from gazelle.studio.plugins.sources import Source
 from gazelle.studio.streams import Channel, OpenStream
@@ -114,7 +114,7 @@ def reload_panel(desk: Desk, params: Params) -> dict[str, Any]:
     return {}
 
 
-def port_panel(params: Params) -> dict[str, Any]:
+def port_panel(params: Params) -> PortedPlugin:
     """``plugin.port``: how a plug-in of rqt becomes a panel."""
     return how_to_port(params.text("name"), Workspace.discover())
 

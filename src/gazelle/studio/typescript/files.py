@@ -8,7 +8,8 @@ from collections.abc import Callable
 from gazelle.studio.catalogue import STREAMS
 from gazelle.studio.displays.display import display_row
 from gazelle.studio.displays.registry import DISPLAYS
-from gazelle.studio.typescript.messages import ALIASES, MESSAGES
+from gazelle.studio.typescript.messages import ADDED, ALIASES, MESSAGES, ROS_MESSAGES
+from gazelle.studio.typescript.ros import ros_interfaces
 from gazelle.studio.typescript.types import interface, type_text
 
 __all__ = ["FILES", "FOLDER"]
@@ -32,7 +33,8 @@ def _displays() -> str:
 
 def _messages() -> str:
     aliases = (f"export type {name} = {type_text(kind)};\n" for name, kind in ALIASES.items())
-    text = "\n".join((*map(interface, MESSAGES), *aliases))
+    of_ros = ros_interfaces(ROS_MESSAGES, ADDED)
+    text = "\n".join((*map(interface, MESSAGES), *of_ros, *aliases))
     json_type = "import type { Json } from '../json';\n" if "Json" in text else ""
     what = "What the server sends, as its Python types declare it"
     return f"{_HEAD.format(what=what)}{json_type}\n{text}"

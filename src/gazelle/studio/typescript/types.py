@@ -1,4 +1,7 @@
-"""A `TypedDict` as a TypeScript interface, with the texts of its docstring."""
+"""A `TypedDict` as a TypeScript interface, with the texts of its docstring.
+
+A ROS message in it is `Annotated[Any, "package/msg/Name"]`.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,8 @@ import re
 import types
 import typing
 from typing import Annotated, Any, Literal, NotRequired, Required, TypeVar
+
+from gazelle.studio.typescript.ros import ros_name
 
 __all__ = ["interface", "type_text"]
 
@@ -59,6 +64,8 @@ def type_text(kind: Any) -> str:
     origin, parts = typing.get_origin(kind), typing.get_args(kind)
     if origin in (NotRequired, Required):
         return type_text(parts[0])
+    if origin is Annotated and isinstance(parts[1], str):
+        return ros_name(parts[1])
     if origin is Annotated:
         item, length = parts
         return f"[{', '.join([type_text(typing.get_args(item)[0])] * length)}]"

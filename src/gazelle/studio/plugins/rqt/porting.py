@@ -4,20 +4,65 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
 from gazelle.studio.errors import StudioError
 from gazelle.studio.plugins.rqt.forms import FormWidget, form_layout, form_widgets
 from gazelle.studio.plugins.rqt.manifests import RqtPlugin, rqt_plugins
 from gazelle.workspace import Workspace
 
-__all__ = ["how_to_port"]
+__all__ = ["PortedForm", "PortedPlugin", "PortedWidget", "how_to_port"]
 
 _UI = re.compile(r"['\"/]([\w.-]+\.ui)\b")
 _HANDLED = ("Slider", "Number", "Checkbox", "Choice", "TextInput")
 
 
-def how_to_port(name: str, workspace: Workspace) -> dict[str, Any]:
+class PortedWidget(TypedDict):
+    """A widget of Qt, and the Python expression that makes ours.
+
+    Attributes:
+        name: its `objectName`.
+        qt: its class in Qt.
+        line: in the `.ui` file.
+        ours: empty when there is none.
+        note: what to know about it.
+    """
+
+    name: str
+    qt: str
+    line: int
+    ours: str
+    note: str
+
+
+class PortedForm(TypedDict):
+    """A form of Qt Designer, and what stands for its widgets."""
+
+    file: str
+    widgets: list[PortedWidget]
+
+
+class PortedPlugin(TypedDict):
+    """How a plug-in of rqt becomes a panel.
+
+    Attributes:
+        manifest: file and line that name it.
+        source: its file, empty where it is not known.
+        target: where the panel belongs.
+        code: of a panel to begin with.
+    """
+
+    name: str
+    title: str
+    text: str
+    manifest: str
+    source: str
+    target: str
+    forms: list[PortedForm]
+    code: str
+
+
+def how_to_port(name: str, workspace: Workspace) -> PortedPlugin:
     """Return the value of ``plugin.port``.
 
     Args:
@@ -42,11 +87,15 @@ def how_to_port(name: str, workspace: Workspace) -> dict[str, Any]:
         "source": str(plugin.source or ""),
         "target": str(_target(plugin)),
         "forms": [
-            {"file": str(form), "widgets": [one._asdict() for one in form_widgets(form)]}
+            {"file": str(form), "widgets": [_widget(one) for one in form_widgets(form)]}
             for form in forms
         ],
         "code": _code(plugin, forms),
     }
+
+
+def _widget(one: FormWidget) -> PortedWidget:
+    return {"name": one.name, "qt": one.qt, "line": one.line, "ours": one.ours, "note": one.note}
 
 
 def _text(plugin: RqtPlugin) -> str:
