@@ -148,7 +148,7 @@ def _small_nodes(path: Path, diagnostics: Diagnostics, _workspace: Workspace) ->
             config_of(key, value)
         if key.endswith("_covariance"):
             matrix_of(key, value)
-    chain_of(tree)
+    chain_of(tree, "/laser_filter", diagnostics)
 
 
 @cache

@@ -216,6 +216,7 @@ LOCALISATION = (
         entry="gazelle.nodes.filters.laser_filters:run",
         does="takes out of scans what does not belong there",
         is_light=True,
+        parameters="gazelle.nodes.filters.laser_filters:PARAMETERS",
         topics=(
             publishes("scan_filtered", "sensor_msgs/msg/LaserScan"),
             listens("scan", "sensor_msgs/msg/LaserScan"),

@@ -20,6 +20,9 @@ _INTRODUCTION = (
 )
 # What the pages of navigation and SLAM are made of.
 _ELSEWHERE = ("frontier_exploration", "move_base", "nav2", "slam")
+# Tables of what a node loads, by the node's own.
+_LASER_FILTERS = "gazelle.nodes.filters.laser_filters"
+_PARTS = {f"{_LASER_FILTERS}:PARAMETERS": f"{_LASER_FILTERS}:FILTER_TABLES"}
 
 
 def page() -> str:
@@ -28,13 +31,14 @@ def page() -> str:
 
 
 def _tables() -> list[ParameterTable]:
-    """Return the tables of the nodes' rows, each once."""
-    found: dict[str, ParameterTable] = {}
+    """Return the tables of the nodes' rows and of their parts, each once."""
+    found: dict[str, list[ParameterTable]] = {}
     for spec in node_specs():
         place = str(spec.parameters or "").removeprefix("gazelle.nodes.").partition(".")[0]
         if spec.parameters and place not in _ELSEWHERE:
-            found.setdefault(spec.parameters, resolved(spec.parameters))
-    return list(found.values())
+            parts = resolved(_PARTS[spec.parameters]) if spec.parameters in _PARTS else {}
+            found.setdefault(spec.parameters, [resolved(spec.parameters), *parts.values()])
+    return [table for tables in found.values() for table in tables]
 
 
 if __name__ == "__main__":

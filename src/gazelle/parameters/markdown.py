@@ -33,12 +33,13 @@ def table_section(table: ParameterTable) -> str:
     lines = [f"### {table.family}", "", table.summary, ""]
     if table.types:
         lines += [f"Types: {in_code(table.types)}", ""]
-    lines += headed("parameter", "default", "unit", "meaning")
-    lines += [_honoured_line(row) for row in table.rows if not row.is_refused]
+    honoured = [_honoured_line(row) for row in table.rows if not row.is_refused]
+    if honoured:
+        lines += [*headed("parameter", "default", "unit", "meaning"), *honoured]
     idle = [f"- `{row.key}`: {row.meaning}" for row in table.rows if row.is_refused]
     if idle:
-        lines += ["", "Without effect:", "", *idle]
-    return "\n".join(lines)
+        lines += [*([""] if honoured else []), "Without effect:", "", *idle]
+    return "\n".join(lines).rstrip()
 
 
 def facts(behaviour: Iterable[str]) -> list[str]:

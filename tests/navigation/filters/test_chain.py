@@ -8,15 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gazelle.errors import LaunchError
 from gazelle.navigation.filters import (
     FILTERS,
-    REFUSED_FILTERS,
     FilterSetup,
     ScanArrays,
     apply_chain,
 )
-from gazelle.nodes.filters.laser_filters import chain_of
+from gazelle.navigation.filters.options import BoundsOptions
 
 
 def _scan(ranges: list[float], intensities: list[float] | None = None) -> ScanArrays:
@@ -28,12 +26,13 @@ def _scan(ranges: list[float], intensities: list[float] | None = None) -> ScanAr
 
 
 def _after(scan: ScanArrays, kind: str, **params: Any) -> list[float]:
-    chain = [FilterSetup("own", kind, params)]
+    options = FILTERS[kind.rpartition("/")[2]].options(**params)
+    chain = [FilterSetup("own", kind, options)]
     return list(apply_chain(scan, chain, lambda _frame, points: points).ranges_m)
 
 
 def test_range_filter() -> None:
-    limits = {"lower_threshold": 0.6, "upper_threshold": 4.0, "upper_replacement_value": ".inf"}
+    limits = {"lower_threshold": 0.6, "upper_threshold": 4.0, "upper_replacement_value": math.inf}
     found = _after(_scan([0.5, 1.0, 5.0]), "laser_filters/LaserScanRangeFilter", **limits)
     np.testing.assert_array_equal(found, [math.nan, 1.0, math.inf])
     scan = _scan([0.05, 1.0, 11.0])
@@ -42,8 +41,8 @@ def test_range_filter() -> None:
 
 
 def test_angular_bounds_cut_the_scan() -> None:
-    chain = [FilterSetup("a", "LaserScanAngularBoundsFilter",
-                         {"lower_angle": -0.1, "upper_angle": 0.1})]  # fmt: skip
+    options = BoundsOptions(lower_angle=-0.1, upper_angle=0.1)
+    chain = [FilterSetup("a", "LaserScanAngularBoundsFilter", options)]
     scan = apply_chain(_scan([1, 2, 3, 4, 5], [9, 8, 7, 6, 5]), chain, lambda _f, p: p)
     assert list(scan.ranges_m) == [2, 3, 4]
     assert list(scan.intensities) == [8, 7, 6]
@@ -109,28 +108,3 @@ def test_sector_filter() -> None:
 def test_footprint_filter() -> None:
     found = _after(_scan([0.2, 0.2, 2.0]), "LaserScanFootprintFilter", inscribed_radius=0.3)
     np.testing.assert_array_equal(found, [math.nan, math.nan, 2.0])
-
-
-def test_chains_of_both_generations_are_read() -> None:
-    one = {"name": "r", "type": "laser_filters/LaserScanRangeFilter", "params": {"a": 1}}
-    assert chain_of({"scan_filter_chain": [one]}) == chain_of({"filter1": one})
-    assert [item.type for item in chain_of({"filter1": one, "filter2": one})] == [
-        "LaserScanRangeFilter"
-    ] * 2
-
-
-def test_unknown_filters_are_told_all_at_once() -> None:
-    bad = [{"name": "a", "type": "laser_filters/LaserScanRangFilter"},
-           {"name": "b", "type": "LaserScanPolygonFilter"}, "no mapping"]  # fmt: skip
-    with pytest.raises(LaunchError) as caught:
-        chain_of({"scan_filter_chain": bad})
-    text = str(caught.value)
-    assert "did you mean 'LaserScanRangeFilter'" in text
-    assert "LaserScanBoxFilter takes out beams by place" in text
-    assert "filter 3 is 'no mapping'" in text
-    assert not FILTERS.keys() & REFUSED_FILTERS.keys()
-
-
-def test_a_parameter_that_is_no_number_is_told() -> None:
-    with pytest.raises(ValueError, match="filter own: lower_threshold is 'near', not a number"):
-        _after(_scan([1.0]), "LaserScanRangeFilter", lower_threshold="near")

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from gazelle.navigation.filters.chain import FILTERS, REFUSED_FILTERS, FilterSetup, apply_chain
+from gazelle.navigation.filters.chain import (
+    FILTERS,
+    REFUSED_FILTERS,
+    FilterSetup,
+    ScanFilter,
+    apply_chain,
+)
 from gazelle.navigation.filters.flatten import FlatScan, scan_of_depth, scan_of_points
 from gazelle.navigation.filters.record import ScanArrays
 
@@ -12,6 +18,7 @@ __all__ = [
     "FilterSetup",
     "FlatScan",
     "ScanArrays",
+    "ScanFilter",
     "apply_chain",
     "scan_of_depth",
     "scan_of_points",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Mapping
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.graph.tf import TransformError
@@ -23,18 +24,53 @@ from gazelle.navigation.filters import (
 )
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.parameters import parameter_tree, start_node
+from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameters import start_node
+from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters.coercion import flag_of, number_of
+from gazelle.parameters.options import table_of
+from gazelle.parameters.owner import ParameterOwner
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.sources import TreeSource
 
-__all__ = ["chain_of", "run"]
+__all__ = ["FILTER_TABLES", "PARAMETERS", "chain_of", "run"]
+
+_NO_WAITING = "transforms are looked up when a filter needs them, no scan waits for one"
+PARAMETERS = ParameterTable(
+    "scan_to_scan_filter_chain",
+    "Takes out of scans what does not belong there, by filters one after the other. What a filter"
+    " cannot use ends it.",
+    ("laser_filters/scan_to_scan_filter_chain",),
+    (
+        Parameter("scan_filter_chain", "any", None, "ROS 1: a list of `{name, type, params}`"),
+        Parameter("filter<number>.name", "text", None, "ROS 2: how filter1, filter2 … are called"),
+        Parameter("filter<number>.type", "text", None, "such as `laser_filters/ScanShadowsFilter`"),
+        Parameter("filter<number>.params", "group", None, "the parameters of the filter"),
+        *refused("scans are always listened to", "lazy_subscription", unless=False),
+        *refused(_NO_WAITING, "tf_message_filter_target_frame", unless=""),
+        *refused(_NO_WAITING, "tf_message_filter_tolerance", unless=0.03),
+        *refused("there are no diagnostics", "diagnostic_updater"),
+    ),
+)
+FILTER_TABLES = {
+    name: table_of(one.options, name, one.does, (f"laser_filters/{name}",)).plus(one.idle)
+    for name, one in FILTERS.items()
+}
 
 _MOST = 100
+_NO_NUMBERS = {".inf": math.inf, "-.inf": -math.inf, ".nan": math.nan}
 
 
-def chain_of(tree: Mapping[str, Any]) -> list[FilterSetup]:
+def chain_of(tree: Mapping[str, Any], owner: str, found: Diagnostics) -> list[FilterSetup]:
     """Return the filters of ``scan_filter_chain`` (ROS 1) or ``filter1``, ``filter2`` … (ROS 2).
 
+    Args:
+        tree: the node's parameters.
+        owner: what messages call the node.
+        found: receives parameters of filters that are unknown or have no effect.
+
     Raises:
-        LaunchError: filters are not known; all of them at once.
+        LaunchError: filters are not known or cannot be used; all of them at once.
     """
     listed = tree.get("scan_filter_chain")
     if not isinstance(listed, list):
@@ -44,29 +80,62 @@ def chain_of(tree: Mapping[str, Any]) -> list[FilterSetup]:
         if not isinstance(item, Mapping) or "type" not in item:
             wrong.append(f"filter {position + 1} is {item!r}, not {{name, type, params}}")
             continue
-        name = str(item["type"]).rpartition("/")[2]
-        if name not in FILTERS:
-            why = REFUSED_FILTERS.get(name) or did_you_mean(name, FILTERS)
+        kind = str(item["type"]).rpartition("/")[2]
+        name = str(item.get("name", kind))
+        if kind not in FILTERS:
+            why = REFUSED_FILTERS.get(kind) or did_you_mean(kind, FILTERS)
             wrong.append(f"filter '{item.get('name', '')}' is a {item['type']}, which is not there"
                          f"; {why or 'there are ' + ', '.join(FILTERS)}")  # fmt: skip
             continue
-        params = item.get("params") or {}
-        chain.append(FilterSetup(str(item.get("name", name)), name, dict(params)))
+        given = item.get("params") or {}
+        problems = _problems(kind, given)
+        wrong += [f"filter '{name}': {problem}" for problem in problems]
+        if not problems:
+            own = _reader(kind, given, f"{owner}: filter '{name}'", found)
+            chain.append(FilterSetup(name, kind, own.fill(FILTERS[kind].options)))
+            own.report_unknown()
     if wrong:
         raise LaunchError("scan_to_scan_filter_chain: " + "\n  ".join(wrong))
     return chain
+
+
+def _problems(kind: str, given: Any) -> list[str]:
+    """Return what is wrong with values of a filter: what it cannot use must not pass silently."""
+    if not isinstance(given, Mapping):
+        return [f"params is {given!r}, not a group of parameters"]
+    problems = []
+    for key, value in given.items():
+        row = FILTER_TABLES[kind].row_for(str(key))
+        if row is None or row.is_refused:
+            continue
+        if row.kind in ("number", "integer") and number_of(_number_in(value)) is None:
+            problems.append(f"{key} is {value!r}, not a number")
+        elif row.kind == "flag" and flag_of(value) is None:
+            problems.append(f"{key} is {value!r}, not true or false")
+    return problems
+
+
+def _reader(kind: str, given: Mapping[str, Any], owner: str, found: Diagnostics) -> ParameterReader:
+    tree = {key: _number_in(value) for key, value in given.items()}
+    named = ParameterOwner(owner, takes_nan=True)
+    return ParameterReader(FILTER_TABLES[kind], TreeSource(tree), named, found)
+
+
+def _number_in(value: Any) -> Any:
+    """Return infinity, or no number, for how YAML writes them: ROS 1's store may hold the text."""
+    return _NO_NUMBERS.get(value, value) if isinstance(value, str) else value
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Filter scans until told to stop.
 
     Raises:
-        LaunchError: filters are not known.
+        LaunchError: filters are not known, or cannot be used.
     """
     node = start_node(arguments, graph)
-    tree = parameter_tree(node, arguments)
     try:
-        chain = chain_of(tree)
+        with private_parameters(node, arguments, PARAMETERS) as own:
+            chain = chain_of(own.tree, own.name, own.diagnostics)
     except LaunchError:
         node.shutdown()
         raise
