@@ -181,7 +181,7 @@ def _gz_bridge(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) -> 
 
 
 def _rviz(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) -> None:
-    open_rviz(cast(Any, None), Params("rviz.open", {"path": str(path)}))
+    open_rviz(Params("rviz.open", {"path": str(path)}))
 
 
 def _perspective(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) -> None:

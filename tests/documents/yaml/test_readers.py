@@ -217,7 +217,7 @@ READERS = {
     ),
     "doctor's places": _Reader(_places, tells=False),
     # Its own budget counts what a list prints, and one that holds itself prints as [...].
-    "xacro": _Reader(_reported(_xacro), takes=frozenset({"merges", "alias in itself"})),
+    "xacro": _Reader(_reported(_xacro), takes=frozenset({"alias in itself"})),
     "rosparam of roslaunch": _Reader(_reported(_roslaunch)),
     "map": _Reader(_reported(read_map_file)),
     "metadata of a bag": _Reader(_metadata, (BagError,)),
@@ -246,7 +246,7 @@ READERS = {
     "ros2 topic pub": _Reader(lambda p: yaml_values(_text(p)), (ToolError,)),
     "ros2 param set": _Reader(lambda p: read_param_value(_text(p)), (ToolError,)),
     "catkin": _Reader(_catkin),
-    ".rviz": _Reader(lambda p: open_rviz(cast(Any, None), Params("rviz.open", {"path": str(p)}))),
+    ".rviz": _Reader(lambda p: open_rviz(Params("rviz.open", {"path": str(p)}))),
     "form of the page": _Reader(lambda p: read_form_field(_text(p), "a."), (StudioError,)),
     "launch file": _Reader(_of_launch(_frontend)),
     "RewrittenYaml": _Reader(

@@ -20,7 +20,9 @@ _DEEP_YAML = 32
 _BRACKETS = re.compile(r"[][{}]")
 # Indented far, or many lists begun in it.
 _DEEP_LINE = re.compile(r"^(?: {32}|[ ]*(?:[-?] +){16})", re.MULTILINE)
-_SLOW = {ProblemKind.TOO_LONG, ProblemKind.TOO_DEEP}
+# Until its release 6.0.4, PyYAML follows merges of merges one by one.
+_MERGE = "<<"
+_SLOW = {ProblemKind.TOO_LONG, ProblemKind.TOO_DEEP, ProblemKind.TOO_MUCH}
 _MOST_CALLS = 5_000
 _MOST_COPIES = 20_000
 _MOST_TEXTS = 200_000
@@ -95,7 +97,7 @@ class Spending:
 
         Raises:
             OSError: it cannot be read.
-            YamlError: it is so long or nested so deep that PyYAML would take for ever.
+            YamlError: it is so long, nested so deep or merges so much that PyYAML would take for ever.
         """
         text = read_text_limited(name)
         # The library reads it again: that is not done twice where it cannot be slow.
@@ -114,8 +116,8 @@ class Spending:
 
 
 def _may_be_slow(text: str) -> bool:
-    """Tell whether a YAML text may be long or nested deep; brackets in quotes count as well."""
-    if len(text) > _LONG_YAML or _DEEP_LINE.search(text):
+    """Tell whether a YAML text may be slow to read; what stands in quotes counts as well."""
+    if len(text) > _LONG_YAML or _MERGE in text or _DEEP_LINE.search(text):
         return True
     depth = 0
     for bracket in _BRACKETS.findall(text):
