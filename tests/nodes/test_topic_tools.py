@@ -67,6 +67,16 @@ def test_throttle_passes_the_first_of_every_period(graph: Graph) -> None:
     assert _sent_through(graph, run_throttle, words, "/numbers_throttle", 1)[0] == 1
 
 
+@pytest.mark.parametrize("name", ["wall_clock", "use_wall_clock"])
+def test_throttle_goes_by_the_machines_time_under_the_names_of_both_ros(
+    graph: Graph, name: str
+) -> None:
+    graph.parameters.set("/use_sim_time", True)
+    words = ["messages", "/numbers", "0.01", f"_{name}:=true"]
+    # Simulated time that nobody tells stands at 0, where nothing is ever due.
+    assert _sent_through(graph, run_throttle, words, "/numbers_throttle", 1)[0] == 1
+
+
 def test_throttle_counts_bytes_of_a_window(graph: Graph) -> None:
     # An Int32 has 4 bytes: after two of them there are not less than 8 in the last 100 s.
     words = ["bytes", "/numbers", "8", "100"]

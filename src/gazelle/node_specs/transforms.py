@@ -78,6 +78,7 @@ TRANSFORMS = (
         entry="gazelle.studio.views.companions:joint_state_publisher_gui",
         does="publishes joint states, moved by sliders",
         is_light=False,
+        parameters="gazelle.nodes.joint_state_publisher:PARAMETERS",
         role=NodeRole.JOINT_STATES,
         topics=(
             publishes("joint_states", "sensor_msgs/msg/JointState"),

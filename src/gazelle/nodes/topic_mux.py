@@ -23,7 +23,8 @@ PARAMETERS = ParameterTable(
     ("topic_tools/mux", "topic_tools/demux"),
     (
         Parameter("initial_topic", "text", "", "the one at the start; the first one when empty"),
-        *refused("topics are listened to all the time", "lazy"),
+        *refused("topics are listened to all the time", "lazy", unless=False),
+        *refused("words of the command line say it", "input_topics", "output_topic"),
     ),
 )
 

@@ -25,11 +25,18 @@ PARAMETERS = ParameterTable(
     ("topic_tools/relay", "topic_tools/throttle", "topic_tools/drop"),
     (
         Parameter("lazy", "flag", False, "listen only while somebody listens to what comes out"),
-        Parameter("wall_clock", "flag", False, "throttle by the machine's time"),
-        *refused("messages go the way that publisher and subscriber share", "unreliable"),
-        *refused("the topic is listened to itself", "stealth", "monitor_topic", "monitor_rate"),
+        Parameter(
+            "wall_clock", "flag", False, "throttle by the machine's time",
+            aliases=("use_wall_clock",),
+        ),
+        *refused("messages go the way that publisher and subscriber share", "unreliable",
+                 unless=False),
+        *refused("the topic is listened to itself", "stealth", unless=False),
+        *refused("the topic is listened to itself", "monitor_topic", "monitor_rate"),
+        *refused("words of the command line say it", "input_topic", "output_topic",
+                 "throttle_type", "msgs_per_sec", "bytes_per_sec", "window", "x", "y"),
     ),
-)
+)  # fmt: skip
 
 _Passes = Callable[[int], bool]
 _LOOK_S = 0.05

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from gazelle.graph import Graph
+from gazelle.nodes import joint_state_publisher
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.studio.views import companions
 
@@ -52,6 +53,23 @@ def test_use_gui_shows_the_sliders(asked: Callable[..., list[str]], name: str) -
 
 def test_use_gui_of_the_command_line_comes_first(asked: Callable[..., list[str]]) -> None:
     assert asked({"/robot/use_gui": True}, params={"use_gui": False}) == []
+
+
+def test_a_text_that_says_false_shows_no_sliders(asked: Callable[..., list[str]]) -> None:
+    assert asked({"/robot/use_gui": "false"}) == []
+
+
+@pytest.mark.parametrize("given", ["/arm/joint_states", ["/arm/joint_states"]])
+def test_sliders_come_beside_the_sources_of_the_store(
+    asked: Callable[..., list[str]], monkeypatch: pytest.MonkeyPatch, given: Any
+) -> None:
+    sources: list[str] = []
+    monkeypatch.setattr(
+        joint_state_publisher, "run", lambda own, *_: sources.extend(own.params["source_list"])
+    )
+    names = {"use_gui": True, "source_list": given}
+    asked({f"/robot/joint_state_publisher/{name}": value for name, value in names.items()})
+    assert sources == ["/arm/joint_states", "/_gazelle/sliders/joint_state_publisher"]
 
 
 def test_publisher_without_use_gui_has_no_window(asked: Callable[..., list[str]]) -> None:

@@ -11,7 +11,7 @@ from dataclasses import replace
 from gazelle.nodes.slam.options import Flavour, SlamOptions, used, why_not
 from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["FLAVOURS"]
+__all__ = ["CARTOGRAPHER", "FLAVOURS", "GMAPPING", "HECTOR", "KARTO", "TOOLBOX"]
 
 _DEFAULTS = SlamOptions()
 _NO_PARTICLES = "the map is a graph of poses, not a filter with particles"
@@ -227,3 +227,9 @@ FLAVOURS = {
     "cartographer": _CARTOGRAPHER,
 }
 """By family."""
+
+GMAPPING = _GMAPPING.table
+KARTO = _KARTO.table
+HECTOR = _HECTOR.table
+TOOLBOX = _TOOLBOX.table
+CARTOGRAPHER = _CARTOGRAPHER.table

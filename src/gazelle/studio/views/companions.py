@@ -5,12 +5,14 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from gazelle.graph import Graph
 from gazelle.graph.names import resolve
 from gazelle.nodes import joint_state_publisher as joints
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.turtlesim import simulator
+from gazelle.parameters.coercion import flag_of
 from gazelle.studio.views.presence import SERVICE, Request, is_switched_off, present, say
 
 __all__ = ["joint_state_publisher", "joint_state_publisher_gui", "turtlesim"]
@@ -32,8 +34,9 @@ def joint_state_publisher_gui(arguments: NodeArguments, graph: Graph, stop: thre
     """Publish joint states, moved by the sliders of a panel."""
     topic = f"/_gazelle/sliders/{arguments.name}"
     request = Request("joint_state_publisher_gui", {"topic": topic, "publish": True})
-    sources = [*arguments.params.get("source_list", ()), topic]
-    extended = replace(arguments, params={**arguments.params, "source_list": sources})
+    given = _own(arguments, graph, "source_list") or ()
+    sources = [given] if isinstance(given, str) else list(given)
+    extended = replace(arguments, params={**arguments.params, "source_list": [*sources, topic]})
     return _beside(joints.run, request, extended, graph, stop)
 
 
@@ -45,12 +48,15 @@ def turtlesim(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> 
 
 def _wants_sliders(arguments: NodeArguments, graph: Graph) -> bool:
     """``use_gui`` is looked for where rospy's program does: ``~use_gui``, then ``use_gui``."""
-    if "use_gui" in arguments.params:
-        return bool(arguments.params["use_gui"])
-    node = resolve(arguments.name, arguments.namespace)
-    names = (f"{node}/use_gui", resolve("use_gui", arguments.namespace))
-    found = next(filter(graph.parameters.has, names), None)
-    return found is not None and bool(graph.parameters.get(found))
+    own = _own(arguments, graph, "use_gui")
+    beside = resolve("use_gui", arguments.namespace)
+    return bool(flag_of(graph.parameters.get(beside, False) if own is None else own))
+
+
+def _own(arguments: NodeArguments, graph: Graph, name: str) -> Any:
+    """Return what the command line or the store has at ``~name``, None where neither has it."""
+    place = f"{resolve(arguments.name, arguments.namespace)}/{name}"
+    return arguments.params.get(name, graph.parameters.get(place, None))
 
 
 def _beside(
