@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.model import MeshShape, Polyline
+from gazelle.description.model import MeshShape, Polyline, Solid
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents import read_limited
 from gazelle.engine.outline import ear_clipped
@@ -44,6 +44,7 @@ __all__ = [
     "mesh_key",
     "pieces_folder",
     "polyline_pieces",
+    "solid_pieces",
 ]
 
 _UNSPLIT = "a run splits it into convex pieces"
@@ -139,6 +140,14 @@ def polyline_pieces(shape: Polyline) -> tuple[Piece, ...]:
             base = np.array([[x, y, 0.0] for x, y in triangle])
             pieces.append(Piece(np.vstack([base, base + np.array([0.0, 0.0, shape.height_m])])))
     return tuple(pieces)
+
+
+def solid_pieces(shape: Solid) -> tuple[Array, ...]:
+    """Return the points of convex pieces that make up a solid that MuJoCo does not have."""
+    part = shape.mesh()
+    if shape.is_convex:
+        return (part.vertices_m,)
+    return tuple(one.vertices_m for one in convex_parts(Mesh((part,))).parts)
 
 
 def mesh_key(shape: MeshShape, path: Path, *, scenery: bool) -> MeshKey:

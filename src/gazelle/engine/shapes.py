@@ -20,11 +20,12 @@ from gazelle.description.model import (
     MeshShape,
     Plane,
     Polyline,
+    Solid,
     Sphere,
 )
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.library import mujoco
-from gazelle.engine.meshes import Piece, convex_pieces, polyline_pieces
+from gazelle.engine.meshes import Piece, convex_pieces, polyline_pieces, solid_pieces
 from gazelle.engine.terrain import read_terrain
 from gazelle.geometry import Pose, quat_xyzw_from_rpy
 
@@ -82,6 +83,8 @@ def geom_shapes(
             shapes = (GeomShape(types.mjGEOM_ELLIPSOID, tuple(radii)),)
         case Cone(radius_m=radius, length_m=length):
             shapes = (_hull(_cone_points(radius, length)),)
+        case Solid():
+            shapes = tuple(_hull(points) for points in solid_pieces(collision.shape))
         case Plane(normal=normal):
             shapes = (_plane(normal, collision, name, static, diagnostics),)
         case Heightmap():

@@ -32,6 +32,7 @@ __all__ = [
     "SensorValue",
     "ShapeValue",
     "SphereGeometry",
+    "TrianglesGeometry",
     "WorldGeometry",
 ]
 
@@ -129,8 +130,23 @@ class PolylineOutlines(TypedDict):
     height: float
 
 
+class TrianglesGeometry(TypedDict):
+    """The surface of a solid that has no word of its own here.
+
+    Attributes:
+        vertices: x, y, z in metres.
+        faces: three places of vertices.
+        normals: of the vertices.
+    """
+
+    type: Literal["triangles"]
+    vertices: list[list[float]]
+    faces: list[list[int]]
+    normals: list[list[float]]
+
+
 PlainGeometry = BoxGeometry | SphereGeometry | RoundGeometry | EllipsoidGeometry | PlaneGeometry
-WorldGeometry = PlainGeometry | MeshFile | HeightmapFile | PolylineOutlines
+WorldGeometry = PlainGeometry | MeshFile | HeightmapFile | PolylineOutlines | TrianglesGeometry
 """Geometries as they are made."""
 
 GeometryT = TypeVar("GeometryT")

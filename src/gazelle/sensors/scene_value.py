@@ -32,7 +32,8 @@ from gazelle.description.model.shape import (
     Shape,
     Sphere,
 )
-from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.description.model.solid import Solid
+from gazelle.geometry import IDENTITY_POSE, MeshPart, Pose
 from gazelle.sensors.picture_overlays import equivalent_box
 from gazelle.sensors.scene_types import (
     BodyValue,
@@ -47,6 +48,7 @@ from gazelle.sensors.scene_types import (
     RoundGeometry,
     SceneValue,
     SensorValue,
+    TrianglesGeometry,
     WorldGeometry,
 )
 
@@ -163,12 +165,23 @@ def geometry_value(shape: Shape) -> WorldGeometry:
                 "type": kind, "radius": shape.radius_m, "length": shape.length_m,
             }  # fmt: skip
             return made
+        case Solid():
+            return _triangles(shape.mesh())
         case Plane():
             return {"type": "plane", "normal": list(shape.normal), "size": list(shape.size_m)}
         case MeshShape() | Heightmap() | Polyline():
             return _file_geometry(shape)
         case _:
             assert_never(shape)
+
+
+def _triangles(part: MeshPart) -> TrianglesGeometry:
+    return {
+        "type": "triangles",
+        "vertices": part.vertices_m.tolist(),
+        "faces": part.faces.tolist(),
+        "normals": part.normals.tolist(),
+    }
 
 
 def _file_geometry(

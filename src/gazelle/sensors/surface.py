@@ -27,6 +27,7 @@ from gazelle.description.model import (
     Plane,
     Polyline,
     Shape,
+    Solid,
     Sphere,
 )
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
@@ -105,6 +106,9 @@ def surface_of(
             return _shared(("plane",), _of_facets(unit_plane)), matrix
         case Box() | Sphere() | Cylinder() | Cone() | Ellipsoid():
             return _primitive(shape)
+        case Solid():
+            part = shape.mesh()
+            return _shared((shape,), lambda: _of_parts((part,))), np.eye(4)
         case _:
             assert_never(shape)
 

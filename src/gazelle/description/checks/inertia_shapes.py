@@ -10,35 +10,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
     Heightmap,
     MeshShape,
     Plane,
     Polyline,
     Shape,
-    Sphere,
+    Solid,
 )
-from gazelle.description.solids import solid_body
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.geometry import (
     MassProperties,
     Mesh,
     MeshPart,
-    box_mesh,
-    capsule_mesh,
-    cone_mesh,
     convex_hull,
-    cylinder_mesh,
-    ellipsoid_mesh,
     load_mesh_reported,
     mesh_mass_properties,
     polyline_mesh,
-    sphere_mesh,
 )
 
 __all__ = ["mesh_body", "shape_body", "shape_points_m"]
@@ -69,8 +57,8 @@ def shape_body(
 
 def _body(shape: Shape, density: float, diagnostics: Diagnostics) -> MassProperties | None:
     match shape:
-        case Box() | Sphere() | Cylinder() | Cone() | Capsule() | Ellipsoid():
-            return solid_body(shape, density)
+        case Solid():
+            return shape.body(density)
         case MeshShape() | Polyline():
             mesh = _mesh(shape, diagnostics)
             return None if mesh is None else mesh_body(mesh, density)
@@ -115,18 +103,8 @@ def _primitive_points_m(shape: Shape) -> Array:
 def _mesh(shape: Shape, diagnostics: Diagnostics) -> Mesh | MeshPart | None:
     try:
         match shape:
-            case Box(size_m=size):
-                return box_mesh(size)
-            case Sphere(radius_m=r):
-                return sphere_mesh(r)
-            case Cylinder(radius_m=r, length_m=length):
-                return cylinder_mesh(r, length)
-            case Cone(radius_m=r, length_m=length):
-                return cone_mesh(r, length)
-            case Capsule(radius_m=r, length_m=length):
-                return capsule_mesh(r, length)
-            case Ellipsoid(radii_m=radii):
-                return ellipsoid_mesh(radii)
+            case Solid():
+                return shape.mesh()
             case Polyline():
                 return polyline_mesh(shape.outlines_m, shape.height_m)
             case MeshShape():

@@ -9,21 +9,11 @@ from numpy.typing import NDArray
 
 from gazelle.description.checks.bodies import fixed_heads
 from gazelle.description.checks.outlines import Outline, Outlines
-from gazelle.description.model import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    Link,
-    Model,
-    Sphere,
-)
+from gazelle.description.model import Link, Model, Shape, Solid
 from gazelle.diagnostics import Diagnostics
 
 __all__ = ["check_overlaps", "overlap_m"]
 
-_CONVEX = (Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere)
 _TOLERATED_M = 0.001
 _ROUNDS = 64
 
@@ -97,9 +87,13 @@ def _colliding(model: Model, outlines: Outlines) -> list[Outline]:
         item
         for item in outlines.collisions
         if item.collision is not None
-        and isinstance(item.collision.shape, _CONVEX)
+        and _is_convex(item.collision.shape)
         and _self_collides(item.link, model)
     ]
+
+
+def _is_convex(shape: Shape) -> bool:
+    return isinstance(shape, Solid) and shape.is_convex
 
 
 def _near_pairs(items: Sequence[Outline]) -> Iterator[tuple[Outline, Outline]]:

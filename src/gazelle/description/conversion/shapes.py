@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterator
 from typing import assert_never
 
 import numpy as np
@@ -11,16 +12,14 @@ from numpy.typing import NDArray
 from gazelle.description.conversion.beside import Beside
 from gazelle.description.conversion.markup import Markup, number, numbers, tidy
 from gazelle.description.model import (
-    Box,
     Capsule,
-    Cone,
     Cylinder,
-    Ellipsoid,
     Heightmap,
     MeshShape,
     Plane,
     Polyline,
     Shape,
+    Solid,
     Sphere,
 )
 from gazelle.errors import GazelleError
@@ -28,8 +27,6 @@ from gazelle.geometry import (
     Mesh,
     MeshPart,
     Pose,
-    cone_mesh,
-    ellipsoid_mesh,
     load_mesh,
     polyline_mesh,
 )
@@ -50,19 +47,13 @@ def add_urdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
     """Append the ``<geometry>`` of a shape that URDF has a word for."""
     geometry = owner.add("geometry")
     match shape:
-        case Box(size_m=size):
-            geometry.add("box", size=numbers(size))
-        case Sphere(radius_m=radius):
-            geometry.add("sphere", radius=number(radius))
-        case Cylinder(radius_m=radius, length_m=length):
-            geometry.add("cylinder", radius=number(radius), length=number(length))
-        case Capsule(radius_m=radius, length_m=length):
-            geometry.add("capsule", radius=number(radius), length=number(length))
+        case Solid() if shape.in_urdf:
+            geometry.add(shape.word, **dict(_lengths(shape)))
         case MeshShape():
             mesh = geometry.add("mesh", filename=beside.address(shape.path, shape.uri))
             if shape.scale != _ONES:
                 mesh.attributes["scale"] = numbers(shape.scale)
-        case Cone() | Ellipsoid() | Plane() | Heightmap() | Polyline():
+        case Solid() | Plane() | Heightmap() | Polyline():
             raise AssertionError(f"URDF has no word for {shape}")
         case _:
             assert_never(shape)
@@ -81,11 +72,11 @@ def urdf_pieces(shape: Shape, *, has_capsules: bool) -> tuple[tuple[str, Shape, 
     match shape:
         case Capsule() if not has_capsules:
             return _capsule_pieces(shape)
-        case Box() | Sphere() | Cylinder() | Capsule():
+        case Solid() if shape.in_urdf:
             return (("", shape, Pose()),)
         case MeshShape():
             return () if shape.submesh else (("", shape, Pose()),)
-        case Cone() | Ellipsoid() | Plane() | Heightmap() | Polyline():
+        case Solid() | Plane() | Heightmap() | Polyline():
             return ()
         case _:
             assert_never(shape)
@@ -111,13 +102,11 @@ def as_mesh(shape: Shape) -> tuple[str, bytes] | None:
         case MeshShape():
             mesh = mesh_of(shape)
             return None if mesh is None else (shape.submesh, stl_bytes(mesh.vertices_m, mesh.faces))
-        case Ellipsoid(radii_m=radii):
-            part = ellipsoid_mesh(radii)
-        case Cone(radius_m=radius, length_m=length):
-            part = cone_mesh(radius, length)
+        case Solid() if not shape.in_urdf:
+            part = shape.mesh()
         case Polyline(outlines_m=outlines, height_m=height):
             part = polyline_mesh(outlines, height)
-        case Box() | Sphere() | Cylinder() | Capsule() | Plane() | Heightmap():
+        case Solid() | Plane() | Heightmap():
             return None
         case _:
             assert_never(shape)
@@ -152,16 +141,10 @@ def add_sdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
     """Append the ``<geometry>`` of a shape in SDF's words."""
     geometry = owner.add("geometry")
     match shape:
-        case Box(size_m=size):
-            geometry.add("box").add("size", numbers(size))
-        case Sphere(radius_m=radius):
-            geometry.add("sphere").add("radius", number(radius))
-        case Cylinder() | Capsule() | Cone():
-            item = geometry.add(type(shape).__name__.lower())
-            item.add("radius", number(shape.radius_m))
-            item.add("length", number(shape.length_m))
-        case Ellipsoid(radii_m=radii):
-            geometry.add("ellipsoid").add("radii", numbers(radii))
+        case Solid():
+            item = geometry.add(shape.word)
+            for word, text in _lengths(shape):
+                item.add(word, text)
         case Plane(normal=normal, size_m=plane_size):
             plane = geometry.add("plane")
             plane.add("normal", numbers(map(tidy, normal)))
@@ -181,6 +164,13 @@ def add_sdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
                 line.add("height", number(height))
         case _:
             assert_never(shape)
+
+
+def _lengths(shape: Solid) -> Iterator[tuple[str, str]]:
+    """Yield words and texts of a solid's lengths."""
+    for row in shape.lengths():
+        value = getattr(shape, row.field)
+        yield row.word, numbers(value) if isinstance(value, tuple) else number(value)
 
 
 def _add_mesh(geometry: Markup, shape: MeshShape, beside: Beside) -> None:

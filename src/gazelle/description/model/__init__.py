@@ -46,6 +46,7 @@ from gazelle.description.model.sensor import (
     SonarSpec,
 )
 from gazelle.description.model.shape import (
+    SOLIDS,
     Box,
     Capsule,
     Cone,
@@ -61,6 +62,7 @@ from gazelle.description.model.shape import (
     Sphere,
     thickened,
 )
+from gazelle.description.model.solid import Length, Solid
 from gazelle.description.model.world import (
     Frame,
     Model,
@@ -73,6 +75,7 @@ from gazelle.description.model.world import (
 __all__ = [
     "NOISE_TYPES",
     "NO_NOISE",
+    "SOLIDS",
     "ActuatorTag",
     "AltimeterSpec",
     "Box",
@@ -92,6 +95,7 @@ __all__ = [
     "Joint",
     "JointAxis",
     "JointType",
+    "Length",
     "LensDistortion",
     "LidarSpec",
     "Light",
@@ -117,6 +121,7 @@ __all__ = [
     "Sensor",
     "SensorSpec",
     "Shape",
+    "Solid",
     "SonarSpec",
     "Sphere",
     "SphericalCoordinates",

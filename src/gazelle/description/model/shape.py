@@ -2,13 +2,35 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
+from gazelle.description.model.solid import Solid
 from gazelle.diagnostics import SourceSpan
+from gazelle.geometry.mass import MassProperties
+from gazelle.geometry.mesh import MeshPart
+from gazelle.geometry.primitives import (
+    box_mesh,
+    capsule_mesh,
+    cone_mesh,
+    cylinder_mesh,
+    ellipsoid_mesh,
+    sphere_mesh,
+)
+from gazelle.geometry.solids import (
+    box_mass_properties,
+    capsule_mass_properties,
+    cone_mass_properties,
+    cylinder_mass_properties,
+    ellipsoid_mass_properties,
+    sphere_mass_properties,
+)
 
 __all__ = [
+    "SOLIDS",
     "Box",
     "Capsule",
     "Cone",
@@ -38,48 +60,128 @@ def thickened(lengths_m: Iterable[float]) -> tuple[float, ...]:
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class Box(Solid):
     """A box centred on its frame; edge lengths in metres."""
+
+    word: ClassVar[str] = "box"
+    usual: ClassVar = ((1.0, 1.0, 1.0),)
+    in_urdf: ClassVar[bool] = True
 
     size_m: Vector3
 
+    def body(self, density_kg_m3: float) -> MassProperties:
+        """Return it filled evenly."""
+        return box_mass_properties(density_kg_m3 * math.prod(self.size_m), self.size_m)
+
+    def mesh(self) -> MeshPart:
+        """Return its sides."""
+        return box_mesh(self.size_m)
+
 
 @dataclass(frozen=True, slots=True)
-class Sphere:
+class Sphere(Solid):
     """A sphere centred on its frame."""
 
+    word: ClassVar[str] = "sphere"
+    usual: ClassVar = (1.0,)
+    in_urdf: ClassVar[bool] = True
+
     radius_m: float
+
+    def body(self, density_kg_m3: float) -> MassProperties:
+        """Return it filled evenly."""
+        r = self.radius_m
+        return sphere_mass_properties(density_kg_m3 * 4 / 3 * math.pi * r**3, r)
+
+    def mesh(self) -> MeshPart:
+        """Return its surface."""
+        return sphere_mesh(self.radius_m)
 
 
 @dataclass(frozen=True, slots=True)
-class Cylinder:
+class Cylinder(Solid):
     """A cylinder about z, centred on its frame."""
 
+    word: ClassVar[str] = "cylinder"
+    usual: ClassVar = (1.0, 1.0)
+    in_urdf: ClassVar[bool] = True
+
     radius_m: float
     length_m: float
 
+    def body(self, density_kg_m3: float) -> MassProperties:
+        """Return it filled evenly."""
+        r, length = self.radius_m, self.length_m
+        return cylinder_mass_properties(density_kg_m3 * math.pi * r**2 * length, r, length)
+
+    def mesh(self) -> MeshPart:
+        """Return its side and its ends."""
+        return cylinder_mesh(self.radius_m, self.length_m)
+
 
 @dataclass(frozen=True, slots=True)
-class Capsule:
+class Capsule(Solid):
     """A capsule about z, centred on its frame; `length_m` is the cylindrical part's."""
 
+    word: ClassVar[str] = "capsule"
+    usual: ClassVar = (0.5, 1.0)
+    in_urdf: ClassVar[bool] = True
+
     radius_m: float
     length_m: float
 
+    def body(self, density_kg_m3: float) -> MassProperties:
+        """Return it filled evenly."""
+        r, length = self.radius_m, self.length_m
+        volume = math.pi * r**2 * (length + 4 / 3 * r)
+        return capsule_mass_properties(density_kg_m3 * volume, r, length)
+
+    def mesh(self) -> MeshPart:
+        """Return its surface."""
+        return capsule_mesh(self.radius_m, self.length_m)
+
 
 @dataclass(frozen=True, slots=True)
-class Cone:
+class Cone(Solid):
     """A cone about z, apex up, centred on half its height."""
 
+    word: ClassVar[str] = "cone"
+    usual: ClassVar = (0.5, 1.0)
+
     radius_m: float
     length_m: float
 
+    def body(self, density_kg_m3: float) -> MassProperties:
+        """Return it filled evenly."""
+        r, length = self.radius_m, self.length_m
+        return cone_mass_properties(density_kg_m3 * math.pi * r**2 * length / 3, r, length)
+
+    def mesh(self) -> MeshPart:
+        """Return its side and its base."""
+        return cone_mesh(self.radius_m, self.length_m)
+
 
 @dataclass(frozen=True, slots=True)
-class Ellipsoid:
+class Ellipsoid(Solid):
     """An ellipsoid centred on its frame; semi-axes in metres."""
 
+    word: ClassVar[str] = "ellipsoid"
+    usual: ClassVar = ((1.0, 1.0, 1.0),)
+
     radii_m: Vector3
+
+    def body(self, density_kg_m3: float) -> MassProperties:
+        """Return it filled evenly."""
+        volume = 4 / 3 * math.pi * math.prod(self.radii_m)
+        return ellipsoid_mass_properties(density_kg_m3 * volume, self.radii_m)
+
+    def mesh(self) -> MeshPart:
+        """Return its surface."""
+        return ellipsoid_mesh(self.radii_m)
+
+
+SOLIDS: tuple[type[Solid], ...] = (Box, Sphere, Cylinder, Capsule, Cone, Ellipsoid)
+"""Every solid that descriptions can name; a new one is its class and its row here."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,9 +232,7 @@ class Polyline:
     height_m: float = 1.0
 
 
-Shape = (
-    Box | Sphere | Cylinder | Capsule | Cone | Ellipsoid | Plane | MeshShape | Heightmap | Polyline
-)
+Shape = Solid | Plane | MeshShape | Heightmap | Polyline
 
 
 @dataclass(frozen=True, slots=True)

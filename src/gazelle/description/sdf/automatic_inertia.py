@@ -7,22 +7,16 @@ from typing import assert_never
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import (
-    Box,
-    Capsule,
     Collision,
-    Cone,
-    Cylinder,
-    Ellipsoid,
     Heightmap,
     Inertial,
     MeshShape,
     Plane,
     Polyline,
     Shape,
-    Sphere,
+    Solid,
 )
 from gazelle.description.sdf.values import child_float, optional_float
-from gazelle.description.solids import solid_body
 from gazelle.description.xml import Tag
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
@@ -86,8 +80,8 @@ def _body(
 ) -> MassProperties | None:
     """Return one shape of even density; None when it has no volume."""
     match shape:
-        case Box() | Sphere() | Cylinder() | Cone() | Capsule() | Ellipsoid():
-            return solid_body(shape, density)
+        case Solid():
+            return shape.body(density)
         case MeshShape() | Polyline():
             return _mesh_body(shape, density, collision, context)
         case Plane() | Heightmap():

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
+    SOLIDS,
     Heightmap,
+    Length,
     MeshShape,
     Plane,
     Polyline,
     Shape,
-    Sphere,
+    Solid,
     thickened,
 )
 from gazelle.description.sdf.values import child_bool, child_float, child_vector3
@@ -29,14 +25,6 @@ from gazelle.documents.names import is_folder
 __all__ = ["read_shape"]
 
 _ReadShape = Callable[[Tag, ReadContext], Shape | None]
-_LENGTHS: tuple[tuple[type, tuple[str, ...]], ...] = (
-    (Box, ("size_m",)),
-    (Ellipsoid, ("radii_m",)),
-    (Sphere, ("radius_m",)),
-    (Cylinder, ("radius_m", "length_m")),
-    (Capsule, ("radius_m", "length_m")),
-    (Cone, ("radius_m", "length_m")),
-)
 _ONE = (1.0, 1.0, 1.0)
 _ZERO = (0.0, 0.0, 0.0)
 
@@ -58,65 +46,51 @@ def read_shape(tag: Tag | None, context: ReadContext, *, owner: Tag) -> Shape | 
     for child in tag.children:
         if child.name == "polyline":
             return _polyline(tag, owner, context)
+        if child.name in _SOLIDS:
+            return _solid(_SOLIDS[child.name], child, owner, context)
         if child.name in _READERS:
-            shape = _READERS[child.name](child, context)
-            return shape and _sized(shape, child, owner, context)
+            return _READERS[child.name](child, context)
         if child.name == "image":
             _refuse(owner, "is an extruded <image>, which is not simulated", child, context)
             return None
     if tag.find("empty") is None:
-        _refuse(owner, "has a <geometry> without a shape", tag, context)
+        fix = f"give it one of {', '.join(_SOLIDS)}, plane, mesh, polyline, heightmap"
+        _refuse(owner, "has a <geometry> without a shape", tag, context, fix)
     return None
 
 
-def _refuse(owner: Tag, reason: str, place: Tag, context: ReadContext) -> None:
+def _refuse(owner: Tag, reason: str, place: Tag, context: ReadContext, fix: str = "") -> None:
     name = owner.attributes.get("name", "")
     message = f"{owner.name} '{name}' {reason}; it is left out"
-    context.diagnostics.report("sdf.bad-geometry", message, place.span)
+    context.diagnostics.report("sdf.bad-geometry", message, place.span, fix=fix)
 
 
-def _sized(shape: Shape, tag: Tag, owner: Tag, context: ReadContext) -> Shape | None:
-    """Return a shape whose lengths of 0 are as thin as in Gazebo; None, reported, for negative."""
-    fields = [name for kind, names in _LENGTHS for name in names if isinstance(shape, kind)]
-    changed: dict[str, Any] = {}
-    for field in fields:
-        value = getattr(shape, field)
+def _solid(kind: type[Solid], tag: Tag, owner: Tag, context: ReadContext) -> Solid | None:
+    """Return a solid; lengths of 0 are as thin as in Gazebo, for negative ones None, reported."""
+    rows = kind.lengths()
+    read = [_length(tag, row, context) for row in rows]
+    used = []
+    for row, value in zip(rows, read, strict=True):
         lengths = value if isinstance(value, tuple) else (value,)
-        used = thickened(lengths)
-        name = field.removesuffix("_m")
-        place = tag.find(name) or tag
-        what = f"has a <{tag.name}> whose <{name}> is"
-        if min(used) <= 0.0:
+        thick = thickened(lengths)
+        place = tag.find(row.word) or tag
+        what = f"has a <{tag.name}> whose <{row.word}> is"
+        if min(thick) <= 0.0:
             _refuse(owner, f"{what} not positive ({min(lengths):g})", place, context)
             return None
-        if used != lengths:
-            changed[field] = used if isinstance(value, tuple) else used[0]
-            thin_m = max(set(used) - set(lengths))
+        if thick != lengths:
+            thin_m = max(set(thick) - set(lengths))
             message = f"{owner.name} '{owner.attributes.get('name', '')}' {what} 0; {thin_m:g} m "
             message += "is used, as in Gazebo"
             context.diagnostics.report("sdf.bad-geometry", message, place.span)
-    return cast(Shape, replace(cast(Any, shape), **changed)) if changed else shape
+        used.append(thick if isinstance(value, tuple) else thick[0])
+    return kind.of_lengths(tuple(used))
 
 
-def _box(tag: Tag, context: ReadContext) -> Shape:
-    return Box(child_vector3(tag, "size", _ONE, context))
-
-
-def _sphere(tag: Tag, context: ReadContext) -> Shape:
-    return Sphere(child_float(tag, "radius", 1.0, context))
-
-
-def _round(
-    kind: type[Cylinder] | type[Capsule] | type[Cone], radius_m: float
-) -> Callable[[Tag, ReadContext], Shape]:
-    """Return the reader of a shape with radius and length; `radius_m` is SDF's default."""
-    return lambda tag, context: kind(
-        child_float(tag, "radius", radius_m, context), child_float(tag, "length", 1.0, context)
-    )
-
-
-def _ellipsoid(tag: Tag, context: ReadContext) -> Shape:
-    return Ellipsoid(child_vector3(tag, "radii", _ONE, context))
+def _length(tag: Tag, row: Length, context: ReadContext) -> float | tuple[float, ...]:
+    if isinstance(row.usual, tuple):
+        return child_vector3(tag, row.word, row.usual, context)
+    return child_float(tag, row.word, row.usual, context)
 
 
 def _plane(tag: Tag, context: ReadContext) -> Shape:
@@ -204,13 +178,8 @@ def _file(uri: str, tag: Tag, context: ReadContext) -> Path | None:
     return found.path
 
 
+_SOLIDS = {kind.word: kind for kind in SOLIDS}
 _READERS: dict[str, _ReadShape] = {
-    "box": _box,
-    "sphere": _sphere,
-    "cylinder": _round(Cylinder, 1.0),
-    "capsule": _round(Capsule, 0.5),
-    "cone": _round(Cone, 0.5),
-    "ellipsoid": _ellipsoid,
     "plane": _plane,
     "mesh": _mesh,
     "heightmap": _heightmap,

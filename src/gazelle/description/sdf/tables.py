@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from gazelle.description.model import SOLIDS
 from gazelle.description.sdf.sensor_tables import SENSOR_ROWS
 from gazelle.description.sdf.world_tables import WORLD_ROWS
 
@@ -75,14 +76,9 @@ _MODEL_ROWS: _Rows = {
     ),
     "geometry": (
         "",
-        "box sphere cylinder capsule cone ellipsoid plane mesh heightmap image polyline empty",
+        f"{' '.join(one.word for one in SOLIDS)} plane mesh heightmap image polyline empty",
     ),
-    "box": ("", "size"),
-    "sphere": ("", "radius"),
-    "cylinder": ("", "radius length"),
-    "capsule": ("", "radius length"),
-    "cone": ("", "radius length"),
-    "ellipsoid": ("", "radii"),
+    **{one.word: ("", " ".join(length.word for length in one.lengths())) for one in SOLIDS},
     "plane": ("", "normal size"),
     "mesh": ("optimization", "uri filename scale submesh convex_decomposition!"),
     "submesh": ("", "name center"),

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from itertools import chain, islice
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import (
-    Box,
-    Capsule,
-    Cylinder,
+    SOLIDS,
+    Length,
     MeshShape,
     Shape,
-    Sphere,
+    Solid,
     thickened,
 )
 from gazelle.description.urdf.attributes import (
@@ -44,42 +43,47 @@ def read_geometry(owner: Tag, link: str, context: ReadContext) -> Shape | None:
         context.diagnostics.report("urdf.geometry-missing", message, (geometry or owner).span)
         return None
     shape = geometry.children[0]
-    reader = _READERS.get(shape.name)
-    if reader is None:
-        hint = did_you_mean(shape.name, _READERS) or f"use one of {', '.join(sorted(_READERS))}"
+    if shape.name not in _WORDS:
+        hint = did_you_mean(shape.name, _WORDS) or f"use one of {', '.join(_WORDS)}"
         message = f"unknown geometry type '{shape.name}': the {where} is left out"
         context.diagnostics.report("urdf.geometry-unknown", message, shape.span, fix=hint)
         return None
     check_vocabulary(geometry, context.diagnostics, children=(shape.name,), once=(shape.name,))
-    return reader(shape, owner, link, context)
+    kind = _SOLIDS.get(shape.name)
+    if kind is None:
+        return _mesh(shape, owner, link, context)
+    return _solid(kind, shape, owner, link, context)
 
 
-def _box(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None:
-    check_vocabulary(tag, context.diagnostics, attributes=("size",))
-    if "size" not in tag.attributes:
-        _incomplete(tag, owner, link, 'a box needs size="x y z"', context)
+def _solid(
+    kind: type[Solid], tag: Tag, owner: Tag, link: str, context: ReadContext
+) -> Solid | None:
+    rows, diagnostics = kind.lengths(), context.diagnostics
+    check_vocabulary(tag, diagnostics, attributes=tuple(row.word for row in rows))
+    missing = [row for row in rows if row.word not in tag.attributes]
+    if missing:
+        needs = " and ".join(
+            f'{row.word}="{"x y z" if isinstance(row.usual, tuple) else "…"}"' for row in missing
+        )
+        _incomplete(tag, owner, link, f"a {tag.name} needs {needs}", context)
         return None
-    size = vector_attribute(tag, "size", context.diagnostics)
-    sizes = _usable(tag, size, link, context) if size else None
-    return Box((sizes[0], sizes[1], sizes[2])) if sizes else None
+    read = [_length(tag, row, context) for row in rows]
+    lengths = [value for value in read if value is not None]
+    if len(lengths) < len(rows):
+        return None
+    sizes = _usable(tag, tuple(chain.from_iterable(lengths)), link, context)
+    if sizes is None:
+        return None
+    left = iter(sizes)
+    values = [tuple(islice(left, len(value))) for value in lengths]
+    return kind.of_lengths(tuple(one if len(one) > 1 else one[0] for one in values))
 
 
-def _sphere(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None:
-    check_vocabulary(tag, context.diagnostics, attributes=("radius",))
-    numbers = _numbers(tag, owner, link, ("radius",), context)
-    return Sphere(numbers[0]) if numbers else None
-
-
-def _cylinder(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None:
-    check_vocabulary(tag, context.diagnostics, attributes=("radius", "length"))
-    numbers = _numbers(tag, owner, link, ("radius", "length"), context)
-    return Cylinder(numbers[0], numbers[1]) if numbers else None
-
-
-def _capsule(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None:
-    check_vocabulary(tag, context.diagnostics, attributes=("radius", "length"))
-    numbers = _numbers(tag, owner, link, ("radius", "length"), context)
-    return Capsule(numbers[0], numbers[1]) if numbers else None
+def _length(tag: Tag, row: Length, context: ReadContext) -> tuple[float, ...] | None:
+    if isinstance(row.usual, tuple):
+        return vector_attribute(tag, row.word, context.diagnostics)
+    value = number_attribute(tag, row.word, context.diagnostics)
+    return None if value is None else (value,)
 
 
 def _mesh(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None:
@@ -101,26 +105,8 @@ def _mesh(tag: Tag, owner: Tag, link: str, context: ReadContext) -> Shape | None
     return MeshShape(uri, found.path, scale or _ONES, span=tag.span)
 
 
-_READERS: dict[str, Callable[[Tag, Tag, str, ReadContext], Shape | None]] = {
-    "box": _box,
-    "capsule": _capsule,
-    "cylinder": _cylinder,
-    "mesh": _mesh,
-    "sphere": _sphere,
-}
-
-
-def _numbers(
-    tag: Tag, owner: Tag, link: str, names: tuple[str, ...], context: ReadContext
-) -> tuple[float, ...] | None:
-    missing = [name for name in names if name not in tag.attributes]
-    if missing:
-        needs = " and ".join(f'{name}="…"' for name in missing)
-        _incomplete(tag, owner, link, f"a {tag.name} needs {needs}", context)
-        return None
-    values = tuple(number_attribute(tag, name, context.diagnostics) for name in names)
-    good = tuple(value for value in values if value is not None)
-    return _usable(tag, good, link, context) if len(good) == len(names) else None
+_SOLIDS = {kind.word: kind for kind in SOLIDS if kind.in_urdf}
+_WORDS = tuple(sorted((*_SOLIDS, "mesh")))
 
 
 def _usable(

@@ -7,20 +7,14 @@ from typing import assert_never
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
     Heightmap,
     Link,
     MeshShape,
     Plane,
     Polyline,
     Shape,
-    Sphere,
+    Solid,
 )
-from gazelle.description.solids import solid_body
 from gazelle.diagnostics import SourceSpan
 from gazelle.errors import GazelleError
 from gazelle.geometry import (
@@ -62,11 +56,11 @@ def _whole(
 
 def _body(shape: Shape, span: SourceSpan | None, context: ReadContext) -> MassProperties | None:
     match shape:
-        case Box() | Sphere() | Cylinder() | Capsule():
-            return solid_body(shape, _DENSITY_KG_M3)
+        case Solid():
+            return shape.body(_DENSITY_KG_M3)
         case MeshShape():
             return _mesh_body(shape, span, context)
-        case Cone() | Ellipsoid() | Plane() | Heightmap() | Polyline():
+        case Plane() | Heightmap() | Polyline():
             return None  # URDF has no word for them
         case _:
             assert_never(shape)

@@ -14,7 +14,6 @@ from gazelle.description.conversion.shapes import mesh_of
 from gazelle.description.model import (
     Box,
     Capsule,
-    Cone,
     Cylinder,
     Ellipsoid,
     Heightmap,
@@ -26,6 +25,7 @@ from gazelle.description.model import (
     Polyline,
     Rgba,
     Shape,
+    Solid,
     Sphere,
     Visual,
 )
@@ -39,7 +39,6 @@ from gazelle.geometry import (
     MeshMaterial,
     MeshPart,
     Pose,
-    cone_mesh,
     plane_mesh,
     polyline_mesh,
 )
@@ -209,7 +208,7 @@ def _primitive(shape: Shape) -> tuple[Any, tuple[float, ...]] | None:
             return types.mjGEOM_CAPSULE, (radius, length / 2)
         case Ellipsoid(radii_m=radii):
             return types.mjGEOM_ELLIPSOID, tuple(radii)
-        case MeshShape() | Cone() | Polyline() | Plane() | Heightmap():
+        case Solid() | MeshShape() | Polyline() | Plane() | Heightmap():
             return None
         case _:
             assert_never(shape)
@@ -220,13 +219,13 @@ def _triangles(shape: Shape) -> tuple[MeshPart, ...]:
         case MeshShape():
             mesh = mesh_of(shape)
             return () if mesh is None else mesh.parts
-        case Cone(radius_m=radius, length_m=length):
-            return (cone_mesh(radius, length),)
+        case Solid():
+            return (shape.mesh(),)
         case Polyline(outlines_m=outlines, height_m=height):
             return (polyline_mesh(outlines, height),)
         case Plane(normal=normal, size_m=size):
             return (plane_mesh(size, normal),)
-        case Box() | Sphere() | Cylinder() | Capsule() | Ellipsoid() | Heightmap():
+        case Heightmap():
             return ()
         case _:
             assert_never(shape)

@@ -7,16 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from gazelle.description.model import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    MeshShape,
-    Plane,
-    Sphere,
-)
+from gazelle.description.model import MeshShape, Plane, Solid
 from gazelle.geometry import IDENTITY_POSE, Pose
 from gazelle.motion.space import FloatArray
 
@@ -44,7 +35,7 @@ class SceneMesh:
             raise ValueError("a mesh has triangles with vertices that are not there")
 
 
-SceneShape = Box | Sphere | Cylinder | Cone | Capsule | Ellipsoid | Plane | MeshShape | SceneMesh
+SceneShape = Solid | Plane | MeshShape | SceneMesh
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,11 @@ import numpy as np
 
 from gazelle.description.model import (
     Box,
-    Capsule,
     Cone,
     Cylinder,
-    Ellipsoid,
     MeshShape,
     Plane,
+    Solid,
     Sphere,
 )
 from gazelle.geometry import Pose
@@ -96,11 +95,12 @@ def add_shapes(message: Any, shapes: tuple[PlacedShape, ...]) -> None:
             message.planes.append(message_type("shape_msgs/msg/Plane")(coef=[*shape.normal, 0.0]))
             message.plane_poses.append(pose)
             continue
-        if isinstance(shape, SceneMesh):
+        primitive = _primitive(shape)
+        if primitive is None:
             message.meshes.append(_mesh(shape))
             message.mesh_poses.append(pose)
         else:
-            message.primitives.append(_primitive(shape))
+            message.primitives.append(primitive)
             message.primitive_poses.append(pose)
 
 
@@ -111,7 +111,7 @@ def pose_message(pose: Pose) -> Any:
     return made
 
 
-def _primitive(shape: SceneShape) -> Any:
+def _primitive(shape: SceneShape) -> Any | None:
     match shape:
         case Box(size_m=size):
             kind, sizes = 1, list(size)
@@ -121,14 +121,19 @@ def _primitive(shape: SceneShape) -> Any:
             kind, sizes = 3, [length, radius]
         case Cone(radius_m=radius, length_m=length):
             kind, sizes = 4, [length, radius]
-        case Capsule() | Ellipsoid() | Plane() | MeshShape() | SceneMesh():
-            raise ValueError(f"shape_msgs has no {type(shape).__name__}")
+        case Solid() | Plane() | MeshShape() | SceneMesh():
+            return None
         case _:
             assert_never(shape)
     return message_type("shape_msgs/msg/SolidPrimitive")(type=kind, dimensions=sizes)
 
 
-def _mesh(shape: SceneMesh) -> Any:
+def _mesh(shape: SceneShape) -> Any:
+    if isinstance(shape, Solid):
+        part = shape.mesh()
+        shape = SceneMesh(part.vertices_m, part.faces)
+    if not isinstance(shape, SceneMesh):
+        raise ValueError(f"shape_msgs has no {type(shape).__name__}")
     point = message_type("geometry_msgs/msg/Point")
     triangle = message_type("shape_msgs/msg/MeshTriangle")
     made: Any = message_type("shape_msgs/msg/Mesh")()

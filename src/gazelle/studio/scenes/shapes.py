@@ -21,6 +21,7 @@ from gazelle.sensors.scene_types import (
     PolylineOutlines,
     SceneValue,
     ShapeValue,
+    TrianglesGeometry,
     WorldGeometry,
 )
 from gazelle.studio.scenes.assets import Assets
@@ -116,8 +117,8 @@ def _shape(shape: ShapeValue[WorldGeometry], assets: Assets) -> ShapeValue[PageG
 def _geometry(geometry: WorldGeometry, assets: Assets) -> PageGeometry:
     if geometry["type"] == "mesh":
         return mesh_geometry(geometry, assets)
-    if geometry["type"] != "heightmap" and geometry["type"] != "polyline":
-        return geometry
+    if geometry["type"] not in ("heightmap", "polyline", "triangles"):
+        return cast("PlainGeometry", geometry)
     try:
         part = _made_part(geometry)
     except (GazelleError, OSError, ValueError) as error:
@@ -126,7 +127,11 @@ def _geometry(geometry: WorldGeometry, assets: Assets) -> PageGeometry:
     return {"type": "mesh", "parts": parts, "scale": [1.0, 1.0, 1.0]}
 
 
-def _made_part(geometry: HeightmapFile | PolylineOutlines) -> MeshPart:
+def _made_part(geometry: HeightmapFile | PolylineOutlines | TrianglesGeometry) -> MeshPart:
+    if geometry["type"] == "triangles":
+        vertices = np.array(geometry["vertices"], np.float64)
+        faces = np.array(geometry["faces"], np.int32)
+        return MeshPart("", vertices, faces, np.array(geometry["normals"], np.float64))
     if geometry["type"] == "polyline":
         outlines = tuple(
             tuple((float(x), float(y)) for x, y in outline) for outline in geometry["outlines"]
