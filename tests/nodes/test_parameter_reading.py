@@ -15,7 +15,7 @@ from gazelle.nodes.parameter_reading import (
     number_or_end,
     private_parameters,
 )
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 _TABLE = ParameterTable(
@@ -128,3 +128,10 @@ def test_a_number_that_is_none_may_end_a_node(bench: Any) -> None:
         pytest.raises(LaunchError, match=wrong),
     ):
         number_or_end(beside, "rate")
+
+
+def test_what_the_command_line_says_of_a_branch_leaves_the_rest_of_it(bench: Any) -> None:
+    bench.graph.parameters.set("/thing", {"costmap": {"width": 4, "rate": 5}})
+    arguments = read_arguments(["_costmap/width:=7"], "thing")
+    node = start_node(arguments, bench.graph)
+    assert parameter_tree(node, arguments) == {"costmap": {"width": 7, "rate": 5}}

@@ -121,8 +121,8 @@ def parameter_tree(node: Node, arguments: NodeArguments) -> dict[str, Any]:
     tree = nested({key: value for key, value in stored.items() if key not in heads})
     for key in heads:
         tree = {**nested(stored[key]["ros__parameters"] or {}), **tree}
-    tree.update(nested(arguments.params))
-    return tree
+    # What the command line says of a branch leaves the rest of it.
+    return nested({**dict(flattened(tree)), **dict(flattened(nested(arguments.params)))})
 
 
 def private(node: Node, arguments: NodeArguments, name: str, default: Any) -> Any:

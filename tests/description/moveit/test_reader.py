@@ -157,7 +157,8 @@ def test_all_mistakes_are_told_at_once_with_places(package: Make) -> None:
     )
     made.write("config/moveit_controllers.yaml",
                "moveit_simple_controller_manager:\n  controller_names: [a, b]\n"
-               "  a:\n    joints: [elbow, elbo]\n")  # fmt: skip
+               "  a:\n    joints: [elbow, elbo]\n"
+               "    allowed_goal_duration_margin: 1.0\n")  # fmt: skip
     made.write("config/ompl_planning.yaml",
                "planner_configs:\n  RRT: {type: geometric::RRT}\n"
                "arm:\n  planner_configs: [RTT]\n")  # fmt: skip
@@ -187,6 +188,7 @@ def test_all_mistakes_are_told_at_once_with_places(package: Make) -> None:
         " planner_configs does not describe",
     ):
         assert words in made.said, words
+    assert "allowed_goal_duration_margin" not in made.said
 
 
 @pytest.mark.parametrize(

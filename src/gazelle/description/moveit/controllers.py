@@ -6,27 +6,13 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from gazelle.description.moveit.rows import CONTROLLER, EXECUTION, keys_of
 from gazelle.description.moveit.settings import Settings
 from gazelle.diagnostics import SourceSpan
 
 __all__ = ["ControllerEntry", "ExecutionSettings", "read_controllers", "read_execution"]
 
 _MANAGERS = ("moveit_simple_controller_manager", "moveit_fake_controller_manager")
-_KEYS = (
-    *("action_ns", "allow_failure", "command_joint", "default", "joints", "max_effort", "name"),
-    *("parallel", "type"),
-)
-
-_EXECUTION_KEYS = (
-    "allowed_execution_duration_scaling",
-    "allowed_goal_duration_margin",
-    "allowed_start_tolerance",
-    "allowed_start_tolerance_joints",
-    "control_multi_dof_joint_variables",
-    "execution_duration_monitoring",
-    "execution_velocity_scaling",
-    "wait_for_trajectory_completion",
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +84,7 @@ def read_execution(tree: Settings) -> ExecutionSettings:
     """Read ``moveit_manage_controllers`` and the branch ``trajectory_execution``."""
     default = ExecutionSettings()
     branch = tree.branch("trajectory_execution")
-    branch.check_keys(_EXECUTION_KEYS)
+    branch.check_keys(keys_of(EXECUTION))
 
     def number(key: str, value: float) -> float:
         found = branch.number(key)
@@ -151,7 +137,7 @@ def _from_branch(branch: Settings, name: str, joints: Collection[str]) -> Contro
 
 
 def _entry(settings: Settings, name: str, joints: Collection[str]) -> ControllerEntry:
-    settings.check_keys(_KEYS)
+    settings.check_keys(("name", *keys_of(CONTROLLER)))
     named = settings.texts("joints")
     for joint in named:
         settings.check_name(joint, "joint", joints)

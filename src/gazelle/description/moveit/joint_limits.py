@@ -5,18 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from gazelle.description.moveit.rows import JOINT_LIMIT, keys_of
 from gazelle.description.moveit.settings import Settings
 from gazelle.diagnostics import SourceSpan
 
 __all__ = ["JointLimit", "read_joint_limits"]
 
 _QUANTITIES = ("velocity", "acceleration", "jerk")
-_KEYS = (
-    *("has_position_limits", "min_position", "max_position", "angle_wraparound"),
-    *("has_deceleration_limits", "max_deceleration", "has_effort_limits", "max_effort"),
-    *(f"has_{quantity}_limits" for quantity in _QUANTITIES),
-    *(f"max_{quantity}" for quantity in _QUANTITIES),
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +57,7 @@ def read_joint_limits(branch: Settings, variables: Collection[str]) -> dict[str,
 
 
 def _read_limit(settings: Settings) -> JointLimit:
-    settings.check_keys(_KEYS)
+    settings.check_keys(keys_of(JOINT_LIMIT))
     low, high = settings.number("min_position"), settings.number("max_position")
     if low is not None and high is not None and low > high:
         message = f"{settings.name()}: min_position {low:g} is above max_position {high:g}; both"

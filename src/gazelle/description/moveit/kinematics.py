@@ -5,25 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from gazelle.description.moveit.rows import KINEMATICS, keys_of
 from gazelle.description.moveit.settings import Settings
 
 __all__ = ["KinematicsSettings", "read_kinematics"]
 
-_KEYS = (
-    "epsilon",
-    "joints",
-    "keep_constant",
-    "kinematics_solver",
-    "kinematics_solver_attempts",
-    "kinematics_solver_ik_links",
-    "kinematics_solver_search_resolution",
-    "kinematics_solver_timeout",
-    "max_solver_iterations",
-    "mode",
-    "orientation_vs_position",
-    "position_only_ik",
-    "solve_type",
-)
 # Solvers of other packages bring keys of their own.
 _OTHERS = ("bio_ik", "cached_ik", "pick_ik", "trac_ik")
 
@@ -74,7 +60,7 @@ def _read_group(settings: Settings, links: Collection[str]) -> KinematicsSetting
     default = KinematicsSettings()
     solver = settings.text("kinematics_solver")
     if not any(word in solver for word in _OTHERS):
-        settings.check_keys(_KEYS)
+        settings.check_keys(keys_of(KINEMATICS))
     if not solver:
         message = f"{settings.name()} names no kinematics_solver; MoveIt gives the group no inverse"
         message += " kinematics, Gazelle solves it as usual"

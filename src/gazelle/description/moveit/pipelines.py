@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from gazelle.description.moveit.rows import CARTESIAN_LIMITS, PIPELINE, keys_of
 from gazelle.description.moveit.settings import Settings
 from gazelle.diagnostics import did_you_mean
 
@@ -16,17 +17,6 @@ __all__ = [
     "read_cartesian_limits",
     "read_pipelines",
 ]
-
-_OWN_KEYS = frozenset(
-    {
-        *("planner_configs", "planning_plugin", "planning_plugins", "request_adapters"),
-        *("response_adapters", "default_planner_config", "capabilities", "disable_capabilities"),
-        *("start_state_max_bounds_error", "start_state_max_dt", "jiggle_fraction"),
-        *("max_sampling_attempts", "max_safe_path_cost", "path_tolerance", "resample_dt"),
-        *("min_angle_change", "max_solution_segment_length", "sample_duration"),
-    }
-)
-_CARTESIAN_KEYS = ("max_trans_vel", "max_trans_acc", "max_trans_dec", "max_rot_vel")
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,8 +103,9 @@ def read_cartesian_limits(planning: Settings) -> CartesianLimits | None:
     if "cartesian_limits" not in planning.values:
         return None
     branch = planning.branch("cartesian_limits")
-    branch.check_keys(_CARTESIAN_KEYS)
-    values = {key: branch.number(key) for key in _CARTESIAN_KEYS}
+    keys = keys_of(CARTESIAN_LIMITS)
+    branch.check_keys(keys)
+    values = {key: branch.number(key) for key in keys}
     return CartesianLimits(**{key: value for key, value in values.items() if value is not None})
 
 
@@ -162,11 +153,12 @@ def _read_groups(
     branch: Settings, groups: Collection[str], configs: Mapping[str, Any]
 ) -> dict[str, GroupPlanners]:
     found: dict[str, GroupPlanners] = {}
+    own = keys_of(PIPELINE)
     for name, settings in branch.branches():
         is_group = (
             "planner_configs" in settings.values or "default_planner_config" in settings.values
         )
-        if name in _OWN_KEYS or not is_group:
+        if name in own or not is_group:
             continue
         if not branch.check_name(name, "group", groups):
             continue

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from gazelle.description.moveit import MoveItConfig
+from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.graph import Node, Publisher
 from gazelle.interfaces import message_type
@@ -16,6 +17,7 @@ from gazelle.motion.model import JointKind, RobotModel
 from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
+from gazelle.nodes.findings import log_findings
 from gazelle.nodes.move_group.controllers import FAKE_TYPES, controller_specs
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.execution import TrajectoryExecutor
@@ -26,6 +28,8 @@ from gazelle.nodes.move_group.problem import ProblemMaker
 from gazelle.nodes.move_group.robot_states import robot_state_message
 from gazelle.nodes.move_group.scene_monitor import SceneMonitor, told_topics
 from gazelle.nodes.move_group.state_monitor import StateMonitor
+from gazelle.nodes.move_group.tables import MOVE_GROUP
+from gazelle.nodes.parameter_reading import node_reader
 
 __all__ = ["MoveGroupContext", "make_context"]
 
@@ -125,14 +129,17 @@ def make_context(
         parameters: the node's own, nested.
         generation: of names and wires.
     """
-    states = StateMonitor(node, str(parameters.get("joint_state_topic", "joint_states")))
+    found = Diagnostics()
+    own = node_reader(MOVE_GROUP, parameters, node.name, found, generation=generation)
+    states = StateMonitor(node, own.text("joint_state_topic"))
     monitor = SceneMonitor(node, robot, states, generation=generation)
     maker = ProblemMaker(config, robot)
     executor = None
-    if parameters.get("allow_trajectory_execution", True) is not False:
+    if own.flag("allow_trajectory_execution"):
         executor = _executor(node, config, robot, states)
         if any(entry.type in FAKE_TYPES for entry in config.controllers):
             FakeControllers(node, config.controllers, initial_positions(robot, parameters))
+    log_findings(node, found)
     displays = tuple(
         node.create_publisher(name, "moveit_msgs/msg/DisplayTrajectory", latch=True)
         for name in told_topics("display_planned_path", generation)

@@ -20,7 +20,8 @@ from gazelle.nodes.move_group.kinematics_services import offer_kinematics
 from gazelle.nodes.move_group.planning_services import offer_planning
 from gazelle.nodes.move_group.scene_interface import offer_scene
 from gazelle.nodes.move_group.sequences import offer_sequences
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.move_group.tables import report_parameters
+from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.parameters.trees import nested
 from gazelle.workspace import Workspace
 
@@ -37,7 +38,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     node = start_node(arguments, graph)
     node.on_shutdown(lambda _reason: stop.set())
     try:
-        parameters = gathered_parameters(node, arguments.params, stop)
+        parameters = gathered_parameters(node, arguments, stop)
         config = _config(node, parameters)
         if config is None:
             return 1
@@ -53,7 +54,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 
 def gathered_parameters(
-    node: Node, own: Mapping[str, Any], stop: threading.Event
+    node: Node, arguments: NodeArguments, stop: threading.Event
 ) -> dict[str, Any]:
     """Return all parameters of a move_group as one tree.
 
@@ -62,11 +63,10 @@ def gathered_parameters(
 
     Args:
         node: whose parameters are read.
-        own: of the command line.
+        arguments: of the command line.
         stop: ends waiting for the topic.
     """
-    private = node.parameters.get(node.resolve_name("~"), {})
-    tree = nested({**(private if isinstance(private, Mapping) else {}), **own})
+    tree = parameter_tree(node, arguments)
     for part in _PARTS:
         name = f"{_DESCRIPTION}{part}"
         if name not in tree:
@@ -111,6 +111,9 @@ def _context(
         offer_execute_action(context)
         offer_sequences(context)
     log_findings(node, diagnostics, render_text)
+    told = Diagnostics()
+    report_parameters(config, node.name, told, generation=arguments.generation)
+    log_findings(node, told)
     return context
 
 
