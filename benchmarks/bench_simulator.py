@@ -19,9 +19,9 @@ from pathlib import Path
 
 import mujoco
 
+from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Simulation
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
-from gazelle.simulator.messages import twist_message
 
 LIGHT = ("/scan", "/odom", "/tf", "/joint_states")
 FULL = (

@@ -26,13 +26,13 @@ import numpy as np
 from gazelle.description.conversion.shapes import mesh_of
 from gazelle.description.model import Cylinder, MeshShape
 from gazelle.geometry import Pose
+from gazelle.interfaces.poses import twist_message
 from gazelle.mapping.poses import between, compose, transform_points
 from gazelle.mapping.relations import alignment
 from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam import Slam, SlamResult
 from gazelle.nodes.slam.scan_messages import scan_of
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import twist_message
 from gazelle.workspace import Workspace
 
 START = (-2.0, -0.5, 0.0)

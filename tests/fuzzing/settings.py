@@ -185,7 +185,7 @@ def _rviz(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) -> None:
 
 
 def _perspective(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) -> None:
-    open_perspective(cast(Any, None), Params("perspective.open", {"path": str(path)}))
+    open_perspective(Params("perspective.open", {"path": str(path)}))
 
 
 def _parameters(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:

@@ -10,8 +10,8 @@ import pytest
 from stage import Stage
 
 from gazelle.engine import JointHandle
+from gazelle.interfaces import message_type
 from gazelle.simulator import Simulation
-from gazelle.simulator.messages import message_class
 
 WORLDS = "gz-sim/examples/worlds"
 ENVIRONMENT = {"GZ_VERSION": "harmonic"}
@@ -106,10 +106,10 @@ def test_the_robots_move_as_their_points_say(stage: Stage) -> None:
             ]
 
         def send(topic: str, kind: str, name: str, *rows: tuple[float, ...]) -> None:
-            message = message_class("trajectory_msgs/JointTrajectory")()
+            message = message_type("trajectory_msgs/JointTrajectory")()
             message.joint_names = [f"RR_{kind}_control_joint{n}" for n in (1, 2)]
             for after_s, *values in rows:
-                point = message_class("trajectory_msgs/JointTrajectoryPoint")()
+                point = message_type("trajectory_msgs/JointTrajectoryPoint")()
                 setattr(point, name, values)
                 whole_s = int(after_s)
                 point.time_from_start.sec = whole_s

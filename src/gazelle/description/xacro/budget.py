@@ -97,7 +97,7 @@ class Spending:
 
         Raises:
             OSError: it cannot be read.
-            YamlError: it is so long, nested so deep or merges so much that PyYAML would take for ever.
+            YamlError: it is so long or so deep, or merges so much, that PyYAML would take for ever.
         """
         text = read_text_limited(name)
         # The library reads it again: that is not done twice where it cannot be slow.
