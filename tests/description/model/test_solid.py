@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, cast
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -86,7 +86,7 @@ def test_rays_meet_its_triangles() -> None:
 def test_the_page_gets_its_triangles() -> None:
     link = Link("l", visuals=(Visual("v", CORNER),))
     value = world_value(World("w", models=(Model("m", links=(link,)),)))
-    (body,) = page_scene(value, Assets(cast(Any, None)))["bodies"]
+    (body,) = page_scene(value, Assets())["bodies"]
     geometry = body["visuals"][0]["geometry"]
     assert geometry["type"] == "mesh"
     assert len(geometry["parts"]) == 1
