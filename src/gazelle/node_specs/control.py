@@ -105,6 +105,7 @@ CONTROL = (
         entry="gazelle.nodes.controller_goals.forward_position:run",
         does="sends one list of commands after another to a forward controller",
         is_light=True,
+        parameters="gazelle.nodes.controller_goals.forward_position:PARAMETERS",
         aliases=(
             NodeName("ros2_control_test_nodes", "publisher_forward_position_controller", ROS_2),
         ),
@@ -116,6 +117,7 @@ CONTROL = (
         entry="gazelle.nodes.controller_goals.joint_trajectory:run",
         does="sends one goal after another to a joint_trajectory_controller",
         is_light=True,
+        parameters="gazelle.nodes.controller_goals.joint_trajectory:PARAMETERS",
         aliases=(
             NodeName("ros2_control_test_nodes", "publisher_joint_trajectory_controller", ROS_2),
         ),

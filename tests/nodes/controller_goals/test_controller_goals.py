@@ -8,15 +8,15 @@ from typing import Any
 
 import pytest
 
+from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
 from gazelle.interfaces import message_type
-from gazelle.nodes.controller_goals.joint_trajectory import StartingPoint
-from gazelle.nodes.controller_goals.parameters import GoalParameters
+from gazelle.nodes.controller_goals.joint_trajectory import PARAMETERS, StartingPoint
+from gazelle.nodes.controller_goals.parameters import reader_of
 from gazelle.nodes.host import run_node
 
 _CLOCK: Any = message_type("rosgraph_msgs/msg/Clock")
 _STATE: Any = message_type("sensor_msgs/msg/JointState")
-_FORWARD = {"publish_topic": "/c", "wait_sec_between_publish": 1, "goal_names": ["a"]}
 
 
 def _words(node: str, **values: Any) -> list[str]:
@@ -143,7 +143,11 @@ def test_goals_that_are_not_in_the_list_are_told(bench: Any) -> None:
         "ros2_controllers_test_nodes/publisher_forward_position_controller",
         *_words("goals", goal_names="[pos1]", pos1="[0.5]", pos2="[1.0]"),
     )
-    bench.eventually(lambda: "parameter 'pos2' is not read" in _said(log))
+    text = (
+        "/goals: parameter 'pos2' is not one of publisher_forward_position_controller, nor among "
+        "its goal_names; it has no effect"
+    )
+    bench.eventually(lambda: text in _said(log))
 
 
 @pytest.mark.parametrize(
@@ -187,11 +191,13 @@ def test_trajectories_that_are_wrong_end_the_node(
     assert text in str(raised.value)
 
 
-def test_unknown_parameters_are_found() -> None:
-    parameters = GoalParameters({"a": [1.0], "wait_sec": 3, "qos_overrides": {"x": 1}}, _FORWARD)
-    ((name, hint),) = parameters.unknown(_FORWARD)
-    assert name == "wait_sec"
-    assert "goal_names" in hint or "wait_sec_between_publish" in hint
+def test_members_of_goals_and_joints_that_nobody_reads_are_found() -> None:
+    found = Diagnostics()
+    tree = {"up": {"positions": [1.0], "velocity": [1.0]}, "wait_sec": 3, "qos_overrides": {"x": 1},
+            "starting_point_limits": {"j": [0.0, 1.0]}, "down": [0.0], "joints": ["j"]}  # fmt: skip
+    reader_of(PARAMETERS, tree, "/goals", ["up", "down"], found).report_unknown()
+    assert [item.message.split("'")[1] for item in found] == ["up.velocity", "wait_sec"]
+    assert "up.velocities" in found.by_code("parameter.unknown")[0].fix
 
 
 def test_ros2_param_sees_defaults(bench: Any) -> None:

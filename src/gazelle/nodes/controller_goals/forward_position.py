@@ -1,11 +1,5 @@
 """``publisher_forward_position_controller``: one list of commands after another, for ever.
 
-| name | default | meaning |
-| --- | --- | --- |
-| publish_topic | /position_commands | a topic of ``std_msgs/Float64MultiArray`` |
-| wait_sec_between_publish | 5 | whole seconds between two, and before the first |
-| goal_names | pos1, pos2 | parameters that hold one list each, in order |
-
 Names, defaults and texts are those of ``ros2_controllers_test_nodes`` (humble to rolling).
 """
 
@@ -20,21 +14,38 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.controller_goals.parameters import GoalParameters, are_numbers, start
+from gazelle.nodes.controller_goals.parameters import (
+    GOAL,
+    GoalParameters,
+    are_numbers,
+    start,
+)
 from gazelle.nodes.parameters import ticks
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["read_goals", "run"]
+__all__ = ["PARAMETERS", "read_goals", "run"]
 
-_DEFAULTS: dict[str, Any] = {
-    "publish_topic": "/position_commands",
-    "wait_sec_between_publish": 5,
-    "goal_names": ["pos1", "pos2"],
-}
+PARAMETERS = ParameterTable(
+    "publisher_forward_position_controller",
+    "Sends one list of commands after another to a forward controller, for ever. A value of another"
+    " type than the default's ends it.",
+    ("ros2_controllers_test_nodes/publisher_forward_position_controller",),
+    (
+        Parameter(
+            "publish_topic", "text", "/position_commands", "a topic of `std_msgs/Float64MultiArray`"
+        ),
+        Parameter(
+            "wait_sec_between_publish", "integer", 5, "between two, and before the first", "s"
+        ),
+        Parameter("goal_names", "texts", ["pos1", "pos2"], "parameters with a list each, in order"),
+        Parameter(GOAL, "numbers", None, "such a list: a number for each joint"),
+    ),
+)
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Send until told to stop."""
-    node, parameters = start(arguments, graph, _DEFAULTS)
+    node, parameters = start(arguments, graph, PARAMETERS)
     goals, topic = read_goals(parameters), parameters.value("publish_topic")
     kind: Any = message_type("std_msgs/msg/Float64MultiArray")
     publisher = node.create_publisher(topic, kind, queue_size=1)

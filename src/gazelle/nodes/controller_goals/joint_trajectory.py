@@ -3,15 +3,6 @@
 Each has one point, reached after 4 s. Positions, velocities, accelerations and effort of a goal
 have a number for each joint; at least one of them must be given.
 
-| name | default | meaning |
-| --- | --- | --- |
-| controller_name | position_trajectory_controller | its ``joint_trajectory`` is published on |
-| wait_sec_between_publish | 6 | whole seconds between two, and before the first |
-| goal_names | pos1, pos2 | groups of parameters that hold one goal each, in order |
-| joints | none | names of the joints |
-| check_starting_point | false | send nothing unless the joints were within limits at first |
-| starting_point_limits.JOINT | -6.28318, 6.28318 | the two limits, m or rad |
-
 Names, defaults and texts are those of ``ros2_controllers_test_nodes`` (humble to rolling). With a
 single joint, values that are not given are not zeros here, as they are there by accident.
 """
@@ -26,21 +17,50 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.controller_goals.parameters import GoalParameters, are_numbers, start
+from gazelle.nodes.controller_goals.parameters import (
+    GOAL,
+    GoalParameters,
+    are_numbers,
+    start,
+)
 from gazelle.nodes.parameters import ticks
+from gazelle.parameters import Parameter, ParameterTable
 
-__all__ = ["StartingPoint", "read_goals", "run"]
+__all__ = ["PARAMETERS", "StartingPoint", "read_goals", "run"]
+
+_TURN_RAD = 2 * 3.14159
+PARAMETERS = ParameterTable(
+    "publisher_joint_trajectory_controller",
+    "Sends one goal after another to a joint_trajectory_controller, for ever. A value of another"
+    " type than the default's ends it.",
+    ("ros2_controllers_test_nodes/publisher_joint_trajectory_controller",),
+    (
+        Parameter(
+            "controller_name", "text", "position_trajectory_controller",
+            "its `joint_trajectory` is published on",
+        ),
+        Parameter(
+            "wait_sec_between_publish", "integer", 6, "between two, and before the first", "s"
+        ),
+        Parameter("goal_names", "texts", ["pos1", "pos2"], "groups with a goal each, in order"),
+        Parameter("joints", "texts", [""], "names of the joints, in the order of the numbers"),
+        Parameter(
+            "check_starting_point", "flag", False, "send only from where limits allow it"
+        ),
+        Parameter(
+            "starting_point_limits.<joint>", "numbers", (-_TURN_RAD, _TURN_RAD),
+            "lowest and highest position", "m or rad",
+        ),
+        Parameter(GOAL, "numbers", None, "a bare list of positions, as in Humble"),
+        Parameter(f"{GOAL}.positions", "numbers", None, "of the joints", "m or rad"),
+        Parameter(f"{GOAL}.velocities", "numbers", None, "of the joints", "m/s or rad/s"),
+        Parameter(f"{GOAL}.accelerations", "numbers", None, "of the joints", "m/s² or rad/s²"),
+        Parameter(f"{GOAL}.effort", "numbers", None, "of the joints", "N or Nm"),
+    ),
+)  # fmt: skip
 
 _DURATION_S = 4
-_TURN_RAD = 2 * 3.14159
 _FIELDS = ("positions", "velocities", "accelerations", "effort")
-_DEFAULTS: dict[str, Any] = {
-    "controller_name": "position_trajectory_controller",
-    "wait_sec_between_publish": 6,
-    "goal_names": ["pos1", "pos2"],
-    "joints": [""],
-    "check_starting_point": False,
-}
 _STRUCTURE = (
     "Use the following structure: \n<goal_name>:\n"
     "  positions: [joint1, joint2, joint3, ...]\n"
@@ -84,7 +104,7 @@ class StartingPoint:
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Send until told to stop; 1 where no goal is of use."""
-    node, parameters = start(arguments, graph, _DEFAULTS, "starting_point_limits")
+    node, parameters = start(arguments, graph, PARAMETERS)
     joints = _joints(parameters)
     starting_point = StartingPoint(_limits(parameters, joints))
     goals = read_goals(node, parameters, len(joints))

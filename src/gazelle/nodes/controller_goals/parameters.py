@@ -2,27 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import Any
 
-from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters
 from gazelle.nodes.parameters import parameter_tree, start_node
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.owner import ParameterOwner
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.sources import TreeSource
 from gazelle.parameters.trees import flattened, nested, values_only
 
-__all__ = ["GoalParameters", "are_numbers", "start"]
+__all__ = ["GOAL", "GoalParameters", "are_numbers", "reader_of", "start"]
+
+GOAL = "<goal>"
+"""Stands in a table for the names of goals, which are parameters themselves."""
 
 _SECOND_NS = 1_000_000_000
-_EVERYWHERE = ("use_sim_time", "qos_overrides")
+_EVERYWHERE = frozenset({"use_sim_time", "qos_overrides"})
+_UNKNOWN = "parameter '{name}' is not one of {family}, nor among its goal_names; it has no effect"
 _TYPES = {bool: "BOOL", int: "INTEGER", float: "DOUBLE", str: "STRING", list: "STRING_ARRAY"}
 
 
 class GoalParameters:
     """The parameters of one node.
+
+    Args:
+        given: the values, nested.
+        table: what there is; exact rows have defaults, whose types count.
 
     Attributes:
         tree: the values, nested: those given over the defaults.
@@ -33,8 +46,9 @@ class GoalParameters:
         LaunchError: a value has another type than its default, or there is no goal.
     """
 
-    def __init__(self, given: Mapping[str, Any], defaults: Mapping[str, Any]) -> None:
+    def __init__(self, given: Mapping[str, Any], table: ParameterTable) -> None:
         """Put what was given over the defaults."""
+        defaults = {row.key: row.default for row in table.rows if row.is_exact}
         values = dict(values_only(flattened(given)))
         for name, default in defaults.items():
             _check_type(name, values.get(name, default), type(default))
@@ -53,47 +67,46 @@ class GoalParameters:
             branch = branch.get(word) if isinstance(branch, Mapping) else None
         return branch
 
-    def unknown(self, known: Mapping[str, Any], *groups: str) -> Iterator[tuple[str, str]]:
-        """Yield parameters that nobody reads, with a hint.
-
-        Args:
-            known: names that are read.
-            *groups: the same, of subtrees.
-        """
-        heads = {name.partition(".")[0] for name in (*self.goal_names, *groups, *_EVERYWHERE)}
-        for name in dict(values_only(flattened(self.tree))):
-            head = name.partition(".")[0]
-            if name not in known and head not in heads:
-                hint = did_you_mean(head, (*known, *self.goal_names))
-                yield name, hint or "add it to 'goal_names' where it is a goal"
-
 
 def start(
-    arguments: NodeArguments, graph: Graph, defaults: Mapping[str, Any], *groups: str
+    arguments: NodeArguments, graph: Graph, table: ParameterTable
 ) -> tuple[Node, GoalParameters]:
     """Make the graph node and read its parameters.
 
     Args:
         arguments: of the node.
         graph: where it lives.
-        defaults: names and default values.
-        *groups: subtrees that are read as well.
+        table: what there is.
 
     Raises:
         LaunchError: see `GoalParameters`.
     """
     node = start_node(arguments, graph, offers_parameters=False)
-    parameters = GoalParameters(parameter_tree(node, arguments), defaults)
+    given = parameter_tree(node, arguments)
+    parameters = GoalParameters(given, table)
     if parameters.value("use_sim_time") in (True, "true", "True"):
         node.clock.use(True)
     found = Diagnostics()
-    for name, hint in parameters.unknown(defaults, *groups):
-        text = f"{node.name}: parameter '{name}' is not read; it has no effect"
-        found.report("parameter.unknown", text, fix=hint)
+    reader_of(table, given, node.name, parameters.goal_names, found).report_unknown()
     log_findings(node, found)
     if arguments.generation != 1:
         offer_parameters(node, parameters.tree)
     return node, parameters
+
+
+def reader_of(
+    table: ParameterTable,
+    given: Mapping[str, Any],
+    name: str,
+    goals: Iterable[str],
+    found: Diagnostics,
+) -> ParameterReader:
+    """Return a reader whose table has rows for each goal in the place of those of `GOAL`."""
+    patterns = [row for row in table.rows if row.key.startswith(GOAL)]
+    named = (replace(row, key=row.key.replace(GOAL, goal)) for goal in goals for row in patterns)
+    rows = (*(row for row in table.rows if row not in patterns), *named)
+    owner = ParameterOwner(name, managed=_EVERYWHERE, unknown=_UNKNOWN)
+    return ParameterReader(replace(table, rows=rows), TreeSource(given), owner, found)
 
 
 def are_numbers(value: Any) -> bool:
