@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple, Protocol
@@ -21,6 +21,8 @@ __all__ = [
     "Storage",
     "Summary",
     "Wanted",
+    "counts_of",
+    "packs_of",
 ]
 
 
@@ -118,6 +120,35 @@ class Summary:
     def duration_ns(self) -> int:
         """Time between the first and the last message."""
         return self.end_ns - self.start_ns
+
+
+class _Chunk(Protocol):
+    compression: str
+    size: int
+    uncompressed: int
+    counts: dict[int, int]
+
+
+def counts_of(chunks: Iterable[_Chunk]) -> dict[int, int]:
+    """Return how many messages of each connection a file's chunks hold."""
+    counts: dict[int, int] = {}
+    for chunk in chunks:
+        for number, count in chunk.counts.items():
+            counts[number] = counts.get(number, 0) + count
+    return counts
+
+
+def packs_of(chunks: Iterable[_Chunk]) -> dict[str, Pack]:
+    """Return how much of a file's chunks is compressed in which way, by its name."""
+    packs: dict[str, Pack] = {}
+    for chunk in chunks:
+        before = packs.get(chunk.compression, Pack(0, 0, 0))
+        packs[chunk.compression] = Pack(
+            before.pieces + 1,
+            before.uncompressed + chunk.uncompressed,
+            before.compressed + chunk.size,
+        )
+    return packs
 
 
 Wanted = Callable[[Connection], bool]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from gazelle.cli.tool import option_parser
 from gazelle.errors import InterfaceError, NotFoundError
 from gazelle.interfaces import ros1_message_type, ros1_service_type, ros1_type_of
 from gazelle.nodes.workspace_types import learn_workspace_types
@@ -11,7 +12,14 @@ from gazelle.nodes.workspace_types import learn_workspace_types
 if TYPE_CHECKING:
     from gazelle.interfaces import Ros1Message, Ros1Service
 
-__all__ = ["learn_workspace_types", "message_class", "service_class", "shown_type", "topic_class"]
+__all__ = [
+    "learn_workspace_types",
+    "message_class",
+    "service_class",
+    "shown_type",
+    "topic_class",
+    "wanted_type",
+]
 
 
 def message_class(name: str) -> type[Ros1Message]:
@@ -65,3 +73,14 @@ def service_class(name: str) -> type[Ros1Service]:
 def shown_type(name: str) -> str:
     """Return a type's name as ROS 1 shows it; ``*``, any type, stays."""
     return ros1_type_of(name) if name.count("/") == 2 else name
+
+
+def wanted_type(tool: str, words: list[str]) -> str:
+    """Return the type that the words behind ``find`` name, as `shown_type`."""
+    parser = option_parser(tool, "find msg-type")
+    _, args = parser.parse_args(words)
+    if not args:
+        parser.error("please specify a message type")
+    if len(args) > 1:
+        parser.error("you may only specify one message type")
+    return shown_type(args[0])

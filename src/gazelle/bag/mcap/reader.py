@@ -10,7 +10,16 @@ from gazelle.bag.mcap.chunks import Chunk, decompress, messages_in
 from gazelle.bag.mcap.fields import MAGIC
 from gazelle.bag.mcap.structure import LOOSE, Structure, read_structure
 from gazelle.bag.ordering import Piece, by_time
-from gazelle.bag.records import BagError, BagMessage, Connection, Pack, Storage, Summary, Wanted
+from gazelle.bag.records import (
+    BagError,
+    BagMessage,
+    Connection,
+    Storage,
+    Summary,
+    Wanted,
+    counts_of,
+    packs_of,
+)
 
 __all__ = ["McapBag"]
 
@@ -52,24 +61,13 @@ class McapBag:
     @property
     def summary(self) -> Summary:
         """What is in it."""
-        counts: dict[int, int] = {}
-        packs: dict[str, Pack] = {}
         chunks = self._structure.chunks
-        for chunk in chunks:
-            for number, count in chunk.counts.items():
-                counts[number] = counts.get(number, 0) + count
-            before = packs.get(chunk.compression, Pack(0, 0, 0))
-            packs[chunk.compression] = Pack(
-                before.pieces + 1,
-                before.uncompressed + chunk.uncompressed,
-                before.compressed + chunk.size,
-            )
         return Summary(
-            counts,
+            counts_of(chunks),
             min((one.start_ns for one in chunks), default=0),
             max((one.end_ns for one in chunks), default=0),
             self.path.stat().st_size,
-            packs,
+            packs_of(chunks),
             self.is_indexed,
             self._structure.lost,
         )

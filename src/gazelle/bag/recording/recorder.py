@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Protocol
 
 from gazelle.bag.qos import offered_qos
 from gazelle.bag.recording.selection import Selection
-from gazelle.bag.records import Connection, Encoding
+from gazelle.bag.records import BagWriter, Connection, Encoding
 from gazelle.bag.texts import fetch_text
 from gazelle.bag.types import cdr_connection, ros1_connection
 from gazelle.errors import GazelleError
@@ -27,33 +27,8 @@ _ON_ITS_WAY_S, _QUIET_ROUNDS = 1.0, 2
 _NEWS_S = 0.3
 
 
-class Sink(Protocol):
+class Sink(BagWriter, Protocol):
     """Where messages go: a bag that can go on in another file."""
-
-    path: Path
-    encoding: Encoding
-
-    @property
-    def size(self) -> int:
-        """Bytes of the file that is being written."""
-        ...
-
-    @property
-    def restored(self) -> int:
-        """How often that file was written anew because somebody had removed it."""
-        ...
-
-    def add(self, connection: Connection) -> Connection:
-        """Add a connection."""
-        ...
-
-    def write(self, connection: Connection, stamp_ns: int, data: bytes) -> None:
-        """Write one message."""
-        ...
-
-    def flush(self) -> None:
-        """Hand everything to the system."""
-        ...
 
     def split(self, stamp_ns: int) -> Path:
         """Go on in a new file."""

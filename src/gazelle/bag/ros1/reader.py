@@ -9,7 +9,16 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from gazelle.bag.records import BagError, BagMessage, Connection, Pack, Storage, Summary, Wanted
+from gazelle.bag.records import (
+    BagError,
+    BagMessage,
+    Connection,
+    Storage,
+    Summary,
+    Wanted,
+    counts_of,
+    packs_of,
+)
 from gazelle.bag.ros1.chunks import Chunk, decompress, entries_in, message_at
 from gazelle.bag.ros1.fields import MAGIC, Op, read_place
 from gazelle.bag.ros1.structure import Structure, read_structure
@@ -61,24 +70,14 @@ class Ros1Bag:
     @property
     def summary(self) -> Summary:
         """What is in it."""
-        counts: dict[int, int] = {}
-        packs: dict[str, Pack] = {}
-        for chunk in self._structure.chunks:
-            for number, count in chunk.counts.items():
-                counts[number] = counts.get(number, 0) + count
-            before = packs.get(chunk.compression, Pack(0, 0, 0))
-            packs[chunk.compression] = Pack(
-                before.pieces + 1,
-                before.uncompressed + chunk.uncompressed,
-                before.compressed + chunk.size,
-            )
-        filled = [one for one in self._structure.chunks if one.counts]
+        chunks = self._structure.chunks
+        filled = [one for one in chunks if one.counts]
         return Summary(
-            counts,
+            counts_of(chunks),
             min((one.start_ns for one in filled), default=0),
             max((one.end_ns for one in filled), default=0),
             self.path.stat().st_size,
-            packs,
+            packs_of(chunks),
             self.is_indexed,
             self._structure.lost,
         )

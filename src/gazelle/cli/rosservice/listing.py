@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.cli.ros_types import shown_type
+from gazelle.cli.ros_types import shown_type, wanted_type
 from gazelle.cli.tool import add_flag, global_name, joined, option_parser
 
 __all__ = ["find", "run"]
@@ -26,13 +26,7 @@ def run(words: list[str]) -> int:
 
 def find(words: list[str]) -> int:
     """Print the services of a type."""
-    parser = option_parser("rosservice", "find msg-type")
-    _, args = parser.parse_args(words)
-    if not args:
-        parser.error("please specify a message type")
-    if len(args) > 1:
-        parser.error("you may only specify one message type")
-    wanted = shown_type(args[0])
+    wanted = wanted_type("rosservice", words)
     with joined() as graph:
         names = [one.name for one in graph.services() if shown_type(one.type_name) == wanted]
         print("\n".join(names))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from gazelle.cli.processes import Processes
-from gazelle.cli.ros_types import shown_type
+from gazelle.cli.ros_types import shown_type, wanted_type
 from gazelle.cli.rostopic.topics import find_topic
 from gazelle.cli.text.fields import field_type
 from gazelle.cli.tool import ToolError, global_name, hint, joined, option_parser
@@ -65,13 +65,7 @@ def show_type(words: list[str]) -> int:
 
 def find(words: list[str]) -> int:
     """Print the topics of a type."""
-    parser = option_parser("rostopic", "find msg-type")
-    _, args = parser.parse_args(words)
-    if not args:
-        parser.error("please specify a message type")
-    if len(args) > 1:
-        parser.error("you may only specify one message type")
-    wanted = shown_type(args[0])
+    wanted = wanted_type("rostopic", words)
     with joined() as graph:
         print("\n".join(one.name for one in graph.topics() if shown_type(one.type_name) == wanted))
     return 0

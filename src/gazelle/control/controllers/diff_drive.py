@@ -97,8 +97,7 @@ class DiffDriveController(Controller):
         self._apply_multipliers()
         if "publish_rate" in values:
             self._output.rate.set_rate(float(values["publish_rate"]))
-        if "enable_odom_tf" in values:
-            self._output.sends_tf = bool(values["enable_odom_tf"])
+        self._output.changed(values)
         if "cmd_vel_timeout" in values:
             self._input.timeout_s = float(values["cmd_vel_timeout"])
         return ""

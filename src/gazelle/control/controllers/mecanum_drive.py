@@ -88,8 +88,7 @@ class MecanumDriveController(Controller):
         """Take over the timeout and whether to send tf."""
         if "reference_timeout" in values:
             self._input.timeout_s = float(values["reference_timeout"])
-        if "enable_odom_tf" in values:
-            self._output.sends_tf = bool(values["enable_odom_tf"])
+        self._output.changed(values)
         return ""
 
     def _offer(self) -> None:

@@ -117,8 +117,7 @@ class OmniWheelDriveController(Controller):
 
     def changed(self, values: dict[str, Any]) -> str:
         """Take over whether to send tf."""
-        if "enable_odom_tf" in values:
-            self._output.sends_tf = bool(values["enable_odom_tf"])
+        self._output.changed(values)
         return ""
 
     def _offer(self) -> None:

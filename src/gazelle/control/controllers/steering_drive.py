@@ -93,8 +93,7 @@ class SteeringDrive:
             self._input.timeout_s = float(values["reference_timeout"])
         if "reduce_wheel_speed_until_steering_reached" in values:
             self._reduces = bool(values["reduce_wheel_speed_until_steering_reached"])
-        if "enable_odom_tf" in values:
-            self._output.sends_tf = bool(values["enable_odom_tf"])
+        self._output.changed(values)
         return ""
 
     def _offer(self) -> None:

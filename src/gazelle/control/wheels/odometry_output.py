@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -158,6 +159,11 @@ class OdometryOutput:
             self._odom.publish(self._message(time_ns, odometry))
         if self.sends_tf and self._tf.matched:
             self._tf.publish(self._transform(time_ns, odometry))
+
+    def changed(self, values: Mapping[str, Any]) -> None:
+        """Take over whether to send tf, if that is among the changed parameters."""
+        if "enable_odom_tf" in values:
+            self.sends_tf = bool(values["enable_odom_tf"])
 
     def _message(self, time_ns: int, odometry: PlanarOdometry) -> Any:
         message = message_type("nav_msgs/Odometry")(

@@ -12,7 +12,7 @@ from gazelle.launch.ros2.entity import LaunchDescriptionEntity
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext
 
-__all__ = ["LaunchDescription"]
+__all__ = ["LaunchDescription", "argument_lines"]
 
 _DEEPEST = 50
 
@@ -106,6 +106,23 @@ def _no_entity(number: int, item: Any) -> str:
     )
     text = f"a LaunchDescription holds actions, but its item {number} is {kind}"
     return f"{text} ({hint})" if hint else text
+
+
+def argument_lines(description: LaunchDescription) -> list[str]:
+    """Return what ``--show-args`` prints about the arguments of a description."""
+    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
+    arguments = description.get_launch_arguments()
+    for one in arguments:
+        star = "*" if one._conditionally_included else ""
+        lines += ["", f"    '{one.name}':{star}", f"        {one.description}"]
+        if one.default_value is not None:
+            default = " + ".join(sub.describe() for sub in one.default_value)
+            lines.append(f"        (default: {default})")
+    if not arguments:
+        lines += ["", "  No arguments."]
+    elif any(one._conditionally_included for one in arguments):
+        lines += ["", "* argument(s) which are only used if specific conditions occur"]
+    return lines
 
 
 def _declared(

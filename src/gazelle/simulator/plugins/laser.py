@@ -14,7 +14,7 @@ from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.parameters import PluginReader
-from gazelle.simulator.plugins.stream import prefixed_frame
+from gazelle.simulator.plugins.stream import prefixed_frame, sensor_place
 from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import ORDER_SENSOR
 
@@ -112,13 +112,7 @@ def load_ray_sensor(context: PluginContext) -> None:
 
 def lidar_place(context: PluginContext) -> SensorPlace | None:
     """Return the lidar the plug-in stands in; reports a wrong place and returns None."""
-    place = context.place
-    if place is not None and isinstance(place.sensor.spec, LidarSpec):
-        return place
-    found = f"a sensor of type '{place.sensor.type}'" if place else "no sensor"
-    text = f"plug-in '{context.plugin.name}' ({context.plugin.filename}) needs a ray sensor around "
-    context.report("plugin.wrong-place", text + f"it and stands in {found}; it is left out")
-    return None
+    return sensor_place(context, LidarSpec, "a ray sensor")
 
 
 def start_scans(

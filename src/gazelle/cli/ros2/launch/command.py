@@ -7,7 +7,6 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from gazelle.cli.ros2.launch.files import launch_file_of
 from gazelle.cli.ros2.launch.surroundings import surround_launch_files
@@ -134,6 +133,7 @@ def _no_file(first: str) -> str:
 
 def _show(path: Path, *, with_arguments: bool) -> int:
     """Print the tree of a launch file, or its arguments."""
+    from gazelle.launch.ros2.description import argument_lines
     from gazelle.launch.ros2.faults import diagnose
     from gazelle.launch.ros2.introspector import LaunchIntrospector
     from gazelle.launch.ros2.launch_description_sources import (
@@ -143,30 +143,13 @@ def _show(path: Path, *, with_arguments: bool) -> int:
     try:
         description = get_launch_description_from_any_launch_file(str(path))
         if with_arguments:
-            print(_arguments_text(description))
+            print("\n".join(argument_lines(description)))
         else:
             print(LaunchIntrospector().format_launch_description(description))
     except Exception as error:  # noqa: BLE001 - a launch file may raise anything
         render(diagnose(error))
         return 1
     return 0
-
-
-def _arguments_text(description: Any) -> str:
-    """Return the arguments as ros2launch lists them."""
-    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
-    arguments = description.get_launch_arguments()
-    for one in arguments:
-        star = "*" if one._conditionally_included else ""
-        lines += ["", f"    '{one.name}':{star}", f"        {one.description}"]
-        if one.default_value is not None:
-            default = " + ".join(token.describe() for token in one.default_value)
-            lines.append(f"        (default: {default})")
-    if not arguments:
-        lines += ["", "  No arguments."]
-    elif any(one._conditionally_included for one in arguments):
-        lines += ["", "* argument(s) which are only used if specific conditions occur"]
-    return "\n".join(lines)
 
 
 def _launch(

@@ -11,13 +11,13 @@ from types import ModuleType
 
 from gazelle.documents.names import is_file
 from gazelle.launch.environment import drop_in_folder
-from gazelle.launch.ros2.description import LaunchDescription
+from gazelle.launch.ros2.description import argument_lines
 from gazelle.launch.ros2.place import raising_place
 from gazelle.launch.ros2.testing.loader import LoadTestsFromPythonModule
 from gazelle.launch.ros2.testing.results import unittestResultsToXml
 from gazelle.launch.ros2.testing.runner import LaunchTestRunner
 
-__all__ = ["add_arguments", "argument_lines", "main", "run"]
+__all__ = ["add_arguments", "main", "run"]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -61,23 +61,6 @@ def run(
         report = unittestResultsToXml(test_results=results, name=f"{package}.{file.stem}")
         report.write(args.xmlpath, encoding="utf-8", xml_declaration=True)
     return 0 if all(one.wasSuccessful() for one in results.values()) else 1
-
-
-def argument_lines(description: LaunchDescription) -> list[str]:
-    """Return what ``--show-args`` prints about the arguments of a description."""
-    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
-    arguments = description.get_launch_arguments()
-    for one in arguments:
-        star = "*" if one._conditionally_included else ""
-        lines += ["", f"    '{one.name}':{star}", f"        {one.description}"]
-        if one.default_value is not None:
-            default = " + ".join(sub.describe() for sub in one.default_value)
-            lines.append(f"        (default: {default})")
-    if not arguments:
-        lines += ["", "  No arguments."]
-    elif any(one._conditionally_included for one in arguments):
-        lines += ["", "* argument(s) which are only used if specific conditions occur"]
-    return lines
 
 
 def main(words: Sequence[str] | None = None) -> int:
