@@ -93,6 +93,43 @@ def test_own_messages_that_come_back_late_are_known(bench: Any) -> None:
     assert [message.name for message in sent] == [["left", "right"]] * 3
 
 
+def _publisher(bench: Any, parameters: dict[str, Any]) -> _Publisher:
+    joints = tuple(replace(_joint(-1.0, 1.0), name=name) for name in ("l.eft", "ri/ght"))
+    model = Model("r", links=(Link("a"), Link("b")), joints=joints)
+    bench.graph.parameters.set(bench.node.name, parameters)
+    return _Publisher(bench.node, read_arguments([], "joint_state_publisher"), model)
+
+
+def test_joints_with_dots_and_slashes_stand_where_parameters_say(bench: Any) -> None:
+    of_ros2 = {"zeros": {"l.eft": 0.3, "ri/ght": 0.4}}
+    publisher = _publisher(bench, {"me": {"ros__parameters": of_ros2}})
+    assert publisher._positions == {"l.eft": 0.3, "ri/ght": 0.4}
+    publisher = _publisher(
+        bench, {"dependent_joints": {"ri/ght": {"parent": "l.eft", "factor": 2}}}
+    )
+    assert publisher._position("ri/ght") == 0.0
+    assert publisher._dependents["ri/ght"].factor == 2.0
+
+
+def test_values_of_joints_that_are_none_are_told(bench: Any, capfd: Any) -> None:
+    parameters = {
+        "zeros": {"l.eft": "up"},
+        "dependent_joints": {
+            "ri/ght": {"parent": "l.eft", "offset": "much"},
+            "l.eft": {"factor": 2.0},
+        },
+    }
+    publisher = _publisher(bench, parameters)
+    assert publisher._positions == {"l.eft": 0.0}
+    assert publisher._dependents["ri/ght"].offset == 0.0
+    _publisher(bench, {"zeros": 5})
+    told = capfd.readouterr().err
+    assert "parameter 'zeros.l.eft' is 'up', not a number; 0 is used" in told
+    assert "'dependent_joints.ri.ght.offset' is 'much', not a number; 0 is used" in told
+    assert "parameter 'dependent_joints.l.eft' has no parent; it is left out" in told
+    assert "parameter 'zeros' is 5, not a group with names of joints; it is left out" in told
+
+
 def test_robot_may_come_on_the_topic_in_ros2(bench: Any) -> None:
     states = bench.listen("/joint_states", "sensor_msgs/msg/JointState")
     bench.start("joint_state_publisher/joint_state_publisher", "--ros-args", "-p", "rate:=100")

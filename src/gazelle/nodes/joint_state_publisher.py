@@ -20,9 +20,12 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import private, start_node, ticks
+from gazelle.nodes.parameters import start_node, ticks
 from gazelle.nodes.tree import published_robot_of, robot_of
 from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters.coercion import number_of
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.trees import flattened
 
 __all__ = ["PARAMETERS", "default_position", "run"]
 
@@ -37,7 +40,7 @@ PARAMETERS = ParameterTable(
         Parameter("robot_description", "text", None, "the robot, searched upwards in ROS 1"),
         Parameter("rate", "number", 10.0, "how often states are sent", "Hz"),
         Parameter("source_list", "texts", (), "topics of JointState that are passed on"),
-        Parameter("zeros", "group", None, "values of joints that nothing moves"),
+        Parameter("zeros", "group", None, "values of joints that nothing moves", "m or rad"),
         Parameter("dependent_joints", "group", None, "`{joint: {parent, factor, offset}}`"),
         Parameter("use_mimic_tags", "flag", True, "follow `<mimic>`"),
         Parameter("publish_default_positions", "flag", True, "send positions"),
@@ -94,9 +97,6 @@ class _Publisher:
         self._node = node
         self._type: Any = message_type("sensor_msgs/msg/JointState")
         self._out = node.create_publisher("joint_states", self._type, queue_size=5)
-        # Joints' names may have dots and slashes, which a reader takes for branches.
-        zeros = private(node, arguments, "zeros", {})
-        dependents = private(node, arguments, "dependent_joints", {})
         with private_parameters(node, arguments, PARAMETERS) as own:
             self.period_ns = int(1e9 / own.number("rate"))
             use_mimics = own.flag("use_mimic_tags")
@@ -105,7 +105,8 @@ class _Publisher:
                 for word in ("positions", "velocities", "efforts")
             }
             sources = own.texts("source_list")
-        self._dependents = _dependents(dependents, model, use_mimics=use_mimics)
+            zeros = _zeros(own, model)
+            self._dependents = _dependents(own, model, use_mimics=use_mimics)
         self._positions = {
             joint.name: default_position(joint, zeros)
             for joint in model.joints
@@ -177,13 +178,53 @@ class _Publisher:
                 self._positions[name] = float(position)
 
 
-def _dependents(
-    given: Mapping[str, Any], model: Model, *, use_mimics: bool
-) -> dict[str, _Dependent]:
-    found = {
-        name: _Dependent(item["parent"], float(item.get("factor", 1)), float(item.get("offset", 0)))
-        for name, item in given.items()
+def _by_joint(own: ParameterReader, key: str) -> dict[str, Any]:
+    """Return the leaves of a group, by names with dots; names of joints may have dots, too."""
+    value = own.raw(key, {})
+    if isinstance(value, Mapping):
+        return dict(flattened(value))
+    text = f"parameter '{key}' is {value!r}, not a group with names of joints; it is left out"
+    own.report("parameter.bad-value", text, key=key)
+    return {}
+
+
+def _dotted(name: str) -> str:
+    """Return a joint's name as parameters write it, whose slashes are branches."""
+    return name.replace("/", ".")
+
+
+def _number(own: ParameterReader, key: str, value: Any, default: float) -> float:
+    number = number_of(value)
+    if number is None:
+        text = f"parameter '{key}' is {value!r}, not a number; {default:g} is used"
+        own.report("parameter.bad-value", text, "write a number", key=key)
+    return default if number is None else number
+
+
+def _zeros(own: ParameterReader, model: Model) -> dict[str, float]:
+    given = _by_joint(own, "zeros")
+    return {
+        joint.name: _number(own, f"zeros.{name}", given[name], default_position(joint, {}))
+        for joint in model.joints
+        if (name := _dotted(joint.name)) in given
     }
+
+
+def _dependents(own: ParameterReader, model: Model, *, use_mimics: bool) -> dict[str, _Dependent]:
+    given = _by_joint(own, "dependent_joints")
+    joints = {_dotted(joint.name): joint.name for joint in model.joints}
+    found: dict[str, _Dependent] = {}
+    for name in dict.fromkeys(key.rpartition(".")[0] for key in given):
+        place = f"dependent_joints.{name}"
+        if f"{name}.parent" not in given:
+            text = f"parameter '{place}' has no parent; it is left out"
+            own.report("parameter.bad-value", text, key=place)
+        elif name in joints:
+            factor, offset = (
+                _number(own, f"{place}.{one}", given.get(f"{name}.{one}", otherwise), otherwise)
+                for one, otherwise in (("factor", 1.0), ("offset", 0.0))
+            )
+            found[joints[name]] = _Dependent(str(given[f"{name}.parent"]), factor, offset)
     if use_mimics:
         for joint in model.joints:
             if joint.mimic is not None and joint.name not in found:

@@ -6,7 +6,6 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
 from gazelle.graph.node_parameters import Descriptor, NodeParameters, ParameterPolicy
@@ -18,8 +17,6 @@ from gazelle.parameters.trees import flattened, nested, values_only
 __all__ = [
     "node_parameters",
     "parameter_tree",
-    "private",
-    "private_number",
     "start_node",
     "ticks",
 ]
@@ -123,26 +120,6 @@ def parameter_tree(node: Node, arguments: NodeArguments) -> dict[str, Any]:
         tree = {**nested(stored[key]["ros__parameters"] or {}), **tree}
     # What the command line says of a branch leaves the rest of it.
     return nested({**dict(flattened(tree)), **dict(flattened(nested(arguments.params)))})
-
-
-def private(node: Node, arguments: NodeArguments, name: str, default: Any) -> Any:
-    """Return ``~name``: command line first, then the parameter store, then the default."""
-    if name in arguments.params:
-        return arguments.params[name]
-    full = node.resolve_name(f"~{name}")
-    return node.parameters.get(full) if node.parameters.has(full) else default
-
-
-def private_number(node: Node, arguments: NodeArguments, name: str, default: float) -> float:
-    """Return ``~name`` as a number.
-
-    Raises:
-        LaunchError: it is none.
-    """
-    value = private(node, arguments, name, default)
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        return float(value)
-    raise LaunchError(f"parameter '{node.resolve_name(f'~{name}')}' is {value!r}, not a number")
 
 
 def ticks(node: Node, period_ns: int, stop: threading.Event) -> Iterator[int]:

@@ -17,7 +17,7 @@ from gazelle.interfaces.poses import set_transform
 from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import private, start_node
+from gazelle.nodes.parameters import start_node
 from gazelle.nodes.tree import (
     DESCRIPTION,
     TreeJoint,
@@ -77,12 +77,13 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
             ignore_timestamp=own.flag("ignore_timestamp"),
         )
         is_static = own.flag("use_tf_static")
+        wants_sim_time = own.raw("use_sim_time") is True
     if ros2:
         for name in segment_names(model):
             node.log("info", f"got segment {name}")
         kind: Any = message_type("std_msgs/msg/String")
         node.create_publisher(DESCRIPTION, kind, latch=True).publish(kind(data=text))
-    _connect(node, states, is_static, _begin_ns(node, arguments))
+    _connect(node, states, is_static, _begin_ns(node, wants_sim_time=wants_sim_time))
     stop.wait()
     node.shutdown()
     return 0
@@ -158,9 +159,8 @@ class StateToTf:
         return f"{self._prefix}{name}"
 
 
-def _begin_ns(node: Node, arguments: NodeArguments) -> int:
+def _begin_ns(node: Node, *, wants_sim_time: bool) -> int:
     """Return the time of transforms that hold always; simulated time is 0 before ``/clock``."""
-    wants_sim_time = private(node, arguments, "use_sim_time", False) is True
     return 0 if wants_sim_time and not node.clock.use_sim_time else node.clock.now_ns()
 
 
