@@ -31,17 +31,19 @@ def _told(values: dict[str, Any], generation: int = 2) -> list[str]:
 
 
 def test_what_moveit_s_own_launch_files_give_needs_no_word() -> None:
-    sequences = "pilz_industrial_motion_planner/MoveGroupSequence"
+    pilz = "pilz_industrial_motion_planner"
+    sequences = f"{pilz}/MoveGroupSequence"
     assert not _told(
         {
-            "planning_pipelines": ["ompl"],
+            "planning_pipelines": ["ompl", pilz],
+            pilz: {"capabilities": f"{sequences}Action {sequences}Service"},
             "ompl": {**_OMPL, "arm": {"planner_configs": ["R"]}},
             "ompl.start_state_max_bounds_error": 0.1,
             "moveit_controller_manager": "moveit_simple_controller_manager/"
             "MoveItSimpleControllerManager",
             "moveit_simple_controller_manager": {"controller_names": ["c"], "c": {"type": "x"}},
             "allow_trajectory_execution": True,
-            "capabilities": f"{sequences}Action {sequences}Service",
+            "capabilities": "",
             "disable_capabilities": "",
             "monitor_dynamics": False,
             "publish_planning_scene": True,
@@ -69,9 +71,9 @@ def test_what_moveit_s_own_launch_files_give_needs_no_word() -> None:
             " there is no map of obstacles by sensors",
         ),
         (
-            {"robot_description_kinematics.arm.kinematics_solver_attempts": 3},
+            {"robot_description_kinematics.arm.kinematics_solver_attempts": 9},
             "parameter.idle /move_group: parameter"
-            " 'robot_description_kinematics.arm.kinematics_solver_attempts' (3) has no effect"
+            " 'robot_description_kinematics.arm.kinematics_solver_attempts' (9) has no effect"
             " here: there are a hundred within the time",
         ),
         (

@@ -28,12 +28,17 @@ KINEMATICS = (
     ),
     Parameter("epsilon", "number", 1e-5, "largest error of a solution", "m and rad"),
     Parameter("max_solver_iterations", "integer", 500, "steps from one seed"),
-    *refused("there are a hundred within the time", "kinematics_solver_attempts"),
+    # The Setup Assistant writes 3 and 0.005 into every file.
+    *refused("there are a hundred within the time", "kinematics_solver_attempts", unless=3),
+    *refused(
+        "redundant joints are solved with the others",
+        "kinematics_solver_search_resolution",
+        unless=0.005,
+    ),
     *refused(
         "redundant joints are solved with the others",
         "joints",
         "keep_constant",
-        "kinematics_solver_search_resolution",
         "mode",
     ),
     *refused("the solution nearest to the seed is taken", "solve_type"),
@@ -108,7 +113,9 @@ EXECUTION = (
         True,
         "execution ends only when the robot stands still",
     ),
-    *refused("trajectories are sent as they were planned", "execution_velocity_scaling"),
+    *refused(
+        "trajectories are sent as they were planned", "execution_velocity_scaling", unless=1.0
+    ),
     *refused("bases are not driven", "control_multi_dof_joint_variables"),
 )
 """Of the execution of trajectories."""
@@ -132,6 +139,8 @@ CONTROLLER = (
 """Of one controller; in ``controller_list`` a row of it has a ``name``, too."""
 
 _SAFE = "nothing looks around while the robot moves"
+_OFFERED = "what there is of them is always offered"
+_SEQUENCE = "pilz_industrial_motion_planner/MoveGroupSequence"
 _START = "starts outside of the limits by 0.1 rad or m are moved to them, others are refused"
 
 PIPELINE = (
@@ -143,14 +152,10 @@ PIPELINE = (
     Parameter("response_adapters", "words", (), "the same"),
     Parameter("resample_dt", "number", 0.1, "time between points of a trajectory", "s"),
     Parameter("path_tolerance", "number", 0.1, "how far corners may be rounded", "rad or m"),
-    *refused("what there is of them is always offered", "capabilities", "disable_capabilities"),
-    *refused(
-        _START,
-        "jiggle_fraction",
-        "max_sampling_attempts",
-        "start_state_max_bounds_error",
-        "start_state_max_dt",
-    ),
+    *refused(_OFFERED, "capabilities", unless=f"{_SEQUENCE}Action {_SEQUENCE}Service"),
+    *refused(_OFFERED, "disable_capabilities", unless=""),
+    *refused(_START, "start_state_max_bounds_error", unless=0.1),
+    *refused(_START, "jiggle_fraction", "max_sampling_attempts", "start_state_max_dt"),
     *refused(_SAFE, "max_safe_path_cost"),
     *refused(
         "`resample_dt` says how close points are",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import Any
 
 from gazelle.description.moveit import MoveItConfig, Pipeline
 from gazelle.description.moveit.rows import (
@@ -20,18 +19,19 @@ from gazelle.nodes.move_group.ompl_pipeline import OMPL
 from gazelle.nodes.move_group.pilz_pipeline import PILZ
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
-from gazelle.parameters.trees import flattened
 
 __all__ = ["MOVE_GROUP", "report_parameters"]
 
 _PLANNING = "robot_description_planning"
 _MANAGERS = ("moveit_simple_controller_manager", "moveit_fake_controller_manager")
-_SCENE = (
+_PUBLISHED = (
     "publish_geometry_updates",
     "publish_planning_scene",
     "publish_state_updates",
     "publish_transforms_updates",
 )
+# ROS 1 has them below a name.
+_SCENE = (*_PUBLISHED, *(f"planning_scene_monitor.{key}" for key in _PUBLISHED))
 
 
 def _below(branch: str, rows: Iterable[Parameter]) -> tuple[Parameter, ...]:
@@ -93,15 +93,21 @@ MOVE_GROUP = ParameterTable(
             "controllers are those of `controller_list`, `moveit_simple_controller_manager` or"
             " `moveit_fake_controller_manager`",
             "moveit_controller_manager",
-            "ros_control_namespace",
-            "use_controller_manager",
+            unless="moveit_simple_controller_manager/MoveItSimpleControllerManager",
         ),
-        *refused("controllers are left as they are, active or not", "moveit_manage_controllers"),
-        *refused("the scene is always published", *_SCENE, "planning_scene_monitor"),
-        *refused("the scene has positions only", "monitor_dynamics"),
-        *refused("who has the description publishes it", "publish_robot_description"),
         *refused(
-            "it is a parameter, and no topic of move_group's", "publish_robot_description_semantic"
+            "controllers are left as they are, active or not",
+            "moveit_manage_controllers",
+            unless=True,
+        ),
+        *refused("the scene is always published", *_SCENE, unless=True),
+        *refused("the scene follows everybody who publishes parts of it", "planning_scene_monitor"),
+        *refused("the scene has positions only", "monitor_dynamics", unless=False),
+        *refused("who has the description publishes it", "publish_robot_description", unless=False),
+        *refused(
+            "it is a parameter, and no topic of move_group's",
+            "publish_robot_description_semantic",
+            unless=False,
         ),
         *refused(
             "there is no map of obstacles by sensors",
@@ -116,30 +122,13 @@ MOVE_GROUP = ParameterTable(
             "nothing is kept in a database", "warehouse_host", "warehouse_plugin", "warehouse_port"
         ),
         *refused("MoveItPy reads it", "plan_request_params", "planning_scene_monitor_options"),
-        *(row for row in PIPELINE if row.is_refused),
+        *refused("what there is of them is always offered", "capabilities", unless=""),
+        *(row for row in PIPELINE if row.is_refused and row.key != "capabilities"),
     ),
 )
 
 _OURS = (PILZ, OMPL)
 _PIPELINE = ParameterTable("a planning pipeline", "How motions are planned.", (), PIPELINE)
-_SEQUENCES = "pilz_industrial_motion_planner/MoveGroupSequence"
-_OFFERED = ("", f"{_SEQUENCES}Action {_SEQUENCES}Service", f"{_SEQUENCES}Action")
-# What asks for that which is done anyway needs no word: MoveIt's own launch files give it.
-_DONE_ANYWAY: Mapping[str, tuple[Any, ...]] = {
-    "capabilities": _OFFERED,
-    "disable_capabilities": ("",),
-    "monitor_dynamics": (False,),
-    "moveit_controller_manager": (
-        "moveit_fake_controller_manager/MoveItFakeControllerManager",
-        "moveit_simple_controller_manager/MoveItSimpleControllerManager",
-    ),
-    "moveit_manage_controllers": (False,),
-    "publish_robot_description": (False,),
-    "publish_robot_description_semantic": (False,),
-    "start_state_max_bounds_error": (0.1,),
-    "trajectory_execution.execution_velocity_scaling": (1.0,),
-    **{name: (True,) for key in _SCENE for name in (key, f"planning_scene_monitor.{key}")},
-}
 
 
 def report_parameters(
@@ -153,23 +142,18 @@ def report_parameters(
         diagnostics: receives it.
         generation: of ROS.
     """
-    tree = _asking(config.parameters)
+    tree = config.parameters
     own = node_reader(MOVE_GROUP, tree, name, diagnostics, generation=generation)
     own.report_unknown(*_names(config))
     for pipeline in config.pipelines.values():
         if pipeline.values is config.parameters or not _is_known(pipeline):
             continue
         label = f"{name}/{pipeline.name}"
-        values = _asking(pipeline.values)
+        values = pipeline.values
         # Planning groups, and planners.
-        branches = [key for key, value in pipeline.values.items() if isinstance(value, Mapping)]
+        branches = [key for key, value in values.items() if isinstance(value, Mapping)]
         reader = node_reader(_PIPELINE, values, label, diagnostics, generation=generation)
         reader.report_unknown(*branches)
-
-
-def _asking(tree: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the parameters without those that ask for what is done anyway."""
-    return {key: value for key, value in flattened(tree) if value not in _DONE_ANYWAY.get(key, ())}
 
 
 def _names(config: MoveItConfig) -> Iterator[str]:
