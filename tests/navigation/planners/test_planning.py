@@ -40,6 +40,11 @@ _IDS = ["navfn", "global", "global-astar", "global-grid", "global-linear", "nav2
 every_planner = pytest.mark.parametrize("options", _ALL, ids=_IDS)
 
 
+def test_every_planner_has_options_of_its_own() -> None:
+    kinds = {id(kind) for kind in PLANNERS.values()}
+    assert len({kind.options for kind in PLANNERS.values()}) == len(kinds)
+
+
 def _room(walls: np.ndarray | None = None, size: int = 80) -> CostGrid:
     """4 m × 4 m, (0, 0) in the lower left corner, a wall with a gap at the top."""
     costs = np.zeros((size, size), np.uint8)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from gazelle.navigation.planners.names import PLANNERS, REFUSED_PLANNERS, PlannerKind
+from gazelle.navigation.planners.kind import PlannerKind, PlannerOptions
+from gazelle.navigation.planners.names import PLANNERS, REFUSED_PLANNERS
 from gazelle.navigation.planners.options import (
     GlobalPlannerOptions,
     Nav2NavfnOptions,
     NavfnOptions,
-    PlannerOptions,
     Smac2DOptions,
     ThetaStarOptions,
 )

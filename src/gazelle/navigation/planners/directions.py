@@ -7,16 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.planners.options import (
-    GlobalPlannerOptions,
-    NavfnOptions,
-    PlannerOptions,
-)
+from gazelle.navigation.planners.kind import Facing
 
 __all__ = ["directed"]
 
 Pose = tuple[float, float, float]
-_FORWARD, _INTERPOLATE, _MIXED = 1, 2, 3
+_INTERPOLATE, _MIXED = 2, 3
 _TURNS = {1: 0.0, 3: 0.0, 4: math.pi, 5: -math.pi / 2, 6: math.pi / 2}
 _STRAIGHT_RAD = 0.35
 _APPROACH = 8
@@ -26,7 +22,7 @@ def directed(
     poses: NDArray[np.float64],
     start: Pose,
     goal: Pose,
-    options: PlannerOptions,
+    facing: Facing,
     is_there: bool,
 ) -> NDArray[np.float64]:
     """Return a path with directions, that ends in the goal's pose where it reaches the goal's cell.
@@ -34,9 +30,7 @@ def directed(
     NavfnROS leaves directions at 0; here they point along the path, which its followers do not look
     at and people do. Modes are those of ``OrientationFilter`` of global_planner.
     """
-    mode, window = _FORWARD, 1
-    if isinstance(options, GlobalPlannerOptions):
-        mode, window = options.orientation_mode, options.orientation_window_size
+    mode, window, arrives = facing
     end = np.array(goal if is_there else (poses[-1, 0], poses[-1, 1], goal[2]))
     poses = np.vstack([poses[:-1], end]) if len(poses) > 1 else np.array([start, end])
     if mode in _TURNS:
@@ -45,17 +39,11 @@ def directed(
         _interpolate(poses, 0, start[2])
     if mode == _MIXED:
         _mixed(poses, start[2])
-    if _arrives(options) and len(poses) > 1:
+    if arrives and len(poses) > 1:
         step = poses[-1, :2] - poses[-min(len(poses), _APPROACH), :2]
         poses[-1, 2] = math.atan2(step[1], step[0])
     poses[:, 2] = np.remainder(poses[:, 2] + math.pi, math.tau) - math.pi
     return poses
-
-
-def _arrives(options: PlannerOptions) -> bool:
-    if isinstance(options, NavfnOptions | GlobalPlannerOptions):
-        return False
-    return options.use_final_approach_orientation
 
 
 def _along(poses: NDArray[np.float64], window: int) -> NDArray[np.float64]:

@@ -12,7 +12,6 @@ __all__ = [
     "GlobalPlannerOptions",
     "Nav2NavfnOptions",
     "NavfnOptions",
-    "PlannerOptions",
     "Smac2DOptions",
     "ThetaStarOptions",
 ]
@@ -110,9 +109,3 @@ class ThetaStarOptions:
     use_final_approach_orientation: bool = flag(False, _FINAL)
 
     IDLE: ClassVar[Mapping[str, str]] = {"terminal_checking_interval": _TIME}
-
-
-PlannerOptions = (
-    NavfnOptions | GlobalPlannerOptions | Nav2NavfnOptions | Smac2DOptions | ThetaStarOptions
-)
-"""Options of any planner."""
