@@ -14,6 +14,15 @@ def test_slam_and_localisation_by_their_names() -> None:
     assert idle_parameters("my_robot/driver", {"particles": 1}, 1) == ()
 
 
+def test_every_node_with_a_table_is_known() -> None:
+    found = idle_parameters("joint_state_publisher/joint_state_publisher", {"delta": 0.1}, 1)
+    assert found == (("delta", "joints stand where nothing moves them"),)
+    values = {"override_timestamps_with_wall_time": False, "override_frame_id": "lidar"}
+    (one,) = idle_parameters("ros_ign_bridge/parameter_bridge", values, 2)
+    assert one == ("override_frame_id", "frames stay")
+    assert idle_parameters("ros_ign_bridge/parameter_bridge", values, 1) == ()
+
+
 def test_plug_ins_and_layers_are_looked_through() -> None:
     values = {
         "base_local_planner": "dwa_local_planner/DWAPlannerROS",

@@ -1,4 +1,4 @@
-"""Which parameters of a node of navigation, localisation or SLAM are known and change nothing.
+"""Which parameters of a built-in node are known and change nothing.
 
 Nodes tell it themselves when they start; this tells it of files that nobody has started.
 """
@@ -18,17 +18,13 @@ from gazelle.navigation.costmap.options import (
 )
 from gazelle.navigation.planners import PLANNERS
 from gazelle.node_specs.all_specs import node_specs
-from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
-from gazelle.nodes.filters.tables import EKF, POSE_EKF, ekf_table
-from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
+from gazelle.node_specs.spec import resolved
+from gazelle.nodes.filters.tables import EKF, ekf_table
 from gazelle.nodes.move_base.local import local_planner_tables
 from gazelle.nodes.move_base.planner import planner_tables
-from gazelle.nodes.move_base.tables import CLEAR, MOVE_BASE, ROTATE, SLOW
+from gazelle.nodes.move_base.tables import CLEAR, ROTATE, SLOW
 from gazelle.nodes.nav2 import tables as nav2
-from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.navigation.assembling import costmap_table, layer_table
-from gazelle.nodes.slam.explore import EXPLORE
-from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.trees import flattened, nested, values_only
 
@@ -43,6 +39,12 @@ _NAMES = {
     "lifecycle_manager_localization": "nav2_lifecycle_manager/lifecycle_manager",
     "lifecycle_manager_navigation": "nav2_lifecycle_manager/lifecycle_manager",
 }
+
+# Whoever looks at controllers and at MoveIt's configuration tells it of them.
+_TOLD_ELSEWHERE = (
+    ("controller_manager", "ros2_control_node"),
+    ("moveit_ros_move_group", "move_group"),
+)
 
 
 class IdleParameter(NamedTuple):
@@ -66,7 +68,7 @@ def idle_parameters(
     if node in EKF.types:
         table: ParameterTable | None = ekf_table(tree)
     else:
-        table = costmap_table(generation) if node == "costmap" else _tables(generation).get(node)
+        table = costmap_table(generation) if node == "costmap" else _table(node, generation)
     return () if table is None else tuple(_walk(table, tree, "", generation))
 
 
@@ -78,8 +80,8 @@ def node_of_name(name: str) -> str:
     if own in _NAMES:
         return _NAMES[own]
     named = (f"{spec.package}/{spec.executable}" for spec in node_specs() if spec.name == own)
-    found = next((node for node in named if node in _tables(2)), "")
-    return found or next((node for node in _tables(2) if node.rpartition("/")[2] == own), "")
+    found = next((node for node in named if node in _places(2)), "")
+    return found or next((node for node in _places(2) if node.rpartition("/")[2] == own), "")
 
 
 def _walk(
@@ -122,19 +124,21 @@ def _plain(plugin: str) -> str:
     return plugin.replace("/", "::")
 
 
+def _table(node: str, generation: Generation) -> ParameterTable | None:
+    """Return the table of a node's row, by any of its names; None where it has none."""
+    place = _places(generation).get(node)
+    return None if place is None else resolved(place)
+
+
 @cache
-def _tables(generation: Generation) -> dict[str, ParameterTable]:
-    """Return the tables of nodes by ``package/type``."""
-    slam = [flavour.table for flavour in FLAVOURS.values()]
-    if generation == 1:
-        tables = [*slam, AMCL, MOVE_BASE, EXPLORE, EXPLORE_SERVER, POSE_EKF, EKF]
-    else:
-        tables = [
-            *slam, NAV2_AMCL, EXPLORE, EKF, COLLISION_MONITOR, nav2.PLANNER_SERVER,
-            nav2.CONTROLLER_SERVER, nav2.BEHAVIOR_SERVER, nav2.BT_NAVIGATOR, nav2.SMOOTHER_SERVER,
-            nav2.WAYPOINT_FOLLOWER, nav2.VELOCITY_SMOOTHER, nav2.LIFECYCLE_MANAGER,
-        ]  # fmt: skip
-    return {name: table for table in tables for name in table.types}
+def _places(generation: Generation) -> dict[str, str]:
+    """Return where the tables of nodes are, by ``package/executable``."""
+    return {
+        f"{name.package}/{name.executable}": spec.parameters
+        for spec in node_specs()
+        for name in spec.names
+        if spec.parameters and generation in name.ros and name[:2] not in _TOLD_ELSEWHERE
+    }
 
 
 @cache
