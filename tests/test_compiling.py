@@ -150,3 +150,67 @@ def test_a_kernel_is_compiled_anew_where_one_that_it_calls_has_changed(
             (tmp_path / "callee.py").write_text(text, encoding="utf-8")
         seen.append(start("import caller").communicate(timeout=stretched())[0].strip())
     assert seen == ["20 0", "20 1", "30.0 0"]
+
+
+_RECORD = """
+from typing import NamedTuple
+
+
+class Inner(NamedTuple):
+    {fields}
+
+
+class Pair(NamedTuple):
+    inner: Inner
+"""
+_READER = """
+from gazelle.compiling import njit
+from record import Inner, Pair
+
+
+@njit(cache=True)
+def first(pair):
+    return pair.inner.a
+
+
+print(first(Pair(Inner(a=1.0, b=2.0))), sum(first.stats.cache_hits.values()))
+"""
+_MAKER = """
+from gazelle.compiling import njit
+from record import Inner
+
+
+@njit(cache=True)
+def first(a, b):
+    return Inner(a=a, b=b)[0]
+
+
+print(first(1.0, 2.0), sum(first.stats.cache_hits.values()))
+"""
+
+
+@pytest.mark.parametrize(("kernel", "last"), [(_READER, "1.0 0"), (_MAKER, "2.0 0")])
+def test_a_kernel_is_compiled_anew_where_fields_of_its_records_have_another_order(
+    start: Start, tmp_path: Path, kernel: str, last: str
+) -> None:
+    (tmp_path / "reader.py").write_text(kernel, encoding="utf-8")
+    seen = []
+    for fields in ("a: float; b: float", "a: float; b: float", "b: float; a: float"):
+        text = _RECORD.format(fields=fields)
+        if not seen or text != (tmp_path / "record.py").read_text(encoding="utf-8"):
+            (tmp_path / "record.py").write_text(text, encoding="utf-8")
+        seen.append(start("import reader").communicate(timeout=stretched())[0].strip())
+    assert seen == ["1.0 0", "1.0 1", last]
+
+
+def test_a_kernel_is_compiled_anew_where_a_record_of_it_has_another_name(
+    start: Start, tmp_path: Path
+) -> None:
+    seen = []
+    for name in ("Pair", "Pair", "Two"):
+        record = _RECORD.format(fields="a: float; b: float").replace("Pair", name)
+        (tmp_path / "record.py").write_text(record, encoding="utf-8")
+        if not seen or name == "Two":
+            (tmp_path / "reader.py").write_text(_READER.replace("Pair", name), encoding="utf-8")
+        seen.append(start("import reader").communicate(timeout=stretched())[0].strip())
+    assert seen == ["1.0 0", "1.0 1", "1.0 0"]
