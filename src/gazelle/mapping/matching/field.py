@@ -5,31 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.mapping.matching import kernels, line_kernels
+from gazelle.mapping.matching.match_arguments import FieldCells, Lines
 from gazelle.mapping.matching.settings import FieldSettings
 
-__all__ = ["Field", "Lines", "field_of"]
+__all__ = ["Field", "field_of"]
 
 _USUAL = FieldSettings()
-
-
-class Lines(NamedTuple):
-    """What lines walls are, from sums of the surfaces' points, see `line_kernels`.
-
-    Attributes:
-        places: int32 (height, width), which row of the sums is a cell's.
-        sums: (n, 6).
-        cell_m: side of a cell.
-    """
-
-    places: NDArray[np.int32]
-    sums: NDArray[np.float64]
-    cell_m: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +26,7 @@ class Field:
         values: float32 (height, width) within [0, 1], row 0 lowest y.
         x_m, y_m: lower left corner.
         cell_m: side of a cell.
-        lines: of its surfaces, with the same corner; None in coarse fields.
+        lines: of its surfaces; None in coarse fields.
     """
 
     values: NDArray[np.float32]
@@ -49,6 +35,11 @@ class Field:
     cell_m: float
     lines: Lines | None = None
 
+    @property
+    def cells(self) -> FieldCells:
+        """What kernels take of it."""
+        return FieldCells(self.values, self.x_m, self.y_m, self.cell_m)
+
     def pooled(self) -> Field:
         """Return it with cells twice as large, each the greatest of its four parts."""
         return Field(kernels.pooled(self.values), self.x_m, self.y_m, 2 * self.cell_m)
@@ -56,8 +47,7 @@ class Field:
     def mean(self, points_m: NDArray[np.float64], pose: ArrayLike) -> float:
         """Return the mean value at points seen from a pose; 1 when all lie on surfaces."""
         x, y, yaw = np.asarray(pose, dtype=float)
-        corner = (self.x_m, self.y_m, self.cell_m)
-        return float(kernels.mean_value(self.values, *corner, points_m, x, y, yaw))
+        return float(kernels.mean_value(self.cells, points_m, x, y, yaw))
 
 
 def field_of(
@@ -82,13 +72,15 @@ def field_of(
     side = max(8, int(2 * half_side_m / cell_m) // 8 * 8)
     values = np.zeros((side, side), np.float32)
     x0, y0 = center_m[0] - half_side_m, center_m[1] - half_side_m
-    kernels.stamp(values, x0, y0, cell_m, points_m, _kernels(sigma_m, cell_m, settings.parts))
+    cells = FieldCells(values, x0, y0, cell_m)
+    kernels.stamp(cells, points_m, _kernels(sigma_m, cell_m, settings.parts))
     line_cell_m = settings.line_cell_m
     across = math.ceil(side * cell_m / line_cell_m)
     places = np.zeros((across, across), np.int32)
     sums = np.empty((len(points_m) + 1, 6))
-    used = line_kernels.accumulate(places, sums, x0, y0, line_cell_m, points_m)
-    return Field(values, x0, y0, cell_m, Lines(places, sums[:used], line_cell_m))
+    lines = Lines(places, sums, x0, y0, line_cell_m)
+    used = line_kernels.accumulate(lines, points_m)
+    return Field(values, x0, y0, cell_m, lines._replace(sums=sums[:used]))
 
 
 @lru_cache(maxsize=16)

@@ -1,9 +1,9 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, PLR0917
+# ruff: noqa: ANN001, ANN201
 """The compiled inner loops of scan matching.
 
-A field is a float32 array (height, width) of values within [0, 1], row 0 lowest y, its cell
-(0, 0) beginning at (x0, y0). Points are float64 arrays (n, 2). Nothing here holds a Python object.
+Cells are `match_arguments.FieldCells`. Points are float64 arrays (n, 2). Nothing here holds a
+Python object.
 """
 
 from __future__ import annotations
@@ -19,12 +19,13 @@ __all__ = ["best_in_window", "mean_value", "pooled", "refine", "stamp"]
 
 
 @njit(cache=True, nogil=True)
-def stamp(field, x0, y0, cell, points, kernels):
+def stamp(cells, points, kernels):
     """Raise the field around every point.
 
     `kernels`, (s, s, k, k), has an odd square for every s-th part of a cell that a point may lie
     in, by row and column: whole cells would shift walls by up to half a cell.
     """
+    field, x0, y0, cell = cells.values, cells.x_m, cells.y_m, cells.cell_m
     height, width = field.shape
     parts, side = kernels.shape[0], kernels.shape[2]
     reach = side // 2
@@ -67,15 +68,21 @@ def pooled(field):
 
 
 @njit(cache=True, nogil=True, fastmath=True)
-def best_in_window(field, x0, y0, cell, points, guess, reach_m, step_m, reach_rad, step_rad, prior):
+def best_in_window(cells, points, guess, window, toward):
     """Return the best pose on a lattice around a guess, as (x, y, yaw, mean value there).
 
-    The departure from `prior`, (x, y, yaw, weight per m², weight per rad²), lowers what a pose
-    is worth.
+    Args:
+        cells: of a field.
+        points: in the robot's frame, (n, 2).
+        guess: (x, y, yaw).
+        window: the lattice, a `match_arguments.Window`.
+        toward: what lowers what a pose is worth, a `match_arguments.Toward`.
     """
+    field, x0, y0, cell = cells.values, cells.x_m, cells.y_m, cells.cell_m
     height, width = field.shape
     n = points.shape[0]
-    n_turns, n_steps = round(reach_rad / step_rad), round(reach_m / step_m)
+    step_m, step_rad = window.step_m, window.step_rad
+    n_turns, n_steps = round(window.reach_rad / step_rad), round(window.reach_m / step_m)
     best, best_mean = -1e30, 0.0
     bx, by, bt = guess[0], guess[1], guess[2]
     across = 2 * n_steps + 1
@@ -104,16 +111,17 @@ def best_in_window(field, x0, y0, cell, points, guess, reach_m, step_m, reach_ra
                     if place >= 0:
                         total += flat[np.uint64(place)]
                 total /= n
-                ex, ey, et = x - prior[0], y - prior[1], yaw - prior[2]
-                worth = total - prior[3] * (ex * ex + ey * ey) - prior[4] * et * et
+                ex, ey, et = x - toward.x_m, y - toward.y_m, yaw - toward.yaw_rad
+                worth = total - toward.per_m2 * (ex * ex + ey * ey) - toward.per_rad2 * et * et
                 if worth > best:
                     best, best_mean, bx, by, bt = worth, total, x, y, yaw
     return bx, by, bt, best_mean
 
 
 @njit(cache=True, nogil=True, fastmath=True)
-def mean_value(field, x0, y0, cell, points, x, y, yaw):
+def mean_value(cells, points, x, y, yaw):
     """Return the mean value of the field at points seen from a pose."""
+    field, x0, y0, cell = cells.values, cells.x_m, cells.y_m, cells.cell_m
     height, width = field.shape
     c, s = math.cos(yaw), math.sin(yaw)
     total = 0.0
@@ -126,14 +134,16 @@ def mean_value(field, x0, y0, cell, points, x, y, yaw):
 
 
 @njit(cache=True, nogil=True, fastmath=True)
-def refine(field, x0, y0, cell, points, guess, prior, information, weight, iterations):
+def refine(cells, points, guess, prior, weight, iterations):
     """Minimise ``weight Σ (1 − M)² + eᵀ Λ e`` by Gauss-Newton (Kohlbrecher et al. 2011).
 
-    M is the field, bilinear between cell centres, e the departure from `prior`, Λ `information`.
+    M is the field, bilinear between cell centres, e the departure from the `match.Prior`, Λ its
+    information.
 
     Returns:
         The pose and the Hessian of the first term, which is what the scan says of the pose.
     """
+    field, x0, y0, cell = cells.values, cells.x_m, cells.y_m, cells.cell_m
     height, width = field.shape
     pose, slope, step = np.empty(3), np.empty(3), np.empty(3)
     data = np.empty((3, 3))
@@ -168,7 +178,7 @@ def refine(field, x0, y0, cell, points, guess, prior, information, weight, itera
             slope[0] += dx * error
             slope[1] += dy * error
             slope[2] += dt * error
-        stepped(data, slope, weight, information, pose, prior, 1e-3, step)
+        stepped(data, slope, weight, prior.information, pose, prior.pose, 1e-3, step)
         length = math.sqrt(step[0] * step[0] + step[1] * step[1])
         share = 0.1 / length if length > 0.1 else 1.0
         for k in range(3):

@@ -1,10 +1,10 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, PLR0915
 """The compiled inner loops of matching points with lines.
 
 Sums are float64 (n, 6): count, Σx, Σy, Σx², Σxy, Σy² of the points in a cell, seen from the middle
 of the grid, so that squares stay small. A grid of int32 says which row is a cell's; row 0, of empty
-cells, is zero. Walls fill few of the cells.
+cells, is zero. Walls fill few of the cells. Both are a `match_arguments.Lines`.
 """
 
 from __future__ import annotations
@@ -20,17 +20,14 @@ __all__ = ["accumulate", "refine_on_lines"]
 
 
 @njit(cache=True, nogil=True)
-def accumulate(places, sums, x0, y0, cell, points):
+def accumulate(lines, points):
     """Add points, (n, 2), to the sums of their cells; return how many rows are in use.
 
     Args:
-        places: int32 (height, width), zero at first, filled.
-        sums: (n + 1, 6), filled as far as it is used.
-        x0: lower left corner, metres.
-        y0: the same.
-        cell: side of a cell, metres.
+        lines: its `places` zero at first, filled; its `sums`, (n + 1, 6), filled as far as used.
         points: (n, 2).
     """
+    places, sums, x0, y0, cell = lines.places, lines.sums, lines.x_m, lines.y_m, lines.cell_m
     height, width = places.shape
     mx, my = x0 + 0.5 * width * cell, y0 + 0.5 * height * cell
     sums[0] = 0.0
@@ -84,31 +81,26 @@ def _line(places, sums, row, column, fewest, widest, out):
 
 
 @njit(cache=True, nogil=True)
-def refine_on_lines(
-    places, sums, x0, y0, cell, points, guess, prior, information, told, iterations
-):
+def refine_on_lines(walls, points, guess, prior, terms, iterations):
     """Minimise the distances of points from the lines around them, and from a prior.
 
     Args:
-        places: see the module.
-        sums: the same.
-        x0: lower left corner, metres.
-        y0: the same.
-        cell: side of a cell, metres.
+        walls: what lines they are, see the module.
         points: in the robot's frame, (n, 2).
         guess: pose to begin with.
-        prior: pose that is expected.
-        information: of it, (3, 3).
-        told: standard deviation of a distance (m), farthest that counts (m), fewest points of a
-            line, greatest standard deviation of points across one (m).
+        prior: what is expected, a `match.Prior`.
+        terms: which points lie on which lines, a `match_arguments.LineTerms`.
         iterations: at most.
 
     Returns:
         The pose, the information of the distances, and how many points have lines.
     """
+    places, sums, x0, y0, cell = walls.places, walls.sums, walls.x_m, walls.y_m, walls.cell_m
     height, width = places.shape
     middle_x, middle_y = x0 + 0.5 * width * cell, y0 + 0.5 * height * cell
-    sigma, farthest, fewest, widest = told[0], told[1], told[2], told[3]
+    sigma, farthest, fewest, widest = (
+        terms.sigma_m, terms.farthest_m, terms.fewest, terms.widest_m,
+    )  # fmt: skip
     pose, slope, step = np.empty(3), np.empty(3), np.empty(3)
     data = np.empty((3, 3))
     for k in range(3):
@@ -156,7 +148,7 @@ def refine_on_lines(
             slope[0] -= weight * nx * off
             slope[1] -= weight * ny * off
             slope[2] -= weight * nt * off
-        stepped(data, slope, 1.0, information, pose, prior, 1e-6, step)
+        stepped(data, slope, 1.0, prior.information, pose, prior.pose, 1e-6, step)
         for k in range(3):
             pose[k] += step[k]
         if abs(step[0]) < 1e-4 and abs(step[1]) < 1e-4 and abs(step[2]) < 1e-5:

@@ -5,20 +5,21 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.mapping.matching import kernels, line_kernels
 from gazelle.mapping.matching.field import Field
+from gazelle.mapping.matching.match_arguments import LineTerms, Toward, Window
 from gazelle.mapping.matching.settings import MatchSettings
 from gazelle.mapping.poses import Poses, wrap_angle
 
 __all__ = ["Match", "Prior", "match", "refined"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Prior:
+class Prior(NamedTuple):
     """What is expected of a pose before matching.
 
     Attributes:
@@ -73,10 +74,11 @@ def match(
     # What a departure of the prior costs against the mean likelihood of the points.
     scale = 1.0 / (settings.point_weight * max(1, len(points_m)))
     weights = np.diagonal(prior.information) * scale
-    toward = (*prior.pose, min(weights[0], weights[1]), weights[2])
+    toward = Toward(*map(float, (*prior.pose, min(weights[0], weights[1]), weights[2])))
     turn = settings.coarse_turn_rad
-    guess = _best(coarse, points_m, prior.pose, (reach_m, step, reach_rad, turn), toward)
-    fine = (step, field.cell_m, turn, turn / 3)
+    wide = Window(reach_m, step, reach_rad, turn)
+    guess = _best(coarse, points_m, prior.pose, wide, toward)
+    fine = Window(step, field.cell_m, turn, turn / 3)
     guess = _best(field, points_m, guess, fine, toward)
     return refined(field, points_m, guess, prior, settings)
 
@@ -89,11 +91,9 @@ def refined(
     settings: MatchSettings,
 ) -> Match:
     """Refine a pose that is nearly right, within about a cell."""
-    corner = (field.x_m, field.y_m, field.cell_m)
     pose, information = kernels.refine(
-        field.values, *corner, points_m, guess, prior.pose, prior.information,
-        settings.point_weight, settings.iterations,
-    )  # fmt: skip
+        field.cells, points_m, guess, prior, settings.point_weight, settings.iterations
+    )
     pose, information = _on_lines(field, points_m, pose, prior, information, settings)
     pose[2] = float(wrap_angle(pose[2]))
     score = field.mean(points_m, pose)
@@ -115,11 +115,9 @@ def _on_lines(
     """
     if field.lines is None:
         return pose, information
-    corner = (field.x_m, field.y_m, field.lines.cell_m)
     found, told, used = line_kernels.refine_on_lines(
-        field.lines.places, field.lines.sums, *corner, points_m, pose, prior.pose,
-        prior.information, _line_numbers(settings), settings.iterations,
-    )  # fmt: skip
+        field.lines, points_m, pose, prior, _line_terms(settings), settings.iterations
+    )
     moved = math.dist(found[:2], pose[:2]), abs(float(wrap_angle(found[2] - pose[2])))
     is_far = moved[0] > settings.most_m or moved[1] > settings.most_rad
     if used < settings.fewest_on_lines or is_far:
@@ -128,15 +126,12 @@ def _on_lines(
 
 
 @cache
-def _line_numbers(settings: MatchSettings) -> NDArray[np.float64]:
-    """Return what `line_kernels` takes of them."""
-    return np.array(
-        [
-            settings.line_sigma_m,
-            settings.line_reach_m,
-            settings.line_points,
-            settings.line_width_m,
-        ]
+def _line_terms(settings: MatchSettings) -> LineTerms:
+    return LineTerms(
+        float(settings.line_sigma_m),
+        float(settings.line_reach_m),
+        float(settings.line_points),
+        float(settings.line_width_m),
     )
 
 
@@ -144,11 +139,8 @@ def _best(
     field: Field,
     points_m: NDArray[np.float64],
     guess: Poses,
-    window: tuple[float, float, float, float],
-    toward: tuple[float, ...],
+    window: Window,
+    toward: Toward,
 ) -> Poses:
-    corner = (field.x_m, field.y_m, field.cell_m)
-    found = kernels.best_in_window(
-        field.values, *corner, points_m, np.asarray(guess), *window, np.array(toward)
-    )
+    found = kernels.best_in_window(field.cells, points_m, np.asarray(guess), window, toward)
     return np.array(found[:3])

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
 """The compiled inner loops of branch and bound.
 
 Bounds are sums of bytes, 255 of which are 1, rounded up; what decides is read from the field
@@ -10,8 +10,10 @@ bits each, so that one addition counts a point for the four shifts of a row.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.compiling import njit
 
@@ -29,6 +31,18 @@ _PART = 40
 # So many are sorted by insertion; so many parts wait at most.
 _FEW = 15
 _DEEPEST = 100
+
+
+class _Search(NamedTuple):
+    """What the smallest blocks are searched with; see `bound_search`, and `sums` is scratch."""
+
+    values: NDArray[np.float32]
+    words: NDArray[np.uint64]
+    cells: NDArray[np.int32]
+    boxes: NDArray[np.int64]
+    reach: int
+    done: int
+    sums: NDArray[np.int64]
 
 
 @njit(cache=True, nogil=True)
@@ -166,13 +180,15 @@ def _block_sums(words, cells, ix, iy, least, sums):
 
 
 @njit(cache=True, nogil=True)
-def _best_of_block(values, words, cells, box, ox, oy, reach, done, best, sums):
+def _best_of_block(search, turn, ox, oy, best):
     """Return the best shift of a smallest block, (sum, columns, rows), as far as it exceeds."""
+    values, reach, done, sums = search.values, search.reach, search.done, search.sums
+    cells, box = search.cells[turn], search.boxes[turn]
     height, width = values.shape
     best_x, best_y = ox, oy
     if box[0] + ox < 0 or box[1] + oy < 0 or box[2] + ox >= width or box[3] + oy + 3 >= height:
         sums[:] = _FULL * cells.shape[1]
-    elif not _block_sums(words, cells, ox, oy, best * _FULL, sums):
+    elif not _block_sums(search.words, cells, ox, oy, best * _FULL, sums):
         return best, best_x, best_y
     for a in range(_SIDE):
         for b in range(_SIDE):
@@ -288,6 +304,7 @@ def bound_search(values, words, levels, cells, boxes, reach, done, least):
     stack = np.empty((4 * depth + 4, 3), np.int64)
     worths = np.empty(4 * depth + 4)
     sums = np.empty((_SIDE, _SIDE), np.int64)
+    search = _Search(values, words, cells, boxes, reach, done, sums)
     for place in range(count):
         if bounds[order[place]] <= best:
             break
@@ -304,9 +321,7 @@ def bound_search(values, words, levels, cells, boxes, reach, done, least):
                 continue
             h, ox, oy = stack[top, 0], stack[top, 1], stack[top, 2]
             if h == 0:
-                worth, x, y = _best_of_block(
-                    values, words, cells[turn], boxes[turn], ox, oy, reach, done, best, sums
-                )
+                worth, x, y = _best_of_block(search, turn, ox, oy, best)
                 if worth > best:
                     best, best_turn, best_x, best_y = worth, turn, x, y
                 continue

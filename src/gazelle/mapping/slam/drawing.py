@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.poses import Poses, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
-from gazelle.mapping.slam.ray_kernels import count_beams
+from gazelle.mapping.slam.ray_kernels import BeamCounts, count_beams
 from gazelle.mapping.slam.settings import DrawingSettings
 
 __all__ = ["MapDrawer", "draw"]
@@ -113,12 +113,13 @@ class MapDrawer:
         self._passes = np.zeros_like(self._hits)
 
     def _count(self, frame: Keyframe, pose: Poses) -> None:
-        scan, corner = frame.scan, (*self._corner, self._resolution_m)
+        scan = frame.scan
+        counts = BeamCounts(self._hits, self._passes, *self._corner, self._resolution_m)
         lidar = compose(pose, np.array(scan.T_base_laser))
         directions = pose[2] + scan.bearings_rad
         # The same limit as of matching: what is farther errs too much by the lidar's angle.
         limit = frame.max_range_m
-        count_beams(self._hits, self._passes, *corner, lidar, directions, frame.ranges_m, limit)
+        count_beams(counts, lidar, directions, frame.ranges_m, limit)
 
     def _grid(self) -> OccupancyGrid:
         reached = np.maximum(self._passes, 1)

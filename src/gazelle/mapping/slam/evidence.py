@@ -17,7 +17,7 @@ from gazelle.mapping.poses import Poses, compose, transform_points
 from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam.evidence_kernels import contradictions
 from gazelle.mapping.slam.keyframes import Keyframe
-from gazelle.mapping.slam.ray_kernels import count_beams
+from gazelle.mapping.slam.ray_kernels import BeamCounts, count_beams
 from gazelle.mapping.slam.settings import EvidenceSettings
 
 __all__ = ["SeenSpace", "seen_space"]
@@ -28,15 +28,11 @@ class SeenSpace:
     """Where beams ended and where they passed.
 
     Attributes:
-        hits: int32 (height, width), how many ended in each cell.
-        passes: how many reached it.
-        corner_m: lower left.
+        counts: of them.
         settings: side of a cell, and how exactly a beam ends.
     """
 
-    hits: NDArray[np.int32]
-    passes: NDArray[np.int32]
-    corner_m: tuple[float, float]
+    counts: BeamCounts
     settings: EvidenceSettings
 
     def against(self, scan: Scan, points_m: NDArray[np.float64], pose: Poses) -> float:
@@ -49,8 +45,7 @@ class SeenSpace:
         """
         lidar = compose(pose, np.array(scan.T_base_laser))
         ends = transform_points(pose, points_m)
-        corner, margin_m = (*self.corner_m, self.settings.cell_m), self.settings.margin_m
-        count = contradictions(self.hits, self.passes, *corner, lidar, ends, margin_m)
+        count = contradictions(self.counts, lidar, ends, self.settings.margin_m)
         return float(count) / max(1, len(points_m))
 
 
@@ -74,11 +69,10 @@ def seen_space(
     hits = np.zeros((side, side), np.int32)
     passes = np.zeros((side, side), np.int32)
     corner = center_m[0] - half_side_m, center_m[1] - half_side_m
+    counts = BeamCounts(hits, passes, *corner, settings.cell_m)
     lidars = compose(poses, np.array([frame.scan.T_base_laser for frame in frames]))
     limit = frames[0].max_range_m
     for frame, lidar, yaw in zip(frames, lidars, poses[:, 2], strict=True):
         directions = yaw + frame.scan.bearings_rad
-        count_beams(
-            hits, passes, *corner, settings.cell_m, lidar, directions, frame.ranges_m, limit
-        )
-    return SeenSpace(hits, passes, corner, settings)
+        count_beams(counts, lidar, directions, frame.ranges_m, limit)
+    return SeenSpace(counts, settings)

@@ -12,19 +12,16 @@ __all__ = ["contradictions"]
 
 
 @njit(cache=True, nogil=True)
-def contradictions(hits, passes, x0, y0, cell, lidar, points, margin):
+def contradictions(counts, lidar, points, margin):
     """Count beams that end where others passed, or pass where others ended.
 
     Args:
-        hits: int32 (height, width), how many beams ended in each cell.
-        passes: the same, how many reached it.
-        x0: lower left corner, metres.
-        y0: the same.
-        cell: side of a cell, metres.
+        counts: `ray_kernels.BeamCounts`.
         lidar: (x, y), where the beams begin.
         points: (n, 2), where they end.
         margin: a beam passes so much before its end, metres.
     """
+    hits, passes, x0, y0, cell = counts.hits, counts.passes, counts.x_m, counts.y_m, counts.cell_m
     height, width = hits.shape
     against = 0
     for i in range(points.shape[0]):

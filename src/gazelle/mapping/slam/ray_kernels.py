@@ -1,31 +1,49 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, PLR0917
+# ruff: noqa: ANN001, ANN201
 """The compiled inner loop of drawing maps."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.compiling import njit
 
-__all__ = ["count_beams"]
+__all__ = ["BeamCounts", "count_beams"]
+
+
+class BeamCounts(NamedTuple):
+    """How many beams met the cells of a grid.
+
+    Attributes:
+        hits: int32 (height, width), how many ended in each.
+        passes: the same, how many reached it.
+        x_m, y_m: lower left corner.
+        cell_m: side of a cell.
+    """
+
+    hits: NDArray[np.int32]
+    passes: NDArray[np.int32]
+    x_m: float
+    y_m: float
+    cell_m: float
 
 
 @njit(cache=True, nogil=True)
-def count_beams(hits, passes, x0, y0, cell, lidar, directions, ranges, limit):
+def count_beams(counts, lidar, directions, ranges, limit):
     """Count for every cell the beams that ended in it, and those that reached it.
 
     Args:
-        hits: int32 (height, width), raised.
-        passes: the same.
-        x0: lower left corner of the grid, metres.
-        y0: the same.
-        cell: side of a cell, metres.
+        counts: `BeamCounts`, raised.
         lidar: (x, y, yaw), of which the place counts.
         directions: of the beams in the map, radians.
         ranges: of the beams, NaN for those that say nothing.
         limit: beams that are longer count up to here and end nowhere.
     """
+    hits, passes, x0, y0, cell = counts.hits, counts.passes, counts.x_m, counts.y_m, counts.cell_m
     height, width = hits.shape
     for i in range(ranges.shape[0]):
         length = ranges[i]
