@@ -61,20 +61,21 @@ def point_cloud(
         far_m: see `depth_image`.
         threads: None for `default_threads`.
     """
-    from gazelle.sensors.pixel_kernels import fill_cloud
+    from gazelle.sensors.pixel_kernels import Cloud, DepthPicture, fill_cloud
 
     height, width = depth_m.shape
     words = np.zeros((height, width, 8), np.uint32)
-    floats = words.view(np.float32)
+    cloud = Cloud(words.view(np.float32), words)
     lens = np.array(
         [intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy, intrinsics.skew], np.float32
     )
     colours = np.zeros((1, 1, 3), np.uint8) if rgb is None else np.ascontiguousarray(rgb)
     depth = np.ascontiguousarray(depth_m, np.float32)
+    picture = DepthPicture(depth, colours, rgb is not None)
     limits = np.array([near_m, far_m], np.float32)
 
     def band(first: int, last: int) -> None:
-        fill_cloud(depth, colours, rgb is not None, lens, limits, first, last, floats, words)
+        fill_cloud(picture, lens, limits, first, last, cloud)
 
     count = default_threads() if threads is None else threads
     each_band(count, row_bands(height, count), band)

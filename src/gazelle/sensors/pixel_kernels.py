@@ -1,14 +1,43 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, PLR0917
+# ruff: noqa: ANN001, ANN201
 """Compiled loops over the pixels of finished pictures."""
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.compiling import njit
 
-__all__ = ["fill_cloud", "mark_edges"]
+__all__ = ["Cloud", "DepthPicture", "fill_cloud", "mark_edges"]
+
+
+class DepthPicture(NamedTuple):
+    """What a depth camera saw.
+
+    Attributes:
+        depth_m: (rows, columns) along the viewing axis.
+        rgb: (rows, columns, 3).
+        has_rgb: whether there are colours.
+    """
+
+    depth_m: NDArray[np.float32]
+    rgb: NDArray[np.uint8]
+    has_rgb: bool
+
+
+class Cloud(NamedTuple):
+    """The memory of an organised cloud, twice.
+
+    Attributes:
+        floats: (rows, columns, 8), of which the first three are x, y and z, m.
+        words: the same memory, of which the fifth is the colour.
+    """
+
+    floats: NDArray[np.float32]
+    words: NDArray[np.uint32]
 
 
 @njit(nogil=True, cache=True)
@@ -39,8 +68,14 @@ def mark_edges(rgb, tiles, first_row, last_row, threshold):
 
 
 @njit(nogil=True, cache=True)
-def fill_cloud(depth, rgb, with_rgb, lens, limits, first_row, last_row, points, colours):
-    """Write rows of an organised cloud: x y z at floats 0–2, packed colour at word 4."""
+def fill_cloud(picture, lens, limits, first_row, last_row, cloud):
+    """Write rows of an organised cloud.
+
+    `lens` is fx, fy, cx, cy and skew in pixels, `limits` are the nearest and the farthest depth
+    that count, in metres, neither of which does itself.
+    """
+    depth, rgb, with_rgb = picture.depth_m, picture.rgb, picture.has_rgb
+    points, colours = cloud.floats, cloud.words
     width = depth.shape[1]
     nothing = np.float32(np.nan)
     for v in range(first_row, last_row):
