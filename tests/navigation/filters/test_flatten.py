@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gazelle.navigation.filters import scan_of_depth, scan_of_points
+from gazelle.navigation.filters import CloudSlice, scan_of_depth, scan_of_points
 
 _CAMERA = {"fx": 50.0, "fy": 50.0, "cx": 39.5, "cy": 29.5}
 
@@ -60,7 +60,7 @@ def test_clouds_are_cut_by_height_and_range() -> None:
     points = np.array(
         [[1.0, 0.0, 0.5], [0.8, 0.0, 2.0], [0.0, 2.0, 0.5], [0.0, -9.0, 0.5], [np.nan, 0, 0]]
     )
-    scan = scan_of_points(points, low_m=0.0, high_m=1.0, range_max_m=5.0)
+    scan = scan_of_points(points, CloudSlice(low_m=0.0, high_m=1.0, range_max_m=5.0))
     assert len(scan.ranges_m) == 360
     assert scan.ranges_m[180] == pytest.approx(1.0)
     assert scan.ranges_m[270] == pytest.approx(2.0)
@@ -68,7 +68,9 @@ def test_clouds_are_cut_by_height_and_range() -> None:
 
 
 def test_empty_directions_may_say_a_range() -> None:
-    scan = scan_of_points(np.zeros((0, 3)), angle_min_rad=-0.5, angle_max_rad=0.5, empty=6.0)
+    scan = scan_of_points(
+        np.zeros((0, 3)), CloudSlice(angle_min_rad=-0.5, angle_max_rad=0.5, empty=6.0)
+    )
     assert (scan.ranges_m == 6.0).all()
     with pytest.raises(ValueError, match="angle_increment must be above 0"):
-        scan_of_points(np.zeros((0, 3)), increment_rad=0.0)
+        scan_of_points(np.zeros((0, 3)), CloudSlice(increment_rad=0.0))

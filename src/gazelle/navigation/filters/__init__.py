@@ -9,12 +9,13 @@ from gazelle.navigation.filters.chain import (
     ScanFilter,
     apply_chain,
 )
-from gazelle.navigation.filters.flatten import FlatScan, scan_of_depth, scan_of_points
+from gazelle.navigation.filters.flatten import CloudSlice, FlatScan, scan_of_depth, scan_of_points
 from gazelle.navigation.filters.record import ScanArrays
 
 __all__ = [
     "FILTERS",
     "REFUSED_FILTERS",
+    "CloudSlice",
     "FilterSetup",
     "FlatScan",
     "ScanArrays",

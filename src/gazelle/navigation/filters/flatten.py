@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FlatScan", "scan_of_depth", "scan_of_points"]
+__all__ = ["CloudSlice", "FlatScan", "scan_of_depth", "scan_of_points"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,22 +75,11 @@ def scan_of_depth(
     return FlatScan(angle_min, angle_max, increment, found.astype(np.float32))
 
 
-def scan_of_points(
-    points_m: NDArray[np.float64],
-    *,
-    angle_min_rad: float = -math.pi,
-    angle_max_rad: float = math.pi,
-    increment_rad: float = math.pi / 180,
-    low_m: float = -math.inf,
-    high_m: float = math.inf,
-    range_min_m: float = 0.0,
-    range_max_m: float = math.inf,
-    empty: float = math.inf,
-) -> FlatScan:
-    """Return the nearest point in each direction, of those in a layer of heights.
+@dataclass(frozen=True, slots=True)
+class CloudSlice:
+    """Which points of a cloud are flattened to a scan.
 
-    Args:
-        points_m: (n, 3) in the frame of the scan.
+    Attributes:
         angle_min_rad: first direction.
         angle_max_rad: last direction.
         increment_rad: from one direction to the next.
@@ -99,20 +88,42 @@ def scan_of_points(
         range_min_m: nearest distance on the ground that counts.
         range_max_m: farthest distance that counts.
         empty: what directions without a point say.
+    """
+
+    angle_min_rad: float = -math.pi
+    angle_max_rad: float = math.pi
+    increment_rad: float = math.pi / 180
+    low_m: float = -math.inf
+    high_m: float = math.inf
+    range_min_m: float = 0.0
+    range_max_m: float = math.inf
+    empty: float = math.inf
+
+
+_EVERYTHING = CloudSlice()
+
+
+def scan_of_points(points_m: NDArray[np.float64], counted: CloudSlice = _EVERYTHING) -> FlatScan:
+    """Return the nearest point in each direction, of those in a layer of heights.
+
+    Args:
+        points_m: (n, 3) in the frame of the scan.
+        counted: which of them count.
 
     Raises:
         ValueError: the directions are no directions.
     """
-    if increment_rad <= 0 or angle_max_rad <= angle_min_rad:
+    first, last, step = counted.angle_min_rad, counted.angle_max_rad, counted.increment_rad
+    if step <= 0 or last <= first:
         raise ValueError("angle_increment must be above 0 and angle_max above angle_min")
-    count = math.ceil((angle_max_rad - angle_min_rad) / increment_rad)
+    count = math.ceil((last - first) / step)
     x, y, z = points_m.T
     ranges, angles = np.hypot(x, y), np.arctan2(y, x)
-    fits = np.isfinite(points_m).all(axis=1) & (z >= low_m) & (z <= high_m)
-    fits &= (ranges >= range_min_m) & (ranges <= range_max_m)
-    fits &= (angles >= angle_min_rad) & (angles <= angle_max_rad)
-    index = ((angles[fits] - angle_min_rad) / increment_rad).astype(np.int64)
+    fits = np.isfinite(points_m).all(axis=1) & (z >= counted.low_m) & (z <= counted.high_m)
+    fits &= (ranges >= counted.range_min_m) & (ranges <= counted.range_max_m)
+    fits &= (angles >= first) & (angles <= last)
+    index = ((angles[fits] - first) / step).astype(np.int64)
     found = np.full(count, np.inf)
     np.minimum.at(found, index.clip(0, count - 1), ranges[fits])
-    found[np.isinf(found)] = empty
-    return FlatScan(angle_min_rad, angle_max_rad, increment_rad, found.astype(np.float32))
+    found[np.isinf(found)] = counted.empty
+    return FlatScan(first, last, step, found.astype(np.float32))

@@ -13,7 +13,7 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import ns_of
-from gazelle.navigation.filters import FlatScan, scan_of_depth, scan_of_points
+from gazelle.navigation.filters import CloudSlice, FlatScan, scan_of_depth, scan_of_points
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.sensing import cloud_points
@@ -169,20 +169,20 @@ class _CloudToScan:
         with private_parameters(node, arguments, CLOUD_PARAMETERS) as own:
             nearest, farthest = own.number("range_min"), own.number("range_max")
             beyond = math.inf if own.flag("use_inf") else farthest + own.number("inf_epsilon")
-            self._options = {
-                "angle_min_rad": own.number("angle_min"),
-                "angle_max_rad": own.number("angle_max"),
-                "increment_rad": own.number("angle_increment"),
-                "low_m": own.number("min_height"),
-                "high_m": own.number("max_height"),
-                "range_min_m": nearest,
-                "range_max_m": farthest,
-                "empty": beyond,
-            }
+            self._counted = CloudSlice(
+                angle_min_rad=own.number("angle_min"),
+                angle_max_rad=own.number("angle_max"),
+                increment_rad=own.number("angle_increment"),
+                low_m=own.number("min_height"),
+                high_m=own.number("max_height"),
+                range_min_m=nearest,
+                range_max_m=farthest,
+                empty=beyond,
+            )
             time_s = own.number("scan_time")
             self._target = own.text("target_frame")
         # What is wrong with them is told now, not with the first cloud.
-        scan_of_points(np.zeros((0, 3)), **self._options)
+        scan_of_points(np.zeros((0, 3)), self._counted)
         self._limits = (nearest, farthest, time_s)
         self._frames = Frames(node)
         self._out = node.create_publisher("scan", message_type("sensor_msgs/msg/LaserScan"))
@@ -205,7 +205,7 @@ class _CloudToScan:
                 self._frames.say("warn", f"Transform failure: {T}", key=f"cloud {source}")
                 return
             points = T.transform(points)
-        scan = scan_of_points(points, **self._options)
+        scan = scan_of_points(points, self._counted)
         self._out.publish(_message(scan, message, frame, self._limits))
 
 
