@@ -11,6 +11,7 @@ import pytest
 from gazelle.navigation.controllers import Command, NoCommand, RobotState
 from gazelle.navigation.controllers.maneuver import Maneuvering, Pace
 from gazelle.navigation.controllers.maneuver_kernel import find_maneuver
+from gazelle.navigation.controllers.rollout_arguments import Outline
 from gazelle.navigation.costmap import CostGrid, Footprint, footprint_cost
 
 _LONG = Footprint.parse([[0.3, 0.15], [-0.3, 0.15], [-0.3, -0.15], [0.3, -0.15]])
@@ -28,12 +29,8 @@ def _grid(*boxes: tuple[float, float, float, float]) -> CostGrid:
 
 
 def _way(grid: CostGrid, start: Any, target: Any, footprint: Footprint = _LONG) -> np.ndarray:
-    return np.asarray(
-        find_maneuver(
-            grid.costs, 0.0, 0.0, 20.0, footprint.points, footprint.inscribed_m,
-            footprint.circumscribed_m, np.array(start), np.array(target), 0.06, 1.0,
-        )
-    )  # fmt: skip
+    outline = Outline(footprint.points, footprint.inscribed_m, footprint.circumscribed_m, 1.0)
+    return np.asarray(find_maneuver(grid.cells, outline, np.array(start), np.array(target), 0.06))
 
 
 class _Inner:

@@ -16,7 +16,7 @@ from gazelle.mapping.scans import Scan
 from gazelle.navigation.localisation import MOTION_MODELS, Amcl, AmclOptions, moved
 from gazelle.navigation.localisation.clusters import best_cluster, statistics
 from gazelle.navigation.localisation.field import LikelihoodMap
-from gazelle.navigation.localisation.kernels import cast_ray, resample
+from gazelle.navigation.localisation.kernels import ParticleNeed, cast_ray, resample
 from gazelle.navigation.localisation.refining import Refiner
 from gazelle.navigation.localisation.sensor import ScanModel, chosen_beams
 
@@ -167,13 +167,14 @@ def test_resampling_keeps_shares_and_needs_fewer_when_they_agree() -> None:
     draws = np.zeros((4000, 4))
     draws[:, 0] = rng.random(4000)
     options = (np.cumsum([0.25, 0.75]), rng.random(4000), draws, 0.0)
-    every = resample(particles, *options, 4000, 4000, 0.01, 0.99)
+    every = resample(particles, *options, ParticleNeed(4000, 4000, 0.01, 0.99))
     assert (every[:, 0] > 1).mean() == pytest.approx(0.75, abs=0.03)
-    few = resample(particles, *options, 10, 4000, 0.01, 0.99)
+    need = ParticleNeed(10, 4000, 0.01, 0.99)
+    few = resample(particles, *options, need)
     assert len(few) < 200
     wide = rng.uniform(-20, 20, (2000, 3))
     spread = (np.cumsum(np.full(2000, 1 / 2000)), rng.random(4000), draws, 0.0)
-    assert len(resample(wide, *spread, 10, 4000, 0.01, 0.99)) == 4000
+    assert len(resample(wide, *spread, need)) == 4000
 
 
 def test_the_heavier_group_is_the_pose_also_across_180_degrees() -> None:

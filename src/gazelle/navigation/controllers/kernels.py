@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, C901, D417, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, C901, PLR0915
 """The compiled loops of sampling controllers; see `gazelle.navigation.costmap.kernels`."""
 
 from __future__ import annotations
@@ -70,12 +70,13 @@ def distance_field(costs, targets, lone):
 
 
 @njit(cache=True, nogil=True)
-def simulate(x, y, yaw, vx, vy, w, sample, limits, steps, dt, accelerate, out):
+def simulate(state, sample, limits, steps, dt, accelerate, out):
     """Fill `out` (steps, 3) with the poses of a trajectory, the first one where it begins.
 
-    With `accelerate` velocities change towards the sample by `limits` (m/s², rad/s²); otherwise
-    the sample holds from the start.
+    It begins in a `rollout_arguments.PlanarState`. With `accelerate` velocities change towards the
+    sample by `limits` (m/s², rad/s²); otherwise the sample holds from the start.
     """
+    x, y, yaw, vx, vy, w = state
     if not accelerate:
         vx = sample[0]
         vy = sample[1]
@@ -96,27 +97,22 @@ def simulate(x, y, yaw, vx, vy, w, sample, limits, steps, dt, accelerate, out):
 
 
 @njit(cache=True, nogil=True)
-def score_samples(
-    costs, ox, oy, inverse, path, goal, front, corners, outlined, state, samples, limits,
-    weights, forward, timing, accelerate, scaling, total, aligned,
-):  # fmt: skip
+def score_samples(cells, distances, front, corners, state, samples, terms):
     """Return scores of velocity samples, negative where they are not allowed.
 
     Args:
-        costs, ox, oy, inverse: the costmap, its origin (m) and cells per metre.
-        path, goal, front: fields of `distance_field` for path, goal, and goal of the robot's nose.
-        corners: outline of the robot, (n, 2); its centre alone is looked at unless `outlined`.
-        state: x, y, yaw, vx, vy, w.
+        cells: of the costmap, a `grid.CostCells`.
+        distances: of path and goal, a `rollout_arguments.Distances`.
+        front: `distance_field` of the goal of the robot's nose.
+        corners: outline of the robot, (n, 2), m.
+        state: a `rollout_arguments.PlanarState`.
         samples: (n, 3).
-        limits: accelerations for `accelerate`.
-        weights: of path, goal, goal of the nose, nose on the path, obstacles, turning.
-        forward: how far ahead of the centre the nose is, m.
-        timing: duration (s), steps of it (m, rad; with 0 for m fixed steps of rad seconds).
-        accelerate: see `simulate`.
-        scaling: speed (m/s) from which on the outline grows, top speed, growth at top speed.
-        total: sum costs of obstacles, else take the highest.
-        aligned: whether the nose shall keep to the path.
+        terms: what counts, a `rollout_arguments.SampleTerms`.
     """
+    costs, ox, oy, inverse = cells.costs, cells.x_m, cells.y_m, cells.per_m
+    path, goal, limits = distances.path, distances.goal, terms.acceleration
+    weights, timing, growth, forward = terms.weights, terms.timing, terms.growth, terms.nose_m
+    outlined, accelerate = terms.is_outlined, terms.accelerates
     height, width = costs.shape
     n = samples.shape[0]
     scores = np.empty(n)
@@ -130,56 +126,48 @@ def score_samples(
         vy = samples[k, 1]
         w = samples[k, 2]
         speed = math.hypot(vx, vy)
-        if timing[1] <= 0.0:
-            steps = math.ceil(timing[0] / timing[2])
+        if timing.step_m <= 0.0:
+            steps = math.ceil(timing.duration_s / timing.step_rad)
         else:
-            steps = math.ceil(
-                max(speed * timing[0] / timing[1], abs(w) * timing[0] / timing[2]) - 1e-9
-            )
+            pieces = speed * timing.duration_s / timing.step_m
+            pieces = max(pieces, abs(w) * timing.duration_s / timing.step_rad)
+            steps = math.ceil(pieces - 1e-9)
         steps = min(steps, _MOST_STEPS)
         if steps <= 0:
             scores[k] = -10.0
             continue
         # Between the points that are scored nothing of the outline may pass over a cell unseen.
-        between = math.ceil((speed + abs(w) * reach) * timing[0] / steps * inverse)
+        between = math.ceil((speed + abs(w) * reach) * timing.duration_s / steps * inverse)
         between = max(min(between, _MOST_STEPS // steps), 1)
         steps *= between
-        dt = timing[0] / steps
+        dt = timing.duration_s / steps
         scale = 1.0
-        if speed > scaling[0] and scaling[1] > scaling[0]:
-            scale += scaling[2] * (speed - scaling[0]) / (scaling[1] - scaling[0])
+        if speed > growth.from_m_s and growth.fastest_m_s > growth.from_m_s:
+            faster = speed - growth.from_m_s
+            scale += growth.share * faster / (growth.fastest_m_s - growth.from_m_s)
         worst = 0.0
         refused = 0.0
         if outlined and not accelerate:
             # The robot will not have the velocity at once, and cuts its corners.
-            simulate(
-                state[0], state[1], state[2], state[3], state[4], state[5], samples[k], limits,
-                steps + 1, dt, True, poses,
-            )  # fmt: skip
+            simulate(state, samples[k], limits, steps + 1, dt, True, poses)
             for j in range(steps + 1):
-                cost = outline_cost(
-                    costs, corners, count, ox, oy, inverse, poses[j, 0], poses[j, 1],
-                    math.cos(poses[j, 2]), math.sin(poses[j, 2]), scale,
-                )  # fmt: skip
+                c = math.cos(poses[j, 2])
+                s = math.sin(poses[j, 2])
+                cost = outline_cost(cells, corners, poses[j, 0], poses[j, 1], c, s, scale)
                 if cost < 0:
                     refused = -6.0 if cost > -3 else -7.0
                     break
         if refused < 0:
             scores[k] = refused
             continue
-        simulate(
-            state[0], state[1], state[2], state[3], state[4], state[5], samples[k], limits,
-            steps + 1, dt, accelerate, poses,
-        )  # fmt: skip
+        simulate(state, samples[k], limits, steps + 1, dt, accelerate, poses)
         for j in range(steps + 1):
             if not outlined and (j == steps or j % between):
                 continue
             c = math.cos(poses[j, 2])
             s = math.sin(poses[j, 2])
             if outlined:
-                cost = outline_cost(
-                    costs, corners, count, ox, oy, inverse, poses[j, 0], poses[j, 1], c, s, scale
-                )
+                cost = outline_cost(cells, corners, poses[j, 0], poses[j, 1], c, s, scale)
             else:
                 u = math.floor((poses[j, 0] - ox) * inverse)
                 v = math.floor((poses[j, 1] - oy) * inverse)
@@ -193,7 +181,7 @@ def score_samples(
                 break
             if j == steps or j % between:
                 continue
-            worst = worst + cost if total else max(worst, float(cost))
+            worst = worst + cost if terms.sums else max(worst, float(cost))
             u = math.floor((poses[j, 0] - ox) * inverse)
             v = math.floor((poses[j, 1] - oy) * inverse)
             if path[v, u] >= BLOCKED or goal[v, u] >= BLOCKED:
@@ -205,8 +193,8 @@ def score_samples(
         end = steps - between
         u = math.floor((poses[end, 0] - ox) * inverse)
         v = math.floor((poses[end, 1] - oy) * inverse)
-        score = weights[4] * worst + weights[5] * abs(w)
-        score += weights[0] * path[v, u] + weights[1] * goal[v, u]
+        score = weights.obstacles * worst + weights.turning * abs(w)
+        score += weights.path * path[v, u] + weights.goal * goal[v, u]
         if forward != 0.0:
             nx = poses[end, 0] + forward * math.cos(poses[end, 2])
             ny = poses[end, 1] + forward * math.sin(poses[end, 2])
@@ -217,10 +205,11 @@ def score_samples(
                 continue
             # The nose may hang over what the robot cannot stand on: far, but allowed.
             far = float(width * height)
-            score += weights[2] * min(float(front[v, u]), far)
-            if aligned:
-                score += weights[3] * min(float(path[v, u]), far)
+            score += weights.nose_goal * min(float(front[v, u]), far)
+            if terms.is_aligned:
+                score += weights.nose_path * min(float(path[v, u]), far)
         else:
-            score += weights[2] * front[v, u] + (weights[3] * path[v, u] if aligned else 0.0)
+            astray = weights.nose_path * path[v, u] if terms.is_aligned else 0.0
+            score += weights.nose_goal * front[v, u] + astray
         scores[k] = score
     return scores

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.navigation.controllers.following import FollowedPlan, angle_between
+from gazelle.navigation.controllers.rollout_arguments import Outline
 from gazelle.navigation.controllers.state import (
     Command,
     Controller,
@@ -263,9 +264,12 @@ def _search(
 ) -> NDArray[np.float64]:
     from gazelle.navigation.controllers.maneuver_kernel import find_maneuver
 
-    found = find_maneuver(
-        grid.costs, float(grid.origin[0]), float(grid.origin[1]), 1.0 / grid.resolution_m,
-        footprint.points, footprint.inscribed_m * scale, footprint.circumscribed_m * scale,
-        np.array(start), np.array(target), _NEAR_M, scale,
-    )  # fmt: skip
-    return np.asarray(found)
+    outline = Outline(
+        footprint.points,
+        float(footprint.inscribed_m * scale),
+        float(footprint.circumscribed_m * scale),
+        float(scale),
+    )
+    return np.asarray(
+        find_maneuver(grid.cells, outline, np.array(start), np.array(target), _NEAR_M)
+    )

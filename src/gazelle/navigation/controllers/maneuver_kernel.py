@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, D417, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, D417, PLR0915
 """The compiled search for a way of turns and straight pieces; see `maneuver`."""
 
 from __future__ import annotations
@@ -23,13 +23,16 @@ _GREED = 1.2
 
 
 @njit(cache=True, nogil=True)
-def outline_is_free(costs, squared, corners, ox, oy, inverse, inner, outer, x, y, yaw, scale):
+def outline_is_free(cells, squared, outline, x, y, yaw):
     """Tell whether an outline hits nothing; far from everything it is not laid down.
 
-    `squared` are squared distances in cells to the next obstacle, `inner` and `outer` the radii of
-    the outline's circles in cells.
+    `cells` are a `grid.CostCells`, `squared` their squared distances in cells to the next obstacle;
+    the outline is a `rollout_arguments.Outline`.
     """
-    height, width = costs.shape
+    ox, oy, inverse = cells.x_m, cells.y_m, cells.per_m
+    inner = outline.inner_m * inverse
+    outer = outline.outer_m * inverse
+    height, width = cells.costs.shape
     u = math.floor((x - ox) * inverse)
     v = math.floor((y - oy) * inverse)
     if u < 0 or v < 0 or u >= width or v >= height:
@@ -42,8 +45,7 @@ def outline_is_free(costs, squared, corners, ox, oy, inverse, inner, outer, x, y
         return False
     c = math.cos(yaw)
     s = math.sin(yaw)
-    n = corners.shape[0]
-    return outline_cost(costs, corners, n, ox, oy, inverse, x, y, c, s, scale) >= 0
+    return outline_cost(cells, outline.corners_m, x, y, c, s, outline.scale) >= 0
 
 
 @njit(cache=True, nogil=True)
@@ -84,22 +86,22 @@ def _lengths_to(squared, inner, target, width, height):
 
 
 @njit(cache=True, nogil=True)
-def find_maneuver(costs, ox, oy, inverse, corners, inner, outer, start, target, near, scale):
+def find_maneuver(cells, outline, start, target, near):
     """Return the poses of a way from start to target, (n, 3), empty where there is none.
 
     Steps are 5 cm ahead or back and turns by 7.5° on the spot, of which the target's direction is
     one; the first turn takes the robot to such a direction.
 
     Args:
-        costs, ox, oy, inverse: the costmap, its origin (m) and cells per metre.
-        corners, inner, outer: the outline, and the radii of its circles, m.
+        cells: of the costmap, a `grid.CostCells`.
+        outline: of the robot, a `rollout_arguments.Outline`.
         start, target: poses.
         near: how near the target is near enough, m.
-        scale: of the outline.
     """
+    costs, ox, oy, inverse = cells.costs, cells.x_m, cells.y_m, cells.per_m
     height, width = costs.shape
-    inner = inner * inverse
-    outer = outer * inverse
+    inner = outline.inner_m * inverse
+    outer = outline.outer_m * inverse
     squared = squared_distances(costs >= 254, int(outer) + 4)
     tu = math.floor((target[0] - ox) * inverse)
     tv = math.floor((target[1] - oy) * inverse)
@@ -175,13 +177,10 @@ def find_maneuver(costs, ox, oy, inverse, corners, inner, outer, start, target, 
                 nk = (k + (1 if move == 2 else _HEADINGS - 1)) % _HEADINGS
                 half = yaw + sign * step / 2
                 price = _TURN_M
-            if not outline_is_free(
-                costs, squared, corners, ox, oy, inverse, inner, outer, (x + nx) / 2,
-                (y + ny) / 2, half, scale,
-            ) or not outline_is_free(
-                costs, squared, corners, ox, oy, inverse, inner, outer, nx, ny,
-                target[2] + nk * step, scale,
-            ):  # fmt: skip
+            if not (
+                outline_is_free(cells, squared, outline, (x + nx) / 2, (y + ny) / 2, half)
+                and outline_is_free(cells, squared, outline, nx, ny, target[2] + nk * step)
+            ):
                 continue
             u = math.floor((nx - ox) * inverse)
             v = math.floor((ny - oy) * inverse)

@@ -11,6 +11,13 @@ from numpy.typing import NDArray
 
 from gazelle.navigation.controllers.following import FollowedPlan, angle_between
 from gazelle.navigation.controllers.mppi_options import MppiOptions
+from gazelle.navigation.controllers.rollout_arguments import (
+    CRITIC_WEIGHTS,
+    Limits,
+    PlanarState,
+    Variations,
+    Way,
+)
 from gazelle.navigation.controllers.state import Command, NoCommand, RobotState
 from gazelle.navigation.costmap.footprint import Footprint
 from gazelle.navigation.costmap.grid import CostGrid
@@ -86,7 +93,7 @@ class MppiController:
             return NoCommand("there is no path to follow")
         path = self._plan.local(state.pose, grid, 0.0, self._options.prune_distance)
         speeds = self._last if self._options.open_loop else state.velocity
-        start = np.array((*state.pose, *speeds))
+        start = RobotState(state.pose, speeds).planar
         for attempt in range(self._options.retry_attempt_limit + 1):
             for _ in range(self._options.iteration_count):
                 found = self._improve(start, path, grid, footprint, anew=attempt > 0)
@@ -100,7 +107,7 @@ class MppiController:
 
     def _improve(
         self,
-        start: NDArray[np.float64],
+        start: PlanarState,
         path: NDArray[np.float64],
         grid: CostGrid,
         footprint: Footprint,
@@ -113,28 +120,28 @@ class MppiController:
         assert self._plan is not None
         o, noise = self._options, self._variations(anew)
         along = np.append(0.0, np.cumsum(np.hypot(*np.diff(path[:, :2], axis=0).T)))
-        weights, outlined = self._weights(len(path))
+        way = Way(np.ascontiguousarray(path[:, :2]), along, np.array(self._plan.goal))
+        spread = np.array([o.vx_std, o.vy_std, o.wz_std])
+        varied = Variations(self._controls, noise, spread, float(o.gamma))
         scores, free = score_batch(
-            grid.costs, float(grid.origin[0]), float(grid.origin[1]), 1.0 / grid.resolution_m,
-            footprint.points, outlined, start, np.array(self._plan.goal),
-            np.ascontiguousarray(path[:, :2]), along, self._controls, noise, self._limits(),
-            o.model_dt, np.array([o.vx_std, o.vy_std, o.wz_std]), o.gamma, weights,
+            grid.cells, footprint.points, bool(self._critics["CostCritic"]["consider_footprint"]),
+            start, way, varied, self._limits(), self._weights(len(path)),
         )  # fmt: skip
         if not free.any():
             return False
         shares = np.exp(-(scores - scores.min()) / o.temperature)
         shares /= shares.sum()
         self._controls += np.tensordot(shares, noise, (0, 0))
-        limits = self._limits()
+        limits = self._limits().rows
         np.clip(self._controls, limits[:, 0], limits[:, 1], out=self._controls)
         self._smooth()
         return True
 
-    def _command(self, start: NDArray[np.float64]) -> Command:
+    def _command(self, start: PlanarState) -> Command:
         from gazelle.navigation.controllers.mppi_kernel import roll_out
 
         poses, driven = np.empty_like(self._controls), np.empty_like(self._controls)
-        roll_out(start, self._controls, self._limits(), self._options.model_dt, poses, driven)
+        roll_out(start, self._controls, self._limits(), poses, driven)
         # With equal periods the next solution begins with the second velocity of this one.
         shifts = self._period_s >= self._options.model_dt - 1e-9
         velocity = (float(driven[0, 0]), float(driven[0, 1]), float(driven[0, 2]))
@@ -157,16 +164,17 @@ class MppiController:
             self._noise = self._random.standard_normal(shape) * spread
         return self._noise
 
-    def _limits(self) -> NDArray[np.float64]:
+    def _limits(self) -> Limits:
         o, most = self._options, self._limit_m_s
         side = o.vy_max if o.motion_model == "Omni" else 0.0
-        return np.array(
+        rows = np.array(
             [
                 [max(o.vx_min, -most), min(o.vx_max, most), o.ax_min, o.ax_max],
                 [-min(side, most), min(side, most), o.ay_min, o.ay_max],
                 [-o.wz_max, o.wz_max, -o.az_max, o.az_max],
             ]
         )
+        return Limits(rows, float(o.model_dt))
 
     def _smooth(self) -> None:
         half = len(_SMOOTHER) // 2
@@ -176,27 +184,41 @@ class MppiController:
         for axis in range(3):
             self._controls[:, axis] = np.convolve(padded[:, axis], _SMOOTHER, "valid")
 
-    def _weights(self, points: int) -> tuple[NDArray[np.float64], bool]:
+    def _weights(self, points: int) -> NDArray[np.void]:
         c = self._critics
         goal, yaw, follow = c["GoalCritic"], c["GoalAngleCritic"], c["PathFollowCritic"]
         align, angle = c["PathAlignCritic"], c["PathAngleCritic"]
         cost, forward, radius = c["CostCritic"], c["PreferForwardCritic"], c["ConstraintCritic"]
         # Near the end of the path there is nothing to keep to but its end.
         straight = align["cost_weight"] if points > align["offset_from_furthest"] else 0.0
-        weights = [
-            cost["cost_weight"], cost["critical_cost"], cost["collision_cost"],
-            cost["near_collision_cost"], cost["near_goal_distance"], goal["cost_weight"],
-            goal["threshold_to_consider"], yaw["cost_weight"], yaw["threshold_to_consider"],
-            straight, align["threshold_to_consider"], align["offset_from_furthest"],
-            follow["cost_weight"], follow["threshold_to_consider"],
-            follow["offset_from_furthest"], angle["cost_weight"],
-            angle["threshold_to_consider"], angle["offset_from_furthest"],
-            angle["max_angle_to_furthest"], forward["cost_weight"],
-            forward["threshold_to_consider"], c["TwirlingCritic"]["cost_weight"],
-            radius["min_turning_r"] if self._options.motion_model == "Ackermann" else 0.0,
-            radius["cost_weight"],
-        ]  # fmt: skip
-        return np.array(weights, float), bool(cost["consider_footprint"])
+        values = {
+            "cost": cost["cost_weight"],
+            "critical": cost["critical_cost"],
+            "collision": cost["collision_cost"],
+            "near_collision": cost["near_collision_cost"],
+            "near_goal": cost["near_goal_distance"],
+            "goal": goal["cost_weight"],
+            "goal_within": goal["threshold_to_consider"],
+            "yaw": yaw["cost_weight"],
+            "yaw_within": yaw["threshold_to_consider"],
+            "align": straight,
+            "align_within": align["threshold_to_consider"],
+            "align_offset": align["offset_from_furthest"],
+            "follow": follow["cost_weight"],
+            "follow_within": follow["threshold_to_consider"],
+            "follow_offset": follow["offset_from_furthest"],
+            "angle": angle["cost_weight"],
+            "angle_within": angle["threshold_to_consider"],
+            "angle_offset": angle["offset_from_furthest"],
+            "angle_most": angle["max_angle_to_furthest"],
+            "forward": forward["cost_weight"],
+            "forward_within": forward["threshold_to_consider"],
+            "twirl": c["TwirlingCritic"]["cost_weight"],
+            "radius": radius["min_turning_r"] if self._options.motion_model == "Ackermann" else 0.0,
+            "radius_weight": radius["cost_weight"],
+        }
+        row = tuple(values[name] for name in CRITIC_WEIGHTS.names or ())
+        return np.array([row], CRITIC_WEIGHTS)
 
 
 def _merged(

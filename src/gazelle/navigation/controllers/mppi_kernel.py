@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, C901, D417, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, C901, PLR0915
 """The compiled loop of MPPI; see `gazelle.navigation.costmap.kernels`."""
 
 from __future__ import annotations
@@ -11,30 +11,18 @@ import numpy as np
 from gazelle.compiling import njit
 from gazelle.navigation.costmap.kernels import outline_cost
 
-__all__ = ["WEIGHTS", "roll_out", "score_batch"]
-
-WEIGHTS = (
-    "cost", "critical", "collision", "near_collision", "near_goal", "goal", "goal_within", "yaw",
-    "yaw_within", "align", "align_within", "align_offset", "follow", "follow_within",
-    "follow_offset", "angle", "angle_within", "angle_offset", "angle_most", "forward",
-    "forward_within", "twirl", "radius", "radius_weight",
-)  # fmt: skip
-"""Order of `weights`; see `MppiOptions.CRITICS`."""
+__all__ = ["roll_out", "score_batch"]
 
 
 @njit(cache=True, nogil=True, fastmath=True)
-def roll_out(state, controls, limits, dt, poses, driven):
+def roll_out(state, controls, able, poses, driven):
     """Fill poses (T, 3) and velocities that are driven (T, 3) for controls (T, 3).
 
-    `limits` are lowest and highest velocities and accelerations, as rows vx, vy, w of
-    (low, high, falling, rising).
+    It begins in a `rollout_arguments.PlanarState`; what the robot can do is a
+    `rollout_arguments.Limits`.
     """
-    x = state[0]
-    y = state[1]
-    yaw = state[2]
-    v0 = state[3]
-    v1 = state[4]
-    v2 = state[5]
+    limits, dt = able.rows, able.step_s
+    x, y, yaw, v0, v1, v2 = state
     for t in range(controls.shape[0]):
         a = min(max(controls[t, 0], limits[0, 0]), limits[0, 1])
         b = min(max(controls[t, 1], limits[1, 0]), limits[1, 1])
@@ -56,21 +44,23 @@ def roll_out(state, controls, limits, dt, poses, driven):
 
 
 @njit(cache=True, nogil=True, fastmath=True)
-def score_batch(
-    costs, ox, oy, inverse, corners, outlined, state, goal, path, along, mean, noise, limits, dt,
-    spread, gamma, weights,
-):  # fmt: skip
-    """Return costs of trajectories and whether each one is free, for controls `mean` + `noise`.
+def score_batch(cells, corners, outlined, state, way, varied, able, critics):
+    """Return costs of trajectories and whether each one is free, for controls and their variations.
 
     Args:
-        corners: outline of the robot; its centre alone is looked at unless `outlined`.
-        path: points (n, 2) ahead; `along` their distances from the first one.
-        mean: controls (T, 3).
-        noise: (K, T, 3).
-        limits: see `roll_out`.
-        spread: standard deviations of the noise.
-        weights: in the order of `WEIGHTS`.
+        cells: of the costmap, a `grid.CostCells`.
+        corners: outline of the robot, (n, 2), m.
+        outlined: all of it is looked at, and not the centre alone.
+        state: a `rollout_arguments.PlanarState`.
+        way: the path ahead, a `rollout_arguments.Way`.
+        varied: the controls, `rollout_arguments.Variations`.
+        able: what the robot can do, a `rollout_arguments.Limits`.
+        critics: what counts, one `rollout_arguments.CRITIC_WEIGHTS`.
     """
+    costs, ox, oy, inverse = cells.costs, cells.x_m, cells.y_m, cells.per_m
+    path, along, goal, dt = way.points_m, way.along_m, way.goal, able.step_s
+    mean, noise, spread, gamma = varied.mean, varied.noise, varied.spread, varied.gamma
+    weights = critics[0]
     batch = noise.shape[0]
     steps = noise.shape[1]
     height, width = costs.shape
@@ -81,7 +71,7 @@ def score_batch(
     poses = np.empty((steps, 3))
     driven = np.empty((steps, 3))
     controls = np.empty((steps, 3))
-    to_goal = math.hypot(goal[0] - state[0], goal[1] - state[1])
+    to_goal = math.hypot(goal[0] - state.x_m, goal[1] - state.y_m)
     furthest = 0
     for k in range(batch):
         effort = 0.0
@@ -89,7 +79,7 @@ def score_batch(
             for a in range(3):
                 controls[t, a] = mean[t, a] + noise[k, t, a]
                 effort += mean[t, a] * noise[k, t, a] / (spread[a] * spread[a])
-        roll_out(state, controls, limits, dt, poses, driven)
+        roll_out(state, controls, able, poses, driven)
         score = gamma * effort
         repulsion = 0.0
         for t in range(0, steps, 2):
@@ -97,27 +87,23 @@ def score_batch(
             v = math.floor((poses[t, 1] - oy) * inverse)
             if u < 0 or v < 0 or u >= width or v >= height:
                 # Nobody knows what is there; the way stays where there is a costmap.
-                score += weights[1]
+                score += weights.critical
                 break
             cost = float(costs[v, u])
             hit = 253 <= cost < 255
             if outlined and not hit and 0 < cost < 255:
-                hit = (
-                    outline_cost(
-                        costs, corners, corners.shape[0], ox, oy, inverse, poses[t, 0],
-                        poses[t, 1], math.cos(poses[t, 2]), math.sin(poses[t, 2]), 1.0,
-                    )
-                    == -1
-                )  # fmt: skip
+                c = math.cos(poses[t, 2])
+                s = math.sin(poses[t, 2])
+                hit = outline_cost(cells, corners, poses[t, 0], poses[t, 1], c, s, 1.0) == -1
             if hit:
                 free[k] = False
-                score += weights[2]
+                score += weights.collision
                 break
-            if cost >= weights[3]:
-                score += weights[1] / steps
-            elif to_goal > weights[4]:
+            if cost >= weights.near_collision:
+                score += weights.critical / steps
+            elif to_goal > weights.near_goal:
                 repulsion += 0.0 if cost == 255 else cost
-        score += weights[0] * repulsion / 254.0 / (steps / 2)
+        score += weights.cost * repulsion / 254.0 / (steps / 2)
         reverse = 0.0
         turned = 0.0
         tight = 0.0
@@ -126,18 +112,18 @@ def score_batch(
         for t in range(steps):
             reverse += max(-driven[t, 0], 0.0)
             turned += abs(driven[t, 2])
-            if weights[22] > 0 and abs(driven[t, 2]) > 1e-3:
-                tight += max(weights[22] - abs(driven[t, 0] / driven[t, 2]), 0.0)
-            if to_goal < weights[6]:
+            if weights.radius > 0 and abs(driven[t, 2]) > 1e-3:
+                tight += max(weights.radius - abs(driven[t, 0] / driven[t, 2]), 0.0)
+            if to_goal < weights.goal_within:
                 near += math.hypot(poses[t, 0] - goal[0], poses[t, 1] - goal[1])
-            if to_goal < weights[8]:
+            if to_goal < weights.yaw_within:
                 angle = goal[2] - poses[t, 2]
                 askew += abs(math.atan2(math.sin(angle), math.cos(angle)))
-        score += weights[21] * turned / steps + weights[23] * tight * dt
-        if to_goal >= weights[20]:
-            score += weights[19] * reverse * dt
-        score += weights[5] * near / steps + weights[7] * askew / steps
-        if weights[9] > 0 and to_goal >= weights[10]:
+        score += weights.twirl * turned / steps + weights.radius_weight * tight * dt
+        if to_goal >= weights.forward_within:
+            score += weights.forward * reverse * dt
+        score += weights.goal * near / steps + weights.yaw * askew / steps
+        if weights.align > 0 and to_goal >= weights.align_within:
             off = 0.0
             seen = 0
             gone = 0.0
@@ -148,7 +134,7 @@ def score_batch(
                     i += 1
                 off += math.hypot(poses[t, 0] - path[i, 0], poses[t, 1] - path[i, 1])
                 seen += 1
-            score += weights[9] * off / max(seen, 1)
+            score += weights.align * off / max(seen, 1)
         ends[k, 0] = poses[steps - 1, 0]
         ends[k, 1] = poses[steps - 1, 1]
         ends[k, 2] = poses[steps - 1, 2]
@@ -162,17 +148,18 @@ def score_batch(
                     at = i
             furthest = max(furthest, at)
         scores[k] = score
-    follow = min(furthest + int(weights[14]), n - 1)
-    look = min(furthest + int(weights[17]), n - 1)
-    bearing = math.atan2(path[look, 1] - state[1], path[look, 0] - state[0]) - state[2]
+    follow = min(furthest + int(weights.follow_offset), n - 1)
+    look = min(furthest + int(weights.angle_offset), n - 1)
+    bearing = math.atan2(path[look, 1] - state.y_m, path[look, 0] - state.x_m)
+    bearing -= state.yaw_rad
     away = abs(math.atan2(math.sin(bearing), math.cos(bearing)))
-    steer = to_goal >= weights[16] and away > weights[18]
+    steer = to_goal >= weights.angle_within and away > weights.angle_most
     for k in range(batch):
-        if to_goal >= weights[13]:
-            scores[k] += weights[12] * math.hypot(
+        if to_goal >= weights.follow_within:
+            scores[k] += weights.follow * math.hypot(
                 ends[k, 0] - path[follow, 0], ends[k, 1] - path[follow, 1]
             )
         if steer:
             angle = math.atan2(path[look, 1] - ends[k, 1], path[look, 0] - ends[k, 0]) - ends[k, 2]
-            scores[k] += weights[15] * abs(math.atan2(math.sin(angle), math.cos(angle)))
+            scores[k] += weights.angle * abs(math.atan2(math.sin(angle), math.cos(angle)))
     return scores, free

@@ -12,6 +12,13 @@ from gazelle.navigation.controllers.arrival import Arrival
 from gazelle.navigation.controllers.following import FollowedPlan
 from gazelle.navigation.controllers.oscillation import Oscillation
 from gazelle.navigation.controllers.profile import Profile
+from gazelle.navigation.controllers.rollout_arguments import (
+    Distances,
+    Growth,
+    SampleTerms,
+    SampleWeights,
+    Timing,
+)
 from gazelle.navigation.controllers.samples import grid_of_samples
 from gazelle.navigation.controllers.state import Command, NoCommand, RobotState, Velocity
 from gazelle.navigation.costmap.footprint import Footprint
@@ -19,6 +26,7 @@ from gazelle.navigation.costmap.grid import CostGrid
 
 __all__ = ["SamplingController"]
 
+_Fields = tuple[Distances, NDArray[np.float32]]
 _REFUSALS = {
     -3.0: "lead where no way leads to the goal",
     -4.0: "leave the local costmap",
@@ -99,7 +107,7 @@ class SamplingController:
         state: RobotState,
         grid: CostGrid,
         footprint: Footprint,
-        fields: tuple[NDArray[np.float32], ...],
+        fields: _Fields,
     ) -> Command | NoCommand:
         samples = self._samples(state)
         scores = self._scores(samples, state, grid, footprint, fields)
@@ -153,20 +161,28 @@ class SamplingController:
         state: RobotState,
         grid: CostGrid,
         footprint: Footprint,
-        fields: tuple[NDArray[np.float32], ...],
+        fields: _Fields,
     ) -> NDArray[np.float64]:
         from gazelle.navigation.controllers.kernels import score_samples
 
         p = self._profile
         unit = p.per_resolution * grid.resolution_m
-        distances = np.array([p.path, p.goal, p.nose_goal, p.nose_path]) * unit
+        weights = (p.path * unit, p.goal * unit, p.nose_goal * unit, p.nose_path * unit)
+        terms = SampleTerms(
+            np.array(p.acceleration),
+            SampleWeights(*map(float, (*weights, p.obstacles, p.turning))),
+            Timing(float(p.sim_time_s), float(p.step_m), float(p.step_rad)),
+            Growth(float(p.growth_from_m_s), float(p.fastest_m_s), float(p.growth)),
+            float(p.nose_m),
+            is_outlined=bool(p.outlined),
+            accelerates=not p.holds,
+            sums=bool(p.sums),
+            is_aligned=self._aligns(state),
+        )
+        distances, front = fields
         scores = score_samples(
-            grid.costs, float(grid.origin[0]), float(grid.origin[1]), 1.0 / grid.resolution_m,
-            *fields, footprint.points, p.outlined, np.array((*state.pose, *state.velocity)),
-            samples, np.array(p.acceleration), np.append(distances, [p.obstacles, p.turning]),
-            p.nose_m, np.array([p.sim_time_s, p.step_m, p.step_rad]), not p.holds,
-            np.array([p.growth_from_m_s, p.fastest_m_s, p.growth]), p.sums, self._aligns(state),
-        )  # fmt: skip
+            grid.cells, distances, front, footprint.points, state.planar, samples, terms
+        )
         back = (samples[:, 0] < 0) & (scores >= 0)
         return np.asarray(np.where(back, scores + p.backwards, scores))
 
@@ -174,11 +190,9 @@ class SamplingController:
         assert self._plan is not None
         goal = self._plan.goal
         away = (goal[0] - state.pose[0]) ** 2 + (goal[1] - state.pose[1]) ** 2
-        return away > self._profile.free_nose_m2
+        return bool(away > self._profile.free_nose_m2)
 
-    def _fields(
-        self, state: RobotState, grid: CostGrid, local: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float32], ...]:
+    def _fields(self, state: RobotState, grid: CostGrid, local: NDArray[np.float64]) -> _Fields:
         """Return distances to the path, to its end in the window, and to that of the nose."""
         from gazelle.navigation.controllers.kernels import distance_field
 
@@ -189,14 +203,14 @@ class SamplingController:
         front = np.vstack([targets, grid.cells_of(np.linspace(end, ahead, 20))])
         path = distance_field(grid.costs, targets, False)
         goal = distance_field(grid.costs, targets, True)
-        return path, goal, distance_field(grid.costs, front, True)
+        return Distances(path, goal), distance_field(grid.costs, front, True)
 
     def _stop_and_turn(
         self,
         state: RobotState,
         grid: CostGrid,
         footprint: Footprint,
-        fields: tuple[NDArray[np.float32], ...],
+        fields: _Fields,
     ) -> Command | NoCommand:
         assert self._plan is not None
 
@@ -215,5 +229,5 @@ class SamplingController:
         p, steps = self._profile, 20
         out = np.empty((steps, 3))
         limits, pace = np.array(p.acceleration), p.sim_time_s / steps
-        simulate(*state.pose, *state.velocity, sample, limits, steps, pace, not p.holds, out)
+        simulate(state.planar, sample, limits, steps, pace, not p.holds, out)
         return out

@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.navigation.controllers.rollout_arguments import PlanarState
 from gazelle.navigation.costmap.footprint import Footprint
 from gazelle.navigation.costmap.grid import CostGrid
 
@@ -29,6 +30,11 @@ class RobotState:
 
     pose: Pose
     velocity: Velocity = (0.0, 0.0, 0.0)
+
+    @property
+    def planar(self) -> PlanarState:
+        """What kernels take of it."""
+        return PlanarState(*map(float, self.pose), *map(float, self.velocity))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, D417, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
 """The compiled loop of ``TrajectoryPlannerROS``; see `gazelle.navigation.costmap.kernels`."""
 
 from __future__ import annotations
@@ -21,26 +21,20 @@ _MOST_STEPS = 4096
 
 
 @njit(cache=True, nogil=True)
-def roll_out(
-    costs, ox, oy, inverse, path, goal, corners, state, samples, limits, weights, timing, heading,
-    plan, attracts,
-):  # fmt: skip
+def roll_out(cells, distances, corners, state, samples, terms, plan):
     """Return costs of velocity samples and where they end, (n, 4): cost, x, y, yaw.
 
     Args:
-        costs, ox, oy, inverse: the costmap, its origin (m) and cells per metre.
-        path, goal: fields of `distance_field` for path and goal.
-        corners: outline of the robot, (n, 2).
-        state: x, y, yaw, vx, vy, w.
+        cells: of the costmap, a `grid.CostCells`.
+        distances: of path and goal, a `rollout_arguments.Distances`.
+        corners: outline of the robot, (n, 2), m.
+        state: a `rollout_arguments.PlanarState`.
         samples: (n, 3).
-        limits: accelerations along x, y (m/s²) and around z (rad/s²).
-        weights: of path, goal, obstacles, heading.
-        timing: duration (s), steps of it (m, rad).
-        heading: at which time (s) path, goal and heading count; negative for the end, and no
-            heading.
+        terms: what counts, a `rollout_arguments.RolloutTerms`.
         plan: the path within the costmap, (n, 2), m.
-        attracts: the goal's squared distance (m²) counts, and no path.
     """
+    ox, oy, inverse = cells.x_m, cells.y_m, cells.per_m
+    path, goal, timing, heading = distances.path, distances.goal, terms.timing, terms.heading_s
     n = samples.shape[0]
     found = np.empty((n, 4))
     poses = np.empty((_MOST_STEPS + 1, 3))
@@ -50,21 +44,18 @@ def roll_out(
         reach = max(reach, math.hypot(corners[k, 0], corners[k, 1]))
     for k in range(n):
         speed = math.hypot(samples[k, 0], samples[k, 1])
-        steps = speed * timing[0] / timing[1]
+        steps = speed * timing.duration_s / timing.step_m
         if heading >= 0.0:
-            steps = timing[0] / timing[1]
-        elif abs(samples[k, 2]) / timing[2] > steps:
-            steps = abs(samples[k, 2]) / timing[2]
+            steps = timing.duration_s / timing.step_m
+        elif abs(samples[k, 2]) / timing.step_rad > steps:
+            steps = abs(samples[k, 2]) / timing.step_rad
         steps = min(max(int(steps + 0.5), 1), _MOST_STEPS)
         # Between the points that are scored nothing of the outline may pass over a cell unseen.
-        between = (speed + abs(samples[k, 2]) * reach) * timing[0] / steps * inverse
+        between = (speed + abs(samples[k, 2]) * reach) * timing.duration_s / steps * inverse
         between = max(min(math.ceil(between), _MOST_STEPS // steps), 1)
         steps *= between
-        dt = timing[0] / steps
-        simulate(
-            state[0], state[1], state[2], state[3], state[4], state[5], samples[k], limits,
-            steps + 1, dt, True, poses,
-        )  # fmt: skip
+        dt = timing.duration_s / steps
+        simulate(state, samples[k], terms.acceleration, steps + 1, dt, True, poses)
         cost = 0.0
         worst = 0.0
         path_cells = 0.0
@@ -76,14 +67,14 @@ def roll_out(
             y = poses[j, 1]
             c = math.cos(poses[j, 2])
             s = math.sin(poses[j, 2])
-            under = outline_cost(costs, corners, corners.shape[0], ox, oy, inverse, x, y, c, s, 1.0)
+            under = outline_cost(cells, corners, x, y, c, s, 1.0)
             if under < 0:
                 cost = HIT
                 break
             if j == steps or j % between:
                 continue
             worst = max(worst, float(under))
-            if attracts:
+            if terms.attracts:
                 goal_cells = (x - plan[last, 0]) ** 2 + (y - plan[last, 1]) ** 2
                 continue
             if heading >= 0.0 and not (heading <= j * dt < heading + between * dt):
@@ -96,10 +87,10 @@ def roll_out(
                 cost = NO_WAY
                 break
             if heading >= 0.0:
-                astray = _turn_to_what_is_seen(costs, ox, oy, inverse, plan, u, v, poses[j])
+                astray = _turn_to_what_is_seen(cells, plan, u, v, poses[j])
         if cost >= 0.0:
-            cost = weights[0] * path_cells + weights[1] * goal_cells + weights[2] * worst
-            cost += weights[3] * astray
+            cost = terms.path * path_cells + terms.goal * goal_cells + terms.obstacles * worst
+            cost += terms.heading * astray
         found[k, 0] = cost
         found[k, 1] = poses[steps - between, 0]
         found[k, 2] = poses[steps - between, 1]
@@ -108,8 +99,9 @@ def roll_out(
 
 
 @njit(cache=True, nogil=True)
-def _turn_to_what_is_seen(costs, ox, oy, inverse, plan, u, v, pose):
+def _turn_to_what_is_seen(cells, plan, u, v, pose):
     """Return how far a pose looks away from the farthest point of the path in sight of it, rad."""
+    costs, ox, oy, inverse = cells.costs, cells.x_m, cells.y_m, cells.per_m
     height, width = costs.shape
     for i in range(plan.shape[0] - 1, -1, -1):
         a = math.floor((plan[i, 0] - ox) * inverse)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gazelle.navigation.controllers.arrival import Arrival
 from gazelle.navigation.controllers.following import FollowedPlan, angle_between
 from gazelle.navigation.controllers.options import TrajectoryPlannerOptions
+from gazelle.navigation.controllers.rollout_arguments import Distances, RolloutTerms, Timing
 from gazelle.navigation.controllers.state import Command, NoCommand, RobotState, Velocity
 from gazelle.navigation.costmap.collision import footprint_cost
 from gazelle.navigation.costmap.footprint import Footprint
@@ -89,9 +90,7 @@ class TrajectoryPlanner:
             return NoCommand("there is no path to follow")
         behind_m = _PASSED_M if self._options.prune_plan else math.inf
         local = self._plan.local(state.pose, grid, behind_m)
-        rollout = _Rollout(
-            self._options, self._weights(grid), self._acceleration, state, grid, footprint, local
-        )
+        rollout = _Rollout(self._options, self._terms(grid), state, grid, footprint, local)
         goal = self._plan.goal
         if not self._arrival.is_in_place(state, goal):
             self._arrival.leave()
@@ -101,13 +100,20 @@ class TrajectoryPlanner:
         )
         return velocity if isinstance(velocity, NoCommand) else rollout.command(velocity)
 
-    def _weights(self, grid: CostGrid) -> NDArray[np.float64]:
+    def _terms(self, grid: CostGrid) -> RolloutTerms:
         o = self._options
         unit = grid.resolution_m if o.meter_scoring else 1.0
         obstacles = unit if self._scales_obstacles else 1.0
-        heading = 0.3 if o.heading_scoring else 0.0
-        path, goal = o.path_distance_bias * unit, o.goal_distance_bias * unit
-        return np.array([path, goal, o.occdist_scale * obstacles, heading])
+        return RolloutTerms(
+            self._acceleration,
+            Timing(float(o.sim_time), float(o.sim_granularity), float(o.angular_sim_granularity)),
+            path=float(o.path_distance_bias * unit),
+            goal=float(o.goal_distance_bias * unit),
+            obstacles=float(o.occdist_scale * obstacles),
+            heading=0.3 if o.heading_scoring else 0.0,
+            heading_s=float(o.heading_scoring_timestep) if o.heading_scoring else -1.0,
+            attracts=bool(o.simple_attractor),
+        )
 
     def _best(self, state: RobotState, rollout: _Rollout, goal: Pose) -> Command | NoCommand:
         self._end_escape(state.pose)
@@ -222,8 +228,7 @@ class _Rollout:
     def __init__(
         self,
         options: TrajectoryPlannerOptions,
-        weights: NDArray[np.float64],
-        acceleration: NDArray[np.float64],
+        terms: RolloutTerms,
         state: RobotState,
         grid: CostGrid,
         footprint: Footprint,
@@ -235,7 +240,7 @@ class _Rollout:
         from gazelle.navigation.costmap.kernels import fill_polygon
 
         self.hit, self.no_way = HIT, NO_WAY
-        self._options, self._weights, self._acceleration = options, weights, acceleration
+        self._options, self._terms = options, terms
         self._state, self._grid, self._footprint = state, grid, footprint
         self._plan = np.ascontiguousarray(plan[:, :2])
         # What is under the robot does not stop it from going away.
@@ -243,8 +248,9 @@ class _Rollout:
         corners = (footprint.at(state.pose) - np.array(grid.origin)) / grid.resolution_m
         fill_polygon(passable, corners, np.uint8(0), np.array([1 << 30, 1 << 30, -1, -1]))
         targets = grid.cells_of(plan[:, :2])
-        self._path = distance_field(passable, targets, False)
-        self._goal = distance_field(passable, targets, True)
+        self._distances = Distances(
+            distance_field(passable, targets, False), distance_field(passable, targets, True)
+        )
 
     @property
     def touches(self) -> bool:
@@ -254,15 +260,9 @@ class _Rollout:
         """Return costs and ends, (n, 4): cost, x, y, yaw."""
         from gazelle.navigation.controllers.trajectory_kernel import roll_out
 
-        o, grid = self._options, self._grid
         found = roll_out(
-            grid.costs, float(grid.origin[0]), float(grid.origin[1]), 1.0 / grid.resolution_m,
-            self._path, self._goal, self._footprint.points,
-            np.array((*self._state.pose, *self._state.velocity)),
-            np.array(samples, float).reshape(-1, 3), self._acceleration, self._weights,
-            np.array([o.sim_time, o.sim_granularity, o.angular_sim_granularity]),
-            o.heading_scoring_timestep if o.heading_scoring else -1.0, self._plan,
-            o.simple_attractor,
+            self._grid.cells, self._distances, self._footprint.points, self._state.planar,
+            np.array(samples, float).reshape(-1, 3), self._terms, self._plan,
         )  # fmt: skip
         return np.asarray(found)
 
@@ -283,7 +283,7 @@ class _Rollout:
         u, v = self._grid.cells_of(point)[0]
         if not (0 <= u < self._grid.width and 0 <= v < self._grid.height):
             return math.inf
-        return float(self._goal[v, u])
+        return float(self._distances.goal[v, u])
 
     def command(self, velocity: Velocity, cost: float = 0.0) -> Command:
         """Return a command with its trajectory."""
@@ -292,8 +292,8 @@ class _Rollout:
         out = np.empty((_SHOWN_POSES, 3))
         step_s = self._options.sim_time / _SHOWN_POSES
         simulate(
-            *self._state.pose, *self._state.velocity, np.array(velocity), self._acceleration,
-            _SHOWN_POSES, step_s, True, out,
+            self._state.planar, np.array(velocity), self._terms.acceleration, _SHOWN_POSES, step_s,
+            True, out,
         )  # fmt: skip
         return Command(velocity, out, cost)
 

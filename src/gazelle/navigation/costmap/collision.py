@@ -19,20 +19,9 @@ def footprint_cost(grid: CostGrid, footprint: Footprint, pose: tuple[float, floa
     """
     from gazelle.navigation.costmap.kernels import outline_cost
 
-    points = footprint.points
     x, y, yaw = pose
     return int(
         outline_cost(
-            grid.costs,
-            points,
-            len(points),
-            float(grid.origin[0]),
-            float(grid.origin[1]),
-            1.0 / grid.resolution_m,
-            float(x),
-            float(y),
-            math.cos(yaw),
-            math.sin(yaw),
-            1.0,
+            grid.cells, footprint.points, float(x), float(y), math.cos(yaw), math.sin(yaw), 1.0
         )
     )

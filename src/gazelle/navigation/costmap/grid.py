@@ -13,6 +13,7 @@ __all__ = [
     "INSCRIBED",
     "LETHAL",
     "UNKNOWN",
+    "CostCells",
     "CostGrid",
     "Window",
     "occupancy_of_costs",
@@ -73,6 +74,21 @@ class Window(NamedTuple):
         )
 
 
+class CostCells(NamedTuple):
+    """A grid of costs as kernels take it.
+
+    Attributes:
+        costs: uint8, (height, width), row 0 has the lowest y.
+        x_m, y_m: of the lower left corner.
+        per_m: cells per metre.
+    """
+
+    costs: NDArray[np.uint8]
+    x_m: float
+    y_m: float
+    per_m: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class CostGrid:
     """Costs of square cells; the array may change, its place does not.
@@ -96,6 +112,12 @@ class CostGrid:
     def height(self) -> int:
         """Cells along y."""
         return int(self.costs.shape[0])
+
+    @property
+    def cells(self) -> CostCells:
+        """What kernels take of it."""
+        x, y = self.origin
+        return CostCells(self.costs, float(x), float(y), 1.0 / self.resolution_m)
 
     @property
     def whole(self) -> Window:

@@ -76,4 +76,4 @@ class InflationLayer:
         from gazelle.navigation.costmap.kernels import inflate_window
 
         unknown, around = self.options.inflate_unknown, self.options.inflate_around_unknown
-        inflate_window(master.costs, *window, self._table, self.reach, unknown, around)
+        inflate_window(master.costs, window, self._table, self.reach, unknown, around)

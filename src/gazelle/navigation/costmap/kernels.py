@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, C901, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, C901, PLR0915
 """The compiled loops of costmaps: rays, distances, outlines.
 
 Importing this module imports numba. Machine code is cached; kernels hold no Python object and
@@ -238,11 +238,12 @@ def squared_distances(seeds, reach):
 
 
 @njit(cache=True, nogil=True)
-def inflate_window(costs, x0, y0, x1, y1, table, reach, inflate_unknown, around_unknown):
-    """Raise costs in a window by what lies in it and around it.
+def inflate_window(costs, window, table, reach, inflate_unknown, around_unknown):
+    """Raise costs in a window, a `grid.Window`, by what lies in it and around it.
 
     `table` has the cost by squared distance in cells, up to reach².
     """
+    x0, y0, x1, y1 = window.x0, window.y0, window.x1, window.y1
     height, width = costs.shape
     sx0 = max(x0 - reach, 0)
     sy0 = max(y0 - reach, 0)
@@ -275,12 +276,14 @@ def inflate_window(costs, x0, y0, x1, y1, table, reach, inflate_unknown, around_
 
 
 @njit(cache=True, nogil=True)
-def outline_cost(costs, corners, n, ox, oy, inverse, x, y, c, s, scale):
+def outline_cost(cells, corners, x, y, c, s, scale):
     """Return the highest cost under a robot's outline and its centre.
 
-    −1 for a lethal cell, −2 for an unknown one, −3 for one outside the grid. `c` and `s` are
-    cosine and sine of the heading; `inverse` is cells per metre.
+    −1 for a lethal cell, −2 for an unknown one, −3 for one outside the grid. `cells` are a
+    `grid.CostCells`, `c` and `s` cosine and sine of the heading.
     """
+    costs, ox, oy, inverse = cells.costs, cells.x_m, cells.y_m, cells.per_m
+    n = corners.shape[0]
     height, width = costs.shape
     cx = math.floor((x - ox) * inverse)
     cy = math.floor((y - oy) * inverse)

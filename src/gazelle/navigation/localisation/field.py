@@ -3,13 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.mapping.grids import OccupancyGrid
 
-__all__ = ["LikelihoodMap"]
+__all__ = ["LikelihoodMap", "MapFrame"]
+
+
+class MapFrame(NamedTuple):
+    """Where the cells of a map are, as kernels take it.
+
+    Attributes:
+        x_m, y_m: of cell (0, 0).
+        cell_m: side of a cell.
+        per_m: cells per metre.
+    """
+
+    x_m: float
+    y_m: float
+    cell_m: float
+    per_m: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +48,12 @@ class LikelihoodMap:
     resolution_m: float
     origin: tuple[float, float]
     reach_m: float
+
+    @cached_property
+    def frame(self) -> MapFrame:
+        """Where its cells are."""
+        x, y = self.origin
+        return MapFrame(float(x), float(y), float(self.resolution_m), 1.0 / self.resolution_m)
 
     @classmethod
     def of_grid(cls, grid: OccupancyGrid, reach_m: float) -> LikelihoodMap:

@@ -228,7 +228,7 @@ class Amcl:
         return bool((off <= _TOGETHER_M).all())
 
     def _resample(self) -> None:
-        from gazelle.navigation.localisation.kernels import resample
+        from gazelle.navigation.localisation.kernels import ParticleNeed, resample
 
         o, weights = self._options, self._weights
         assert self._map is not None
@@ -247,9 +247,9 @@ class Amcl:
             elsewhere = 0.0
         cumulative = np.cumsum(weights)
         cumulative[-1] = 1.0
-        self._particles = resample(
-            self._particles, cumulative, self._random.random(count), draws, elsewhere,
-            count if self._lost else min(o.min_particles, count), count, o.kld_err, o.kld_z,
-        )  # fmt: skip
+        least = count if self._lost else min(o.min_particles, count)
+        need = ParticleNeed(least, count, float(o.kld_err), float(o.kld_z))
+        chances = self._random.random(count)
+        self._particles = resample(self._particles, cumulative, chances, draws, elsewhere, need)
         self._weights = np.full(len(self._particles), 1.0 / len(self._particles))
         self._lost &= bool(self._particles[:, :2].std(axis=0).max() > _FOUND_M)

@@ -1,25 +1,51 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, D417, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled loops of localisation; see `gazelle.navigation.costmap.kernels`."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from gazelle.compiling import njit
 
-__all__ = ["beam_likelihoods", "cast_ray", "field_sums", "fitting_shares", "log_sums", "resample"]
+__all__ = [
+    "ParticleNeed",
+    "beam_likelihoods",
+    "cast_ray",
+    "field_sums",
+    "fitting_shares",
+    "log_sums",
+    "resample",
+]
+
+
+class ParticleNeed(NamedTuple):
+    """How many particles a distribution needs (KLD sampling).
+
+    Attributes:
+        least: at least so many.
+        most: at most.
+        error: of the distribution that is allowed.
+        quantile: of that error.
+    """
+
+    least: int
+    most: int
+    error: float
+    quantile: float
 
 
 @njit(cache=True, nogil=True, fastmath=True)
-def field_sums(particles, ends, field, outside, ox, oy, inverse, out):
+def field_sums(particles, ends, field, outside, frame, out):
     """Fill `out` with 1 + the sum of a field at the ends of beams, by particle.
 
     `ends` are (n, 2) in the robot's frame, m; `field` has a value by cell, `outside` that of
-    everything else.
+    everything else; cells are where a `field.MapFrame` says.
     """
+    ox, oy, inverse = frame.x_m, frame.y_m, frame.per_m
     height, width = field.shape
     for k in range(particles.shape[0]):
         c = math.cos(particles[k, 2]) * inverse
@@ -38,8 +64,9 @@ def field_sums(particles, ends, field, outside, ox, oy, inverse, out):
 
 
 @njit(cache=True, nogil=True, fastmath=True)
-def log_sums(particles, ends, used, field, outside, ox, oy, inverse, out):
+def log_sums(particles, ends, used, field, outside, frame, out):
     """Fill `out` with the sum of a field at the ends of the beams that are used."""
+    ox, oy, inverse = frame.x_m, frame.y_m, frame.per_m
     height, width = field.shape
     for k in range(particles.shape[0]):
         c = math.cos(particles[k, 2]) * inverse
@@ -60,8 +87,9 @@ def log_sums(particles, ends, used, field, outside, ox, oy, inverse, out):
 
 
 @njit(cache=True, nogil=True)
-def fitting_shares(particles, ends, distances, near, ox, oy, inverse):
+def fitting_shares(particles, ends, distances, near, frame):
     """Return, by beam, the share of particles for which it ends nearer to a wall than `near`."""
+    ox, oy, inverse = frame.x_m, frame.y_m, frame.per_m
     height, width = distances.shape
     count = ends.shape[0]
     shares = np.zeros(count)
@@ -111,17 +139,21 @@ def cast_ray(cells, x, y, angle, most):
 
 
 @njit(cache=True, nogil=True)
-def beam_likelihoods(
-    particles, laser, bearings, ranges, cells, ox, oy, resolution, longest, weights, out
-):
+def beam_likelihoods(particles, beams, cells, frame, terms, out):
     """Fill `out` with 1 + the sum of cubed likelihoods of beams, by particle.
 
     Args:
-        laser: x and y of the lidar in the robot's frame, m.
-        bearings: in the robot's frame, rad.
-        ranges: m; `longest` for beams that met nothing.
-        weights: z_hit, z_short, z_max, z_rand, sigma_hit, lambda_short.
+        particles: (n, 3).
+        beams: `sensor.Beams`.
+        cells: those that are not 0 are not free.
+        frame: where they are, a `field.MapFrame`.
+        terms: what a beam can have met, `sensor.BeamTerms`.
+        out: (n,).
     """
+    laser, bearings, ranges, longest = (
+        beams.laser, beams.bearings_rad, beams.ranges_m, beams.longest_m,
+    )  # fmt: skip
+    ox, oy, resolution, sigma = frame.x_m, frame.y_m, frame.cell_m, terms.sigma_m
     for k in range(particles.shape[0]):
         c = math.cos(particles[k, 2])
         s = math.sin(particles[k, 2])
@@ -134,13 +166,13 @@ def beam_likelihoods(
                 cells, x, y, particles[k, 2] + bearings[b], longest / resolution
             )
             off = seen - there
-            p = weights[0] * math.exp(-off * off / (2 * weights[4] * weights[4]))
+            p = terms.hit * math.exp(-off * off / (2 * sigma * sigma))
             if off < 0:
-                p += weights[1] * weights[5] * math.exp(-weights[5] * seen)
+                p += terms.short * terms.short_per_m * math.exp(-terms.short_per_m * seen)
             if seen >= longest:
-                p += weights[2]
+                p += terms.longest
             else:
-                p += weights[3] / longest
+                p += terms.random / longest
             total += p * p * p
         out[k] = total
 
@@ -159,15 +191,19 @@ def _place(cumulative, chance):
 
 
 @njit(cache=True, nogil=True)
-def resample(particles, cumulative, chances, draws, elsewhere, least, most, error, quantile):
+def resample(particles, cumulative, chances, draws, elsewhere, need):
     """Return so many particles as the spread of what is drawn needs (KLD sampling, Fox 2001).
 
     Args:
+        particles: (n, 3).
         cumulative: running sum of weights, the last one 1.
         chances: uniform numbers, one per particle; below `elsewhere` a random pose is taken.
         draws: particles to take where `chances` are not below, by uniform numbers, and the random
             poses, as columns u, x, y, yaw.
+        elsewhere: share of random poses.
+        need: how many there have to be, a `ParticleNeed`.
     """
+    least, most, error, quantile = need.least, need.most, need.error, need.quantile
     size = 1 << 16
     while size < 4 * most:
         size *= 2

@@ -77,12 +77,10 @@ class Refiner:
         out = np.zeros(len(poses))
         if not len(ends):
             return out
-        x, y = self._map.origin
         used = np.ones(len(ends), bool)
         # One layout, whatever they are a part of: another one would be compiled for anew.
         ends = np.ascontiguousarray(ends)
-        log_sums(poses, ends, used, self._field, self._outside, float(x), float(y),
-                 1.0 / self._map.resolution_m, out)  # fmt: skip
+        log_sums(poses, ends, used, self._field, self._outside, self._map.frame, out)
         return np.asarray(out * min(1.0, _INDEPENDENT / len(ends)))
 
     def _scores(

@@ -12,7 +12,7 @@ from gazelle.mapping.scans import Scan
 from gazelle.navigation.localisation.field import LikelihoodMap
 from gazelle.navigation.localisation.options import AmclOptions
 
-__all__ = ["Beams", "ScanModel", "chosen_beams"]
+__all__ = ["BeamTerms", "Beams", "ScanModel", "chosen_beams"]
 
 
 class Beams(NamedTuple):
@@ -57,7 +57,29 @@ def chosen_beams(scan: Scan, options: AmclOptions) -> Beams:
     known = ~np.isnan(ranges)
     ranges = np.where((ranges <= shortest) | (ranges > longest), longest, ranges)
     x, y, _yaw = scan.T_base_laser
-    return Beams(scan.bearings_rad[::step][known], ranges[known], float(longest), (x, y))
+    return Beams(
+        scan.bearings_rad[::step][known], ranges[known], float(longest), (float(x), float(y))
+    )
+
+
+class BeamTerms(NamedTuple):
+    """What a beam can have met, and how likely that is.
+
+    Attributes:
+        hit: share of what the map says.
+        short: of something before it.
+        longest: of nothing.
+        random: of anything.
+        sigma_m: standard deviation of the range of a hit.
+        short_per_m: how fast things before it become rarer with the range.
+    """
+
+    hit: float
+    short: float
+    longest: float
+    random: float
+    sigma_m: float
+    short_per_m: float
 
 
 class ScanModel:
@@ -88,12 +110,8 @@ class ScanModel:
 
         field, outside = self._field(beams.longest_m)
         out = np.empty(len(particles))
-        field_sums(particles, beams.ends, field, outside, *self._frame(), out)
+        field_sums(particles, beams.ends, field, outside, self._map.frame, out)
         return out
-
-    def _frame(self) -> tuple[float, float, float]:
-        x, y = self._map.origin
-        return float(x), float(y), 1.0 / self._map.resolution_m
 
     def _field(self, longest_m: float) -> tuple[NDArray[np.float32], np.float32]:
         """Return what a beam's end in a cell adds, and what one outside of the map adds."""
@@ -121,14 +139,14 @@ class ScanModel:
         if o.do_beamskip and converged and len(ends):
             distances = self._map.distances_m
             shares = fitting_shares(
-                particles, ends, distances, o.beam_skip_distance, *self._frame()
+                particles, ends, distances, o.beam_skip_distance, self._map.frame
             )
             used = shares >= o.beam_skip_threshold
             if (~used).mean() >= o.beam_skip_error_threshold:
                 used[:] = True
         field, outside = self._field(beams.longest_m)
         out = np.empty(len(particles))
-        log_sums(particles, ends, used, field, outside, *self._frame(), out)
+        log_sums(particles, ends, used, field, outside, self._map.frame, out)
         # What all have in common does not matter, and would underflow.
         return np.asarray(np.exp(out - out.max()) if len(out) else out)
 
@@ -137,11 +155,13 @@ class ScanModel:
 
         o, place = self._options, self._map
         out = np.empty(len(particles))
-        parts = (o.laser_z_hit, o.laser_z_short, o.laser_z_max, o.laser_z_rand)
-        weights = np.array([*parts, o.laser_sigma_hit, o.laser_lambda_short])
-        beam_likelihoods(
-            particles, np.array(beams.laser), beams.bearings_rad, beams.ranges_m, place.blocked,
-            float(place.origin[0]), float(place.origin[1]), place.resolution_m, beams.longest_m,
-            weights, out,
-        )  # fmt: skip
+        terms = BeamTerms(
+            float(o.laser_z_hit),
+            float(o.laser_z_short),
+            float(o.laser_z_max),
+            float(o.laser_z_rand),
+            float(o.laser_sigma_hit),
+            float(o.laser_lambda_short),
+        )
+        beam_likelihoods(particles, beams, place.blocked, place.frame, terms, out)
         return out
