@@ -63,12 +63,12 @@ class SweptMotions(NamedTuple):
     Attributes:
         lower: (n,) least that is allowed.
         upper: (n,) most that is allowed.
-        bounds: arguments of `sweep` from the fourth on.
+        plain: all of the robot and its surroundings, see `sweep`.
     """
 
     lower: FloatArray
     upper: FloatArray
-    bounds: tuple[NDArray[Any], ...]
+    plain: tuple[Any, ...]
 
 
 @runtime_checkable

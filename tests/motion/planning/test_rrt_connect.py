@@ -16,6 +16,7 @@ from gazelle.motion.planning.problem import Problem
 from gazelle.motion.planning.rrt_connect import rrt_connect
 from gazelle.motion.planning.rrt_connect_kernels import DOUBTFUL
 from gazelle.motion.planning.settings import PlannerSettings
+from gazelle.motion.planning.tree import TreeArrays
 from gazelle.motion.planning.validation import ends_of
 from gazelle.motion.space import FloatArray, SweptValidity, Validity
 
@@ -85,8 +86,8 @@ def test_what_the_kernel_cannot_tell_is_asked_for(
 ) -> None:
     case = random_case(ur_like, "ur_like", 7)
 
-    def in_doubt(*arguments: Any) -> tuple[Any, ...]:
-        return DOUBTFUL, 0, -1, -1, arguments[:4], arguments[4:8]
+    def in_doubt(near: TreeArrays, far: TreeArrays, *_: Any) -> tuple[Any, ...]:
+        return DOUBTFUL, 0, -1, -1, near, far
 
     monkeypatch.setattr("gazelle.motion.planning.rrt_connect.connect_trees", in_doubt)
     asked, swept = _Asked(case.checker), _Swept(case.checker)

@@ -25,7 +25,7 @@ def test_kernels_of_planning_are_there_before_the_first_request(
     kernel, draws = rrt_connect.connect_trees, []
 
     def connect_trees(*arguments: Any) -> Any:
-        draws.append(len(arguments[11]))
+        draws.append(len(arguments[2].chances))
         return kernel(*arguments)
 
     monkeypatch.setattr(rrt_connect, "connect_trees", connect_trees)

@@ -7,7 +7,6 @@ import math
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from functools import lru_cache
-from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +14,25 @@ from numpy.typing import NDArray
 from gazelle.geometry import Pose
 from gazelle.motion.collision.building import CollisionBody, may_touch
 from gazelle.motion.collision.convex_rows import ConvexRows, rows_of
-from gazelle.motion.collision.gjk_kernels import APART
+from gazelle.motion.collision.gjk_kernels import (
+    APART,
+    CENTRE,
+    FIRST_VERTEX,
+    FRAME,
+    HULL,
+    KIND,
+    RADIUS,
+    SLACK,
+)
 from gazelle.motion.collision.solids import Solid
+from gazelle.motion.collision.sweep_arguments import (
+    PASSING,
+    Bodies,
+    GroupVariables,
+    Motions,
+    PlacedSolids,
+    SweepArguments,
+)
 from gazelle.motion.collision.sweep_kernels import (
     COLLIDES,
     FREE,
@@ -55,10 +71,11 @@ class Sweeper:
     Not for use in several threads at once; make a `copy` for each.
 
     Attributes:
+        arguments: of `sweep_kernels.sweep`, which writes to some of them.
         has_constant_neighbours: there are two that nothing moves apart, and that may touch.
     """
 
-    _doubts: FloatArray
+    arguments: SweepArguments
 
     def __init__(
         self, scene: PlanningScene, group: JointGroup | None, bodies: Sequence[CollisionBody]
@@ -67,48 +84,67 @@ class Sweeper:
         self._group = group
         frames = _Frames(scene, group, bodies)
         self._variables = variables = robot.variables if group is None else group.variables
-        self._indices = np.array([robot.variables.index(name) for name in variables], np.int64)
         rules = robot.followers_of(variables)
-        self._followers = np.array([rule[0] for rule in rules], np.int64)
-        self._leaders = np.array([rule[1] for rule in rules], np.int64)
-        self._rules = np.array([rule[2:] for rule in rules], np.float64).reshape(-1, 2)
-        self._fill(frames, bodies)
+        members, solids = _rows_of_all(bodies, frames)
         reaches = _Reaches(scene, variables, bodies, frames.numbers)
         every = _pairs(scene, group, bodies)
         apart = reaches.apart(every)
         moved = apart.any(axis=1)
-        self._pairs, self._apart = every[moved], apart[moved]
+        pairs = every[moved]
         self._constant_pairs = every[~moved]
-        self._axes, self._order = np.zeros((len(self._pairs), 4)), np.arange(len(self._pairs))
-        self._set_up(scene, frames, reaches)
+        arguments = SweepArguments(
+            frames.tree,
+            GroupVariables(
+                np.array(scene.positions, dtype=np.float64),
+                np.array([robot.variables.index(name) for name in variables], np.int64),
+                np.array([rule[0] for rule in rules], np.int64),
+                np.array([rule[1] for rule in rules], np.int64),
+                np.array([rule[2:] for rule in rules], np.float64).reshape(-1, 2),
+            ),
+            reaches.motions,
+            Bodies(members, pairs, apart[moved], np.zeros((len(pairs), 4)), np.arange(len(pairs))),
+            solids,
+            np.zeros(_SCRATCH),
+            np.empty(_MOST_DOUBTS),
+        )
+        self._take(arguments)
+        self.has_constant_neighbours = self._has_constant_neighbours()
         # Compiled or loaded here, and not in the time that somebody has for planning.
-        self.state(self._positions[self._indices])
+        own = arguments.group
+        self.state(own.positions[own.indices])
 
     def copy(self) -> Sweeper:
         """Return one of the same scene that another thread may use."""
         other = copy.copy(self)
-        other._R, other._p = self._R.copy(), self._p.copy()
-        other._positions, other._axes = self._positions.copy(), self._axes.copy()
-        other._order = self._order.copy()
-        other._set_up_scratch()
+        own = self.arguments
+        group, bodies, solids = own.group, own.bodies, own.solids
+        copied = own._replace(
+            group=group._replace(positions=group.positions.copy()),
+            bodies=bodies._replace(axes=bodies.axes.copy(), order=bodies.order.copy()),
+            solids=solids._replace(
+                rotations=solids.rotations.copy(), positions_m=solids.positions_m.copy()
+            ),
+            work=np.zeros(_SCRATCH),
+            doubts=np.empty(_MOST_DOUBTS),
+        )
+        other._take(copied)
         return other
 
     def follow(self, scene: PlanningScene, bodies: Sequence[CollisionBody]) -> Sweeper:
         """Return one of a scene with the same things elsewhere."""
         other = self.copy()
+        own = other.arguments
         frames = _Frames(scene, self._group, bodies)
-        other._set_up(scene, frames, _Reaches(scene, self._variables, bodies, frames.numbers))
+        positions = np.array(scene.positions, dtype=np.float64)
+        followed = own._replace(
+            links=frames.tree,
+            group=own.group._replace(positions=positions),
+            motions=_Reaches(scene, self._variables, bodies, frames.numbers).motions,
+            solids=own.solids._replace(rotations=frames.R, positions_m=frames.p),
+        )
+        other._take(followed)
+        other.has_constant_neighbours = other._has_constant_neighbours()
         return other
-
-    @property
-    def bounds(self) -> tuple[NDArray[Any], ...]:
-        """The arguments of `sweep_kernels.sweep` from the fourth on; it writes to some."""
-        return (
-            *self._tree,
-            self._positions, self._indices, self._followers, self._leaders, self._rules,
-            self._members, self._pairs, *self._motions, self._apart, self._solids, self._kinds,
-            self._vertices, self._axes, self._order, self._R, self._p, self._work, self._doubts,
-        )  # fmt: skip
 
     def state(self, q: FloatArray) -> Verdict:
         """Return what is known of a state."""
@@ -145,61 +181,61 @@ class Sweeper:
     def _swept(self, q0: FloatArray, way: FloatArray, step: float) -> tuple[Verdict, FloatArray]:
         q0 = np.ascontiguousarray(q0, dtype=np.float64)
         while True:
-            found, value = sweep(q0, way, step, *self.bounds)
+            found, value = sweep(q0, way, step, self._plain)
+            doubts = self.arguments.doubts
             if found != TOO_LONG:
                 break
-            self._doubts = np.empty(2 * len(self._doubts))
+            self._take(self.arguments._replace(doubts=np.empty(2 * len(doubts))))
         if found == FREE:
-            return Verdict.FREE, self._doubts[:0]
+            return Verdict.FREE, doubts[:0]
         if found == COLLIDES:
-            return Verdict.COLLIDES, self._doubts[:0]
-        return Verdict.DOUBTFUL, self._doubts[: int(value)].copy()
+            return Verdict.COLLIDES, doubts[:0]
+        return Verdict.DOUBTFUL, doubts[: int(value)].copy()
 
-    def _set_up(self, scene: PlanningScene, frames: _Frames, reaches: _Reaches) -> None:
-        self._motions = reaches.motions
-        self._tree, self._R, self._p = frames.tree, frames.R, frames.p
-        self._positions = np.array(scene.positions, dtype=np.float64)
-        self._set_up_scratch()
-        self.has_constant_neighbours = self._has_constant_neighbours()
-
-    def _set_up_scratch(self) -> None:
-        self._work = np.zeros(_SCRATCH)
-        self._doubts = np.empty(_MOST_DOUBTS)
-
-    def _fill(self, frames: _Frames, bodies: Sequence[CollisionBody]) -> None:
-        """Put the rows of all bodies below each other."""
-        solids, kinds, vertices, members = [], [], [], []
-        first_row = first_vertex = 0
-        for number, body in enumerate(bodies):
-            rows = _rows(body)
-            own = rows.kinds.copy()
-            own[:, 1] = frames.of_body[number]
-            own[:, 2] += first_vertex
-            members.append((first_row, first_row + len(own) - rows.own, rows.own))
-            solids.append(rows.solids)
-            kinds.append(own)
-            vertices.append(rows.vertices)
-            first_row += len(own)
-            first_vertex += len(rows.vertices)
-        self._members = np.array(members, np.int64).reshape(-1, 3)
-        self._solids = np.concatenate(solids) if solids else np.zeros((0, 24))
-        self._kinds = np.concatenate(kinds) if kinds else np.zeros((0, 4), np.int64)
-        self._vertices = np.ascontiguousarray(np.concatenate([*vertices, np.zeros((1, 3))]).T)
+    def _take(self, arguments: SweepArguments) -> None:
+        self.arguments, self._plain = arguments, arguments.plain
 
     def _has_constant_neighbours(self) -> bool:
         """Return whether a pair that nothing moves apart is not known to be apart."""
-        pairs = self._constant_pairs
+        pairs, own = self._constant_pairs, self.arguments
         if len(pairs):
-            tree(*self._tree, self._positions, self._R, self._p)
-        axes = np.zeros((len(pairs), 4))
+            tree(own.links, own.group.positions, own.solids.rotations, own.solids.positions_m)
+        bodies = own.bodies._replace(pairs=pairs, axes=np.zeros((len(pairs), 4)))
         for number in range(len(pairs)):
-            state, _, _ = pair_clear(
-                number, pairs, self._members, self._solids, self._kinds, self._vertices,
-                self._R, self._p, 0.0, 0, np.full(24, np.inf), axes, self._work,
-            )  # fmt: skip
+            state, _, _ = pair_clear(number, bodies, own.solids, 0.0, 0, _unknown(), own.work)
             if state != APART:
                 return True
         return False
+
+
+def _unknown() -> NDArray[np.void]:
+    """Return one `PASSING` of which nothing is known."""
+    return np.full(PASSING.itemsize // 8, np.inf).view(PASSING)
+
+
+def _rows_of_all(bodies: Sequence[CollisionBody], frames: _Frames) -> tuple[IntArray, PlacedSolids]:
+    """Return the `Bodies.members` and the rows of all, below each other."""
+    solids, kinds, vertices, members = [], [], [], []
+    first_row = first_vertex = 0
+    for number, body in enumerate(bodies):
+        rows = _rows(body)
+        own = rows.kinds.copy()
+        own[:, FRAME] = frames.of_body[number]
+        own[:, FIRST_VERTEX] += first_vertex
+        members.append((first_row, first_row + len(own) - rows.own, rows.own))
+        solids.append(rows.solids)
+        kinds.append(own)
+        vertices.append(rows.vertices)
+        first_row += len(own)
+        first_vertex += len(rows.vertices)
+    placed = PlacedSolids(
+        np.concatenate(solids) if solids else np.zeros((0, 24)),
+        np.concatenate(kinds) if kinds else np.zeros((0, 4), np.int64),
+        np.ascontiguousarray(np.concatenate([*vertices, np.zeros((1, 3))]).T),
+        frames.R,
+        frames.p,
+    )
+    return np.array(members, np.int64).reshape(-1, 3), placed
 
 
 @lru_cache(maxsize=512)
@@ -219,7 +255,7 @@ class _Frames:
     """Where solids are: links that move, links that stand still, and things.
 
     Attributes:
-        tree: arguments of `kinematics.kernels.tree` for the links that move.
+        tree: the links that move.
         R: rotations of all frames; those of links that move come first and are written over.
         p: positions of all frames.
         of_body: number of the frame of each body.
@@ -287,16 +323,6 @@ def _pairs(
     return np.array(found, np.int64).reshape(-1, 2)
 
 
-class _Motions(NamedTuple):
-    """Which joints move, and how far they carry bodies at most; see `sweep_kernels.sweep`."""
-
-    joints: IntArray
-    lines: FloatArray
-    turns: FloatArray
-    moves: FloatArray
-    above: NDArray[np.bool_]
-
-
 class _Reaches:
     """How far points of bodies move at most when a variable changes by one.
 
@@ -327,7 +353,7 @@ class _Reaches:
             if not body.is_object:
                 self._climb(number, body)
         turning = [joint.kind is JointKind.TURNING for joint in self._joints]
-        self.motions = _Motions(
+        self.motions = Motions(
             np.array(
                 [
                     frames.get(joint.child, -1) if turns else -1
@@ -412,12 +438,12 @@ def _line(joint: RobotJoint) -> FloatArray:
 def _points(rows: ConvexRows) -> tuple[FloatArray, FloatArray]:
     """Return balls around all solids: centres and radii."""
     own = rows.solids[-rows.own :]
-    hull = rows.kinds[-rows.own :, 0] == 0
-    points = [own[~hull, 17:20]]
-    extra = [np.minimum(own[~hull, 20], _UNLIMITED_M)]
+    hull = rows.kinds[-rows.own :, KIND] == HULL
+    points = [own[~hull, CENTRE:RADIUS]]
+    extra = [np.minimum(own[~hull, RADIUS], _UNLIMITED_M)]
     for row, (_, _, first, count) in zip(own[hull], rows.kinds[-rows.own :][hull], strict=True):
         points.append(rows.vertices[first : first + count])
-        extra.append(np.full(count, row[16]))
+        extra.append(np.full(count, row[SLACK]))
     return np.concatenate(points), np.concatenate(extra)
 
 

@@ -10,7 +10,24 @@ from numpy.typing import NDArray
 
 from gazelle.engine.library import mujoco
 from gazelle.geometry import convex_hull
-from gazelle.motion.collision.gjk_kernels import outside_m
+from gazelle.motion.collision.gjk_kernels import (
+    BOX,
+    BOX_HALF,
+    CENTRE,
+    CYLINDER,
+    ELLIPSOID,
+    HALF,
+    HULL,
+    OTHER,
+    PLANE,
+    POSITION,
+    RADIUS,
+    ROTATION,
+    ROUNDING,
+    SEGMENT,
+    SLACK,
+    outside_m,
+)
 from gazelle.motion.collision.solids import Solid
 from gazelle.motion.space import FloatArray
 
@@ -18,7 +35,6 @@ __all__ = ["ConvexRows", "rows_of"]
 
 IntArray = NDArray[np.int64]
 
-_HULL, _BOX, _CYLINDER, _SEGMENT, _ELLIPSOID, _PLANE, _OTHER = range(7)
 _ROW = 24
 _FEW = 40
 
@@ -83,37 +99,37 @@ def _row(solid: Solid, margin_m: float) -> tuple[FloatArray, int, FloatArray]:
         return (*_hull_row(hull, margin_m), hull.corners_m)
     row = np.zeros(_ROW)
     matrix = pose.matrix()
-    row[:9], row[9:12] = matrix[:3, :3].ravel(), matrix[:3, 3]
-    row[17:20] = matrix[:3, 3]
+    row[ROTATION:POSITION], row[POSITION:HALF] = matrix[:3, :3].ravel(), matrix[:3, 3]
+    row[CENTRE:RADIUS] = matrix[:3, 3]
     size = (*shape.size, 0.0, 0.0, 0.0)[:3]
-    kind, ball = _OTHER, np.inf
+    kind, ball = OTHER, np.inf
     if shape.kind == types.mjGEOM_SPHERE:
-        kind, row[15], ball = _SEGMENT, size[0], size[0]
+        kind, row[ROUNDING], ball = SEGMENT, size[0], size[0]
     elif shape.kind == types.mjGEOM_CAPSULE:
-        kind, row[13], row[15], ball = _SEGMENT, size[1], size[0], size[0] + size[1]
+        kind, row[HALF + 1], row[ROUNDING], ball = SEGMENT, size[1], size[0], size[0] + size[1]
     elif shape.kind == types.mjGEOM_BOX:
-        kind, row[12:15], ball = _BOX, size, float(np.linalg.norm(size))
+        kind, row[HALF:ROUNDING], ball = BOX, size, float(np.linalg.norm(size))
     elif shape.kind == types.mjGEOM_CYLINDER:
-        kind, row[12:14], ball = _CYLINDER, size[:2], float(np.hypot(size[0], size[1]))
+        kind, row[HALF : HALF + 2], ball = CYLINDER, size[:2], float(np.hypot(size[0], size[1]))
     elif shape.kind == types.mjGEOM_ELLIPSOID:
-        kind, row[12:15], ball = _ELLIPSOID, size, max(size)
+        kind, row[HALF:ROUNDING], ball = ELLIPSOID, size, max(size)
     elif shape.kind == types.mjGEOM_PLANE:
-        kind = _PLANE
-    row[16], row[20] = margin_m, ball + margin_m
-    row[21:24] = _seen_along(matrix[:3, :3], _half_sizes(row, kind)) + margin_m
+        kind = PLANE
+    row[SLACK], row[RADIUS] = margin_m, ball + margin_m
+    row[BOX_HALF:] = _seen_along(matrix[:3, :3], _half_sizes(row, kind)) + margin_m
     return row, kind, _NONE
 
 
 def _hull_row(hull: _Hull, margin_m: float) -> tuple[FloatArray, int]:
     row = np.zeros(_ROW)
-    row[[0, 4, 8]] = 1.0
+    row[ROTATION:POSITION] = np.eye(3).ravel()
     corners = hull.corners_m
     centre = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
-    row[16] = hull.slack_m + margin_m
-    row[17:20] = centre
-    row[20] = float(np.linalg.norm(corners - centre, axis=1).max()) + row[16]
-    row[21:24] = corners.max(axis=0) - centre + row[16]
-    return row, _HULL
+    row[SLACK] = hull.slack_m + margin_m
+    row[CENTRE:RADIUS] = centre
+    row[RADIUS] = float(np.linalg.norm(corners - centre, axis=1).max()) + row[SLACK]
+    row[BOX_HALF:] = corners.max(axis=0) - centre + row[SLACK]
+    return row, HULL
 
 
 def _around(
@@ -122,13 +138,13 @@ def _around(
     """Return a hull around all; one of which nothing is known where a solid has no end."""
     corners = []
     for row, kind, own in made:
-        if kind == _HULL:
+        if kind == HULL:
             corners.append(own)
-        elif not np.isfinite(row[20]):
-            return _endless(), _OTHER, _NONE
+        elif not np.isfinite(row[RADIUS]):
+            return _endless(), OTHER, _NONE
         else:
             corners.append(_box_around(row, kind))
-    slack = max((row[16] - margin_m for row, kind, _ in made if kind == _HULL), default=0.0)
+    slack = max((row[SLACK] - margin_m for row, kind, _ in made if kind == HULL), default=0.0)
     hull = _reduced(np.concatenate(corners))
     hull = hull._replace(slack_m=hull.slack_m + slack)
     return (*_hull_row(hull, margin_m), hull.corners_m)
@@ -136,7 +152,7 @@ def _around(
 
 def _endless() -> FloatArray:
     row = np.zeros(_ROW)
-    row[20:24] = np.inf
+    row[RADIUS:] = np.inf
     return row
 
 
@@ -149,20 +165,22 @@ def _seen_along(rotation: FloatArray, half_m: FloatArray) -> FloatArray:
 
 def _half_sizes(row: FloatArray, kind: int) -> FloatArray:
     """Return the half sizes of the box around a primitive, along its own axes."""
-    if kind in {_PLANE, _OTHER}:
+    if kind in {PLANE, OTHER}:
         return np.full(3, np.inf)
-    half = row[12:15].copy()
-    if kind == _CYLINDER:
-        half[:] = row[12], row[12], row[13]
-    elif kind == _SEGMENT:
-        half[:] = 0.0, 0.0, row[13]
-    return np.asarray(half + row[15])
+    half = row[HALF:ROUNDING].copy()
+    if kind == CYLINDER:
+        half[:] = row[HALF], row[HALF], row[HALF + 1]
+    elif kind == SEGMENT:
+        half[:] = 0.0, 0.0, row[HALF + 1]
+    return np.asarray(half + row[ROUNDING])
 
 
 def _box_around(row: FloatArray, kind: int) -> FloatArray:
     """Return the corners of the box around a primitive."""
     signs = np.array(np.meshgrid(*[(-1.0, 1.0)] * 3)).reshape(3, -1).T
-    return signs * _half_sizes(row, kind) @ row[:9].reshape(3, 3).T + row[9:12]
+    return (
+        signs * _half_sizes(row, kind) @ row[ROTATION:POSITION].reshape(3, 3).T + row[POSITION:HALF]
+    )
 
 
 def _corners(points_m: FloatArray) -> FloatArray:

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915, PLR0917, PLW3301
+# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915, PLW3301
 """The compiled distance between two convex solids, as a bound that cannot be wrong.
 
 The search is that of E. Gilbert, D. Johnson and S. Keerthi, "A fast procedure for computing the
@@ -8,8 +8,7 @@ distance between complex objects in three-dimensional space" (IEEE J. Robotics a
 sides of a slab of the thickness asked for, and they `OVERLAP` when a tetrahedron of their
 difference holds the origin. What is neither is `UNKNOWN`.
 
-A solid is a row of numbers and one of integers, see `convex_rows.ConvexRows`. Frames are rotations
-and positions.
+Solids are given as `sweep_arguments.PlacedSolids`.
 """
 
 from __future__ import annotations
@@ -20,9 +19,42 @@ import numpy as np
 
 from gazelle.compiling import njit
 
-__all__ = ["APART", "OVERLAP", "UNKNOWN", "outside_m", "separation", "slab_m"]
+__all__ = [
+    "APART",
+    "BOX",
+    "BOX_HALF",
+    "CENTRE",
+    "CYLINDER",
+    "ELLIPSOID",
+    "FIRST_VERTEX",
+    "FRAME",
+    "HALF",
+    "HULL",
+    "KIND",
+    "OTHER",
+    "OVERLAP",
+    "PLANE",
+    "POSITION",
+    "RADIUS",
+    "ROTATION",
+    "ROUNDING",
+    "SEGMENT",
+    "SLACK",
+    "UNKNOWN",
+    "VERTICES",
+    "outside_m",
+    "separation",
+    "slab_m",
+]
 
 APART, OVERLAP, UNKNOWN = 0, 1, 2
+
+ROTATION, POSITION, HALF, ROUNDING, SLACK, CENTRE, RADIUS, BOX_HALF = 0, 9, 12, 15, 16, 17, 20, 21
+"""Columns of a solid's row, see `convex_rows.ConvexRows`."""
+KIND, FRAME, FIRST_VERTEX, VERTICES = range(4)
+"""Columns of its integers."""
+HULL, BOX, CYLINDER, SEGMENT, ELLIPSOID, PLANE, OTHER = range(7)
+"""Kinds of solids. Of the last nothing is known."""
 
 _MOST_ROUNDS = 32
 _ATTEMPTS = 3
@@ -31,63 +63,81 @@ _DEEP_M = 5e-6
 
 
 @njit(cache=True, nogil=True)
-def _support(number, solids, kinds, vertices, R, p, x, y, z, out, at):
+def _support(number, placed, x, y, z, out, at):
     """Write the point of a solid that is farthest in a direction of the robot's frame."""
-    frame = kinds[number, 1]
+    solids, kinds, vertices = placed.rows, placed.kinds, placed.vertices_m
+    R, p = placed.rotations, placed.positions_m
+    frame = kinds[number, FRAME]
     u = R[frame, 0, 0] * x + R[frame, 1, 0] * y + R[frame, 2, 0] * z
     v = R[frame, 0, 1] * x + R[frame, 1, 1] * y + R[frame, 2, 1] * z
     w = R[frame, 0, 2] * x + R[frame, 1, 2] * y + R[frame, 2, 2] * z
-    kind = kinds[number, 0]
-    if kind == 0:
-        first = kinds[number, 2]
+    kind = kinds[number, KIND]
+    if kind == HULL:
+        first = kinds[number, FIRST_VERTEX]
         best, farthest = first, -1e300
-        for i in range(first, first + kinds[number, 3]):
+        for i in range(first, first + kinds[number, VERTICES]):
             reach = vertices[0, i] * u + vertices[1, i] * v + vertices[2, i] * w
             if reach > farthest:
                 best, farthest = i, reach
         a, b, c = vertices[0, best], vertices[1, best], vertices[2, best]
     else:
-        k = solids[number, 0] * u + solids[number, 3] * v + solids[number, 6] * w
-        m = solids[number, 1] * u + solids[number, 4] * v + solids[number, 7] * w
-        n = solids[number, 2] * u + solids[number, 5] * v + solids[number, 8] * w
+        k = (
+            solids[number, ROTATION] * u
+            + solids[number, ROTATION + 3] * v
+            + solids[number, ROTATION + 6] * w
+        )
+        m = (
+            solids[number, ROTATION + 1] * u
+            + solids[number, ROTATION + 4] * v
+            + solids[number, ROTATION + 7] * w
+        )
+        n = (
+            solids[number, ROTATION + 2] * u
+            + solids[number, ROTATION + 5] * v
+            + solids[number, ROTATION + 8] * w
+        )
         i, j, h = 0.0, 0.0, 0.0
-        if kind == 1:
-            i = math.copysign(solids[number, 12], k)
-            j = math.copysign(solids[number, 13], m)
-            h = math.copysign(solids[number, 14], n)
-        elif kind == 2:
+        if kind == BOX:
+            i = math.copysign(solids[number, HALF], k)
+            j = math.copysign(solids[number, HALF + 1], m)
+            h = math.copysign(solids[number, HALF + 2], n)
+        elif kind == CYLINDER:
             flat = math.sqrt(k * k + m * m)
             if flat > 1e-12:
-                i, j = solids[number, 12] * k / flat, solids[number, 12] * m / flat
-            h = math.copysign(solids[number, 13], n)
-        elif kind == 3:
-            h = math.copysign(solids[number, 13], n)
-        elif kind == 4:
-            i, j, h = solids[number, 12] * k, solids[number, 13] * m, solids[number, 14] * n
+                i, j = solids[number, HALF] * k / flat, solids[number, HALF] * m / flat
+            h = math.copysign(solids[number, HALF + 1], n)
+        elif kind == SEGMENT:
+            h = math.copysign(solids[number, HALF + 1], n)
+        elif kind == ELLIPSOID:
+            i, j, h = (
+                solids[number, HALF] * k,
+                solids[number, HALF + 1] * m,
+                solids[number, HALF + 2] * n,
+            )
             length = math.sqrt(i * i + j * j + h * h)
             if length > 1e-300:
                 i, j, h = (
-                    i * solids[number, 12] / length,
-                    j * solids[number, 13] / length,
-                    h * solids[number, 14] / length,
+                    i * solids[number, HALF] / length,
+                    j * solids[number, HALF + 1] / length,
+                    h * solids[number, HALF + 2] / length,
                 )
         a = (
-            solids[number, 0] * i
-            + solids[number, 1] * j
-            + solids[number, 2] * h
-            + solids[number, 9]
+            solids[number, ROTATION] * i
+            + solids[number, ROTATION + 1] * j
+            + solids[number, ROTATION + 2] * h
+            + solids[number, POSITION]
         )
         b = (
-            solids[number, 3] * i
-            + solids[number, 4] * j
-            + solids[number, 5] * h
-            + solids[number, 10]
+            solids[number, ROTATION + 3] * i
+            + solids[number, ROTATION + 4] * j
+            + solids[number, ROTATION + 5] * h
+            + solids[number, POSITION + 1]
         )
         c = (
-            solids[number, 6] * i
-            + solids[number, 7] * j
-            + solids[number, 8] * h
-            + solids[number, 11]
+            solids[number, ROTATION + 6] * i
+            + solids[number, ROTATION + 7] * j
+            + solids[number, ROTATION + 8] * h
+            + solids[number, POSITION + 2]
         )
     out[at, 0] = R[frame, 0, 0] * a + R[frame, 0, 1] * b + R[frame, 0, 2] * c + p[frame, 0]
     out[at, 1] = R[frame, 1, 0] * a + R[frame, 1, 1] * b + R[frame, 1, 2] * c + p[frame, 1]
@@ -104,45 +154,70 @@ def _farthest(vertices, first, last, u, v, w):
 
 
 @njit(cache=True, nogil=True)
-def _reach(number, solids, kinds, vertices, R, p, x, y, z):
+def _reach(number, placed, x, y, z):
     """Return how far a solid reaches in a direction of the robot's frame."""
-    frame = kinds[number, 1]
+    solids, kinds, vertices = placed.rows, placed.kinds, placed.vertices_m
+    R, p = placed.rotations, placed.positions_m
+    frame = kinds[number, FRAME]
     reach = p[frame, 0] * x + p[frame, 1] * y + p[frame, 2] * z
     u = R[frame, 0, 0] * x + R[frame, 1, 0] * y + R[frame, 2, 0] * z
     v = R[frame, 0, 1] * x + R[frame, 1, 1] * y + R[frame, 2, 1] * z
     w = R[frame, 0, 2] * x + R[frame, 1, 2] * y + R[frame, 2, 2] * z
-    kind = kinds[number, 0]
-    if kind == 0:
-        first = kinds[number, 2]
-        return reach + _farthest(vertices, first, first + kinds[number, 3], u, v, w)
-    reach += solids[number, 9] * u + solids[number, 10] * v + solids[number, 11] * w
-    k = solids[number, 0] * u + solids[number, 3] * v + solids[number, 6] * w
-    m = solids[number, 1] * u + solids[number, 4] * v + solids[number, 7] * w
-    n = solids[number, 2] * u + solids[number, 5] * v + solids[number, 8] * w
-    if kind == 1:
+    kind = kinds[number, KIND]
+    if kind == HULL:
+        first = kinds[number, FIRST_VERTEX]
+        return reach + _farthest(vertices, first, first + kinds[number, VERTICES], u, v, w)
+    reach += (
+        solids[number, POSITION] * u
+        + solids[number, POSITION + 1] * v
+        + solids[number, POSITION + 2] * w
+    )
+    k = (
+        solids[number, ROTATION] * u
+        + solids[number, ROTATION + 3] * v
+        + solids[number, ROTATION + 6] * w
+    )
+    m = (
+        solids[number, ROTATION + 1] * u
+        + solids[number, ROTATION + 4] * v
+        + solids[number, ROTATION + 7] * w
+    )
+    n = (
+        solids[number, ROTATION + 2] * u
+        + solids[number, ROTATION + 5] * v
+        + solids[number, ROTATION + 8] * w
+    )
+    if kind == BOX:
         return (
             reach
-            + solids[number, 12] * abs(k)
-            + solids[number, 13] * abs(m)
-            + solids[number, 14] * abs(n)
+            + solids[number, HALF] * abs(k)
+            + solids[number, HALF + 1] * abs(m)
+            + solids[number, HALF + 2] * abs(n)
         )
-    if kind == 2:
-        return reach + solids[number, 12] * math.sqrt(k * k + m * m) + solids[number, 13] * abs(n)
-    if kind == 3:
-        return reach + solids[number, 13] * abs(n)
-    i, j, h = solids[number, 12] * k, solids[number, 13] * m, solids[number, 14] * n
+    if kind == CYLINDER:
+        return (
+            reach
+            + solids[number, HALF] * math.sqrt(k * k + m * m)
+            + solids[number, HALF + 1] * abs(n)
+        )
+    if kind == SEGMENT:
+        return reach + solids[number, HALF + 1] * abs(n)
+    i, j, h = solids[number, HALF] * k, solids[number, HALF + 1] * m, solids[number, HALF + 2] * n
     return reach + math.sqrt(i * i + j * j + h * h)
 
 
 @njit(cache=True, nogil=True)
-def slab_m(one, other, solids, kinds, vertices, R, p, axis):
+def slab_m(one, other, placed, axis):
     """Return how thick the slab across `axis` is that lies between two solids."""
-    if kinds[one, 0] >= 5 or kinds[other, 0] >= 5:
+    solids, kinds = placed.rows, placed.kinds
+    if kinds[one, KIND] >= PLANE or kinds[other, KIND] >= PLANE:
         return -1e300
     x, y, z = axis[0], axis[1], axis[2]
-    near = _reach(one, solids, kinds, vertices, R, p, -x, -y, -z)
-    far = _reach(other, solids, kinds, vertices, R, p, x, y, z)
-    larger = solids[one, 15] + solids[other, 15] + solids[one, 16] + solids[other, 16]
+    near = _reach(one, placed, -x, -y, -z)
+    far = _reach(other, placed, x, y, z)
+    larger = (
+        solids[one, ROUNDING] + solids[other, ROUNDING] + solids[one, SLACK] + solids[other, SLACK]
+    )
     return -near - far - larger
 
 
@@ -294,17 +369,13 @@ def _nearest(W, count, v, weights, best):
 
 
 @njit(cache=True, nogil=True)
-def separation(one, other, solids, kinds, vertices, R, p, enough, least, axis, work):
+def separation(one, other, placed, enough, least, axis, work):
     """Say how two solids lie to each other.
 
     Args:
         one: number of a solid.
         other: number of another.
-        solids: rows of numbers.
-        kinds: rows of integers.
-        vertices: (3, v), of all hulls, each in its solid's frame.
-        R: rotations of the frames.
-        p: positions of the frames.
+        placed: the solids.
         enough: distance in metres that is asked for.
         least: where they are not further apart than this it does not matter how far.
         axis: unit vector from the other to the one to begin with; the best one when it returns.
@@ -314,19 +385,29 @@ def separation(one, other, solids, kinds, vertices, R, p, enough, least, axis, w
         `APART` with a distance that is certain, more than `enough` where that could be shown;
         `OVERLAP`, or `UNKNOWN`, with a distance that is not more than the real one.
     """
-    if kinds[one, 0] == 5:
+    solids, kinds = placed.rows, placed.kinds
+    if kinds[one, KIND] == PLANE:
         one, other = other, one
-    if kinds[one, 0] >= 5 or kinds[other, 0] > 5:
+    if kinds[one, KIND] >= PLANE or kinds[other, KIND] > PLANE:
         return UNKNOWN, -1.0
-    rounding = solids[one, 15] + solids[other, 15]
-    slack = solids[one, 16] + solids[other, 16]
-    if kinds[other, 0] == 5:
-        r, o = R[kinds[other, 1]], p[kinds[other, 1]]
+    rounding = solids[one, ROUNDING] + solids[other, ROUNDING]
+    slack = solids[one, SLACK] + solids[other, SLACK]
+    if kinds[other, KIND] == PLANE:
+        r, o = placed.rotations[kinds[other, FRAME]], placed.positions_m[kinds[other, FRAME]]
         row = solids[other]
         for k in range(3):
-            axis[k] = r[k, 0] * row[2] + r[k, 1] * row[5] + r[k, 2] * row[8]
-            work[2, k] = r[k, 0] * row[9] + r[k, 1] * row[10] + r[k, 2] * row[11] + o[k]
-        _support(one, solids, kinds, vertices, R, p, -axis[0], -axis[1], -axis[2], work, 0)
+            axis[k] = (
+                r[k, 0] * row[ROTATION + 2]
+                + r[k, 1] * row[ROTATION + 5]
+                + r[k, 2] * row[ROTATION + 8]
+            )
+            work[2, k] = (
+                r[k, 0] * row[POSITION]
+                + r[k, 1] * row[POSITION + 1]
+                + r[k, 2] * row[POSITION + 2]
+                + o[k]
+            )
+        _support(one, placed, -axis[0], -axis[1], -axis[2], work, 0)
         clear = -rounding
         for k in range(3):
             clear += axis[k] * (work[0, k] - work[2, k])
@@ -344,8 +425,8 @@ def separation(one, other, solids, kinds, vertices, R, p, enough, least, axis, w
             x, y, z = -0.64, 0.6, -0.48
         count, length, last = 0, 1.0, 1e300
         for _ in range(_MOST_ROUNDS):
-            _support(one, solids, kinds, vertices, R, p, -x, -y, -z, work, 0)
-            _support(other, solids, kinds, vertices, R, p, x, y, z, work, 1)
+            _support(one, placed, -x, -y, -z, work, 0)
+            _support(other, placed, x, y, z, work, 1)
             for k in range(3):
                 W[count, k] = work[0, k] - work[1, k]
             reach = x * W[count, 0] + y * W[count, 1] + z * W[count, 2]
@@ -361,8 +442,8 @@ def separation(one, other, solids, kinds, vertices, R, p, enough, least, axis, w
                 if v[0] <= _DEEP_M:
                     _outward(W, v, work)
                     x, y, z = work[0, 3], work[1, 3], work[2, 3]
-                    _support(one, solids, kinds, vertices, R, p, x, y, z, work, 0)
-                    _support(other, solids, kinds, vertices, R, p, -x, -y, -z, work, 1)
+                    _support(one, placed, x, y, z, work, 0)
+                    _support(other, placed, -x, -y, -z, work, 1)
                     for k in range(3):
                         W[3, k] = work[0, k] - work[1, k]
                     v[0] = min(v[1], _room(W))

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
 """The compiled check of a whole motion: whether all of it is free, not only some states of it.
 
 Conservative advancement as F. Schwarzer, M. Saha and J.-C. Latombe use it for arms, "Adaptive
@@ -17,7 +17,25 @@ import math
 import numpy as np
 
 from gazelle.compiling import njit
-from gazelle.motion.collision.gjk_kernels import APART, OVERLAP, separation, slab_m
+from gazelle.motion.collision.gjk_kernels import (
+    APART,
+    BOX_HALF,
+    CENTRE,
+    FRAME,
+    OVERLAP,
+    RADIUS,
+    separation,
+    slab_m,
+)
+from gazelle.motion.collision.sweep_arguments import (
+    PASSING,
+    Bodies,
+    Carried,
+    GroupVariables,
+    Motions,
+    PlacedSolids,
+)
+from gazelle.motion.kinematics.chain import LinkTree
 from gazelle.motion.kinematics.kernels import tree
 
 __all__ = ["COLLIDES", "FREE", "MOST_STEPS", "TOO_LONG", "UNDECIDED", "pair_clear", "sweep"]
@@ -37,29 +55,31 @@ _MOST_LOOKS = 63
 
 
 @njit(cache=True, nogil=True)
-def _ball(number, solids, kinds, R, p, out, at):
+def _ball(number, placed, out, at):
     """Write the centre of a solid's ball in the robot's frame."""
-    frame = kinds[number, 1]
-    x, y, z = solids[number, 17], solids[number, 18], solids[number, 19]
+    solids, kinds, R, p = placed.rows, placed.kinds, placed.rotations, placed.positions_m
+    frame = kinds[number, FRAME]
+    x, y, z = solids[number, CENTRE], solids[number, CENTRE + 1], solids[number, CENTRE + 2]
     for k in range(3):
         out[at, k] = R[frame, k, 0] * x + R[frame, k, 1] * y + R[frame, k, 2] * z + p[frame, k]
 
 
 @njit(cache=True, nogil=True)
-def _clear(one, other, solids, kinds, vertices, R, p, enough, passing, axis, work):
+def _clear(one, other, placed, enough, passings, axis, work):
     """Return `separation` of two solids, their balls looked at first, and whether it is enough."""
-    _ball(one, solids, kinds, R, p, work, 0)
-    _ball(other, solids, kinds, R, p, work, 1)
+    solids, passing = placed.rows, passings[0]
+    _ball(one, placed, work, 0)
+    _ball(other, placed, work, 1)
     square = 0.0
     for k in range(3):
         work[2, k] = work[0, k] - work[1, k]
         square += work[2, k] * work[2, k]
         # How far the solids' centres are from those of the links or things they are of.
-        passing[18 + k] = work[0, k] - passing[12 + k]
-        passing[21 + k] = work[1, k] - passing[15 + k]
-    passing[7], passing[11] = solids[one, 20], solids[other, 20]
+        passing.offsets_m[0, k] = work[0, k] - passing.centres_m[0, k]
+        passing.offsets_m[1, k] = work[1, k] - passing.centres_m[1, k]
+    passing.radii_m[0], passing.radii_m[1] = solids[one, RADIUS], solids[other, RADIUS]
     gap = math.sqrt(square)
-    clear = gap - solids[one, 20] - solids[other, 20]
+    clear = gap - solids[one, RADIUS] - solids[other, RADIUS]
     if clear > enough:
         return APART, clear, True
     if axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0:
@@ -69,59 +89,62 @@ def _clear(one, other, solids, kinds, vertices, R, p, enough, passing, axis, wor
         else:
             axis[0] = 1.0
     else:
-        clear = slab_m(one, other, solids, kinds, vertices, R, p, axis)
-        if _is_enough(clear, enough, passing, axis):
+        clear = slab_m(one, other, placed, axis)
+        if _is_enough(clear, enough, passings, axis):
             return APART, clear, True
-    least = min(enough, passing[0])
-    state, clear = separation(one, other, solids, kinds, vertices, R, p, enough, least, axis, work)
-    return state, clear, state == APART and _is_enough(clear, enough, passing, axis)
+    least = min(enough, passing.changed_m)
+    state, clear = separation(one, other, placed, enough, least, axis, work)
+    return state, clear, state == APART and _is_enough(clear, enough, passings, axis)
 
 
 @njit(cache=True, nogil=True)
-def _is_enough(clear, enough, passing, axis):
+def _is_enough(clear, enough, passings, axis):
     """Tell whether two solids are so far apart across `axis` that they do not meet.
 
     They may come closer by `enough` in any direction; across this one less, see `_pass`.
     """
+    passing = passings[0]
     if clear > enough:
         return True
-    if clear <= passing[0]:
+    if clear <= passing.changed_m:
         return False
     x, y, z = axis[0], axis[1], axis[2]
-    along = x * passing[1] + y * passing[2] + z * passing[3]
+    along = x * passing.way_m[0] + y * passing.way_m[1] + z * passing.way_m[2]
     around = 0.0
-    for at in (4, 8):
-        u, v, w = passing[at], passing[at + 1], passing[at + 2]
+    for side in range(2):
+        u, v, w = passing.turns_rad[side, 0], passing.turns_rad[side, 1], passing.turns_rad[side, 2]
         a, b, c = y * w - z * v, z * u - x * w, x * v - y * u
         across = math.sqrt(a * a + b * b + c * c)
         # A floor has no end, and it does not turn.
         if across > 0.0:
-            around += across * passing[at + 3]
-            off = 18 if at == 4 else 21
-            part = a * passing[off] + b * passing[off + 1] + c * passing[off + 2]
-            along += part if at == 4 else -part
-    return clear > abs(along) + around + passing[0]
+            around += across * passing.radii_m[side]
+            off = passing.offsets_m[side]
+            part = a * off[0] + b * off[1] + c * off[2]
+            along += part if side == 0 else -part
+    return clear > abs(along) + around + passing.changed_m
 
 
 @njit(cache=True, nogil=True)
-def _box(body, members, solids, kinds, R, p, centres, halves):
+def _box(body, members, placed, carried):
     """Write the box around a link or thing whose sides are along the robot's axes."""
+    solids, kinds, R, p = placed.rows, placed.kinds, placed.rotations, placed.positions_m
+    centres, halves = carried.centres_m, carried.halves_m
     number = members[body, 0]
-    frame = kinds[number, 1]
+    frame = kinds[number, FRAME]
     for k in range(3):
         x, y, z = R[frame, k, 0], R[frame, k, 1], R[frame, k, 2]
         centres[body, k] = (
-            x * solids[number, 17] + y * solids[number, 18] + z * solids[number, 19]
+            x * solids[number, CENTRE]
+            + y * solids[number, CENTRE + 1]
+            + z * solids[number, CENTRE + 2]
         ) + p[frame, k]
-        halves[body, k] = (abs(x) * solids[number, 21] + abs(y) * solids[number, 22]) + abs(
-            z
-        ) * solids[number, 23]
+        halves[body, k] = (
+            abs(x) * solids[number, BOX_HALF] + abs(y) * solids[number, BOX_HALF + 1]
+        ) + abs(z) * solids[number, BOX_HALF + 2]
 
 
 @njit(cache=True, nogil=True)
-def pair_clear(
-    pair, pairs, members, solids, kinds, vertices, R, p, enough, few, passing, axes, work
-):
+def pair_clear(pair, bodies, placed, enough, few, passings, work):
     """Say how two links or things lie to each other, with the distance that is certain.
 
     Says, too, whether that is enough, see `_is_enough`.
@@ -129,18 +152,18 @@ def pair_clear(
     Of several solids the one around all is looked at first, and no other where that is apart and
     there are more than `few`: how far exactly is seen in the halves of a motion sooner.
     """
-    a, b = pairs[pair, 0], pairs[pair, 1]
+    passing, members, axes = passings[0], bodies.members, bodies.axes
+    kinds, R = placed.kinds, placed.rotations
+    a, b = bodies.pairs[pair, 0], bodies.pairs[pair, 1]
     first, last = members[a, 1], members[a, 1] + members[a, 2]
     begin, end = members[b, 1], members[b, 1] + members[b, 2]
     around, about = members[a, 0], members[b, 0]
     # Directions are kept in the frame of the second, so that they turn with it.
-    frame = kinds[about, 1]
+    frame = kinds[about, FRAME]
     x, y, z = axes[pair, 0], axes[pair, 1], axes[pair, 2]
     for k in range(3):
         work[9, k] = R[frame, k, 0] * x + R[frame, k, 1] * y + R[frame, k, 2] * z
-    state, clear, is_enough = _clear(
-        around, about, solids, kinds, vertices, R, p, enough, passing, work[9], work
-    )
+    state, clear, is_enough = _clear(around, about, placed, enough, passings, work[9], work)
     x, y, z = work[9, 0], work[9, 1], work[9, 2]
     for k in range(3):
         axes[pair, k] = R[frame, 0, k] * x + R[frame, 1, k] * y + R[frame, 2, k] * z
@@ -149,39 +172,37 @@ def pair_clear(
         return state, clear, is_enough
     if end - begin > last - first:
         first, last, begin, end, about = begin, end, first, last, around
-        _swap(passing)
+        _swap(passings)
     least, worst, are_enough = 1e300, APART, True
     for i in range(first, last):
         _forget(work)
-        state, clear, is_enough = _clear(
-            i, about, solids, kinds, vertices, R, p, enough, passing, work[9], work
-        )
+        state, clear, is_enough = _clear(i, about, placed, enough, passings, work[9], work)
         if is_enough:
             least = min(least, clear)
             continue
         for j in range(begin, end):
             _forget(work)
-            state, clear, is_enough = _clear(
-                i, j, solids, kinds, vertices, R, p, enough, passing, work[9], work
-            )
+            state, clear, is_enough = _clear(i, j, placed, enough, passings, work[9], work)
             if state == OVERLAP:
                 return OVERLAP, clear, False
             least = min(least, clear)
             if not is_enough:
                 # No more than this can be shown: whether any two overlap is all that is left.
-                are_enough, enough, passing[0] = False, 0.0, _NEVER_M
+                are_enough, enough, passing.changed_m = False, 0.0, _NEVER_M
             if state != APART:
                 worst = state
     return worst, least, are_enough
 
 
 @njit(cache=True, nogil=True)
-def _swap(passing):
+def _swap(passings):
     """Let the first be the second, and the other way round."""
+    passing = passings[0]
+    way, turns, centres = passing.way_m, passing.turns_rad, passing.centres_m
     for k in range(3):
-        passing[1 + k] = -passing[1 + k]
-        passing[4 + k], passing[8 + k] = passing[8 + k], passing[4 + k]
-        passing[12 + k], passing[15 + k] = passing[15 + k], passing[12 + k]
+        way[k] = -way[k]
+        turns[0, k], turns[1, k] = turns[1, k], turns[0, k]
+        centres[0, k], centres[1, k] = centres[1, k], centres[0, k]
 
 
 @njit(cache=True, nogil=True)
@@ -190,11 +211,13 @@ def _forget(work):
 
 
 @njit(cache=True, nogil=True)
-def _carried(way, moves, turns, rates, below):
+def _carried(way, motions, carried):
     """Write how far each joint turns on a way, rad, and how far it carries each link or thing.
 
     The second is a bound; beside it stands how far the joints behind it carry the same, m.
     """
+    moves, turns = motions.moves, motions.turns
+    rates, below = carried.rates_rad, carried.bounds_m
     for j in range(moves.shape[1]):
         rates[j] = 0.0
         for k in range(len(way)):
@@ -210,8 +233,10 @@ def _carried(way, moves, turns, rates, below):
 
 
 @njit(cache=True, nogil=True)
-def _axes(joints, joint_lines, R, p, lines):
+def _axes(motions, placed, carried):
     """Write the axis of each joint that turns, and a point of it."""
+    joints, joint_lines, lines = motions.joints, motions.lines, carried.lines
+    R, p = placed.rotations, placed.positions_m
     for j in range(len(joints)):
         link = joints[j]
         if link < 0:
@@ -222,12 +247,14 @@ def _axes(joints, joint_lines, R, p, lines):
 
 
 @njit(cache=True, nogil=True)
-def _carried_from(body, half, joints, lines, rates, below, members, solids, centres, out):
+def _carried_from(body, radius, half, joints, carried):
     """Write how far each joint carries a link or thing from where it is, m.
 
     A joint that turns carries no point further than the point is away from its axis: how far that
-    is now, and how much further the joints behind it can carry it.
+    is now, and how much further the joints behind it can carry it. All of it is within a radius.
     """
+    lines, rates, below = carried.lines, carried.rates_rad, carried.bounds_m
+    centres, out = carried.centres_m, carried.carried_m
     for j in range(len(joints)):
         most = half * below[body, j, 0]
         if joints[j] >= 0 and most > 0.0:
@@ -236,15 +263,13 @@ def _carried_from(body, half, joints, lines, rates, below, members, solids, cent
             b = centres[body, 1] - lines[j, 4]
             c = centres[body, 2] - lines[j, 5]
             k, m, n = y * c - z * b, z * a - x * c, x * b - y * a
-            away = math.sqrt(k * k + m * m + n * n) + solids[members[body, 0], 20]
+            away = math.sqrt(k * k + m * m + n * n) + radius
             most = min(most, half * abs(rates[j]) * (away + half * below[body, j, 1]))
         out[body, j] = most
 
 
 @njit(cache=True, nogil=True)
-def _pass(
-    pair, one, other, half, apart, above, joints, rates, lines, carried, centres, out
-):  # fmt: skip
+def _pass(pair, half, bodies, motions, carried, passings):
     """Write how two links or things pass each other while joints turn.
 
     Across one direction two come closer by what the speed of now has there, and by what that speed
@@ -252,15 +277,19 @@ def _pass(
     carries it, times how fast that joint and twice those before it turn. All is seen from the
     last link that both hang from.
 
-    Writes what the change of speed does, m, `_NEVER_M` where it is not known; the way of one centre
-    from the other, m; the turns of both, rad, with a place for how far points are from the centre;
-    where the centres are, and places for those of solids.
+    Leaves the places for solids, see `PASSING`, as they are.
     """
-    out[0] = _NEVER_M
-    for k in range(1, 12):
-        out[k] = 0.0
+    apart, one, other = bodies.apart, bodies.pairs[pair, 0], bodies.pairs[pair, 1]
+    joints, above = motions.joints, motions.above
+    rates, lines, centres = carried.rates_rad, carried.lines, carried.centres_m
+    passing = passings[0]
+    way, turns = passing.way_m, passing.turns_rad
+    passing.changed_m = _NEVER_M
+    passing.radii_m[0], passing.radii_m[1] = 0.0, 0.0
     for k in range(3):
-        out[12 + k], out[15 + k] = centres[one, k], centres[other, k]
+        way[k] = 0.0
+        turns[0, k], turns[1, k] = 0.0, 0.0
+        passing.centres_m[0, k], passing.centres_m[1, k] = centres[one, k], centres[other, k]
     changed, turned_one, turned_other = 0.0, 0.0, 0.0
     for j in range(len(joints)):
         if not apart[pair, j]:
@@ -273,20 +302,20 @@ def _pass(
         a = centres[body, 0] - lines[j, 3]
         b = centres[body, 1] - lines[j, 4]
         c = centres[body, 2] - lines[j, 5]
-        sign, at = (1.0, 4) if body == one else (-1.0, 8)
-        out[1] += sign * (y * c - z * b)
-        out[2] += sign * (z * a - x * c)
-        out[3] += sign * (x * b - y * a)
-        out[at] += x
-        out[at + 1] += y
-        out[at + 2] += z
+        sign, side = (1.0, 0) if body == one else (-1.0, 1)
+        way[0] += sign * (y * c - z * b)
+        way[1] += sign * (z * a - x * c)
+        way[2] += sign * (x * b - y * a)
+        turns[side, 0] += x
+        turns[side, 1] += y
+        turns[side, 2] += z
         before = turned_one if body == one else turned_other
-        changed += carried[body, j] * (abs(turn) + 2.0 * before)
+        changed += carried.carried_m[body, j] * (abs(turn) + 2.0 * before)
         if body == one:
             turned_one += abs(turn)
         else:
             turned_other += abs(turn)
-    out[0] = changed / 2.0
+    passing.changed_m = changed / 2.0
 
 
 @njit(cache=True, nogil=True)
@@ -318,12 +347,7 @@ def _first_looks(length):
 
 
 @njit(cache=True, nogil=True)
-def sweep(
-    q0, way, step, parents, A, a, joint_kinds, joint_axes, places, B, b,
-    positions, indices, followers, leaders, rules,
-    members, pairs, joints, joint_lines, turns, moves, above, apart,
-    solids, kinds, vertices, axes, order, R, p, work, unsure,
-):  # fmt: skip
+def sweep(q0, way, step, plain):
     """Say whether a motion from `q0` along `way` is free; its beginning is not looked at.
 
     Where `way` is zero only the state is looked at.
@@ -332,57 +356,36 @@ def sweep(
         q0: configuration of the group.
         way: what is added to it.
         step: longest piece, in the configuration's norm, of which only the middle is looked at.
-        parents: this and what follows up to `b` are the arguments of `kinematics.kernels.tree`.
-        A: see there.
-        a: see there.
-        joint_kinds: see there.
-        joint_axes: see there.
-        places: see there.
-        B: see there.
-        b: see there.
-        positions: of the whole robot; the group's part is overwritten.
-        indices: places of the group in it.
-        followers: places of what mimics.
-        leaders: places in the group of what is mimicked.
-        rules: factor and offset of each.
-        members: of each link or thing: the solid around all of it, its first solid, their number.
-        pairs: numbers of links or things that must not touch.
-        joints: number of the frame each joint moves with, -1 where it does not turn.
-        joint_lines: axis and a point of it in that frame.
-        turns: (j, n) how far each turns for one rad of a variable.
-        moves: (bodies, j, n) how far a joint carries a link or thing at most, m, for one rad or m.
-        above: (bodies, j) whether it moves it.
-        apart: (pairs, j) whether a joint moves one of both, and not both.
-        solids: of all links and things, see `convex_rows.ConvexRows`.
-        kinds: likewise.
-        vertices: (3, v) likewise.
-        axes: directions in which pairs were apart last; written.
-        order: pairs, those that met last first; written.
-        R: rotations of the frames; those of links that move are written.
-        p: their positions.
-        work: scratch of (10, 4).
-        unsure: (n,) takes the parts of the way, 0 to 1, of states that are not decided.
+        plain: all of the robot and its surroundings, `SweepArguments.plain`.
 
     Returns:
         `FREE`; `COLLIDES` and where, 0 to 1; `UNDECIDED` and how many states are; or `TOO_LONG`.
     """
+    links, group, motions = LinkTree(*plain[0]), GroupVariables(*plain[1]), Motions(*plain[2])
+    bodies, placed, work, doubtful = Bodies(*plain[3]), PlacedSolids(*plain[4]), plain[5], plain[6]
+    positions, indices, followers = group.positions, group.indices, group.followers
+    members, pairs, order = bodies.members, bodies.pairs, bodies.order
     n, count = len(q0), len(pairs)
     length = 0.0
     for k in range(n):
         length += way[k] * way[k]
     length = math.sqrt(length)
-    bodies, moving = moves.shape[0], moves.shape[1]
-    rates, below, lines = np.empty(moving), np.empty((bodies, moving, 2)), np.empty((moving, 6))
-    carried, passing = np.zeros((bodies, moving)), np.zeros(24)
+    moved, moving = motions.moves.shape[0], motions.moves.shape[1]
+    carried = Carried(
+        np.empty(moving), np.empty((moved, moving, 2)), np.empty((moving, 6)),
+        np.zeros((moved, moving)), np.empty((len(members), 3)), np.empty((len(members), 3)),
+    )  # fmt: skip
+    centres, halves_m, carried_m = carried.centres_m, carried.halves_m, carried.carried_m
+    # Records are places in their arrays, which numba keeps only as long as it needs the arrays.
+    passings = np.zeros(1, PASSING)
     if length > 0.0:
-        _carried(way, moves, turns, rates, below)
+        _carried(way, motions, carried)
     first_looks = _first_looks(length)
     most = 4 * int(length / step) + 16 + first_looks
     middles, halves = np.empty(most), np.empty(most)
     begins, ends = np.empty(most, np.int64), np.empty(most, np.int64)
     lists = np.empty(4 * count + 4096, np.int64)
     seen = np.full(len(members), -1)
-    box_centres, box_halves = np.empty((len(members), 3)), np.empty((len(members), 3))
     for i in range(count):
         lists[i] = order[i]
     # The end; some states, whether any two overlap there; then the middle of all, the middles of
@@ -405,10 +408,11 @@ def sweep(
         for k in range(n):
             positions[indices[k]] = q0[k] + way[k] * t
         for k in range(len(followers)):
-            positions[followers[k]] = rules[k, 0] * positions[indices[leaders[k]]] + rules[k, 1]
-        tree(parents, A, a, joint_kinds, joint_axes, places, B, b, positions, R, p)
+            leader = positions[indices[group.leaders[k]]]
+            positions[followers[k]] = group.rules[k, 0] * leader + group.rules[k, 1]
+        tree(links, positions, placed.rotations, placed.positions_m)
         if not is_leaf:
-            _axes(joints, joint_lines, R, p, lines)
+            _axes(motions, placed, carried)
         kept, is_sure = used, True
         if used + ends[here] - begins[here] > len(lists):
             longer = np.empty(2 * len(lists) + count, np.int64)
@@ -421,34 +425,26 @@ def sweep(
                 # Of a deep half few pairs are left, and most links are in none of them.
                 if seen[body] != here:
                     seen[body] = here
-                    _box(body, members, solids, kinds, R, p, box_centres, box_halves)
+                    _box(body, members, placed, carried)
                     if not is_leaf:
-                        _carried_from(
-                            body, half, joints, lines, rates, below, members, solids, box_centres,
-                            carried,
-                        )  # fmt: skip
+                        radius = placed.rows[members[body, 0], RADIUS]
+                        _carried_from(body, radius, half, motions.joints, carried)
             enough = 0.0
             if not is_leaf:
                 for k in range(moving):
-                    if apart[pair, k]:
-                        enough += carried[one, k] + carried[other, k]
+                    if bodies.apart[pair, k]:
+                        enough += carried_m[one, k] + carried_m[other, k]
             is_far = False
             for k in range(3):
-                gap = abs(box_centres[one, k] - box_centres[other, k])
-                gap -= box_halves[one, k] + box_halves[other, k]
+                gap = abs(centres[one, k] - centres[other, k])
+                gap -= halves_m[one, k] + halves_m[other, k]
                 is_far = is_far or gap > enough
             if is_far:
                 continue
-            passing[0] = _NEVER_M
+            passings[0].changed_m = _NEVER_M
             if not is_leaf:
-                _pass(
-                    pair, one, other, half, apart, above, joints, rates, lines, carried,
-                    box_centres, passing,
-                )  # fmt: skip
-            state, _, is_enough = pair_clear(
-                pair, pairs, members, solids, kinds, vertices, R, p, enough, few, passing, axes,
-                work,
-            )  # fmt: skip
+                _pass(pair, half, bodies, motions, carried, passings)
+            state, _, is_enough = pair_clear(pair, bodies, placed, enough, few, passings, work)
             if state == OVERLAP:
                 _to_the_front(pair, order)
                 return COLLIDES, t
@@ -459,9 +455,9 @@ def sweep(
             is_sure = is_sure and state == APART
         if is_leaf:
             if not is_sure:
-                if doubts == len(unsure):
+                if doubts == len(doubtful):
                     return TOO_LONG, t
-                unsure[doubts] = t
+                doubtful[doubts] = t
                 doubts += 1
         elif kept > used:
             for side in range(2):

@@ -25,7 +25,18 @@ _TREE_KINDS = {
 
 
 class LinkTree(NamedTuple):
-    """All links of a robot, each after the one above it; arguments of `kernels.tree`."""
+    """All links of a robot, each after the one above it, as `kernels.tree` takes them.
+
+    Attributes:
+        parents: (l,) number of the link above, -1 where there is none.
+        A: (l, 3, 3) rotations from the link above to the joint.
+        a: (l, 3) translations likewise, m.
+        kinds: (l,) of the joints.
+        axes: (l, 3) unit vectors.
+        places: (l,) of a joint's first variable in the robot's positions.
+        B: (l, 3, 3) rotations from the joint to the link.
+        b: (l, 3) translations likewise, m.
+    """
 
     parents: IntArray
     A: FloatArray
@@ -229,10 +240,11 @@ def _motion(joint: RobotJoint, positions: FloatArray) -> FloatArray:
     one = np.eye(3)[None]
     none = np.zeros((1, 3))
     R, p = np.empty((1, 3, 3)), np.empty((1, 3))
-    tree(
+    link = LinkTree(
         np.array([-1]), one, none, np.array([_TREE_KINDS[joint.kind]]), np.array([joint.axis]),
-        np.array([joint.first]), one, none, positions, R, p,
+        np.array([joint.first]), one, none,
     )  # fmt: skip
+    tree(link, positions, R, p)
     found = np.eye(4)
     found[:3, :3], found[:3, 3] = R[0], p[0]
     return found

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
 """The compiled inner loops of kinematics: poses of links, Jacobians, damped least squares.
 
 Machine code is cached beside the module (or where ``NUMBA_CACHE_DIR`` says). A chain is a list of
@@ -89,8 +89,14 @@ def _moved(R, p, v):
 
 
 @njit(cache=True, nogil=True)
-def tree(parents, A, a, kinds, axes, places, B, b, positions, R, p):
-    """Write rotation and position of every link; a planar joint is kind 4, a floating one 5."""
+def tree(links, positions, R, p):
+    """Write rotation and position of every link of a `LinkTree`.
+
+    A planar joint is kind 4, a floating one 5.
+    """
+    parents, A, a = links.parents, links.A, links.a
+    kinds, axes, places = links.kinds, links.axes, links.places
+    B, b = links.B, links.b
     M = np.empty((3, 3))
     S = np.empty((3, 3))
     v = np.zeros(3)

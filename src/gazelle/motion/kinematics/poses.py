@@ -31,7 +31,7 @@ def link_poses(
     arrays = _tree_of(robot)
     count = len(arrays.parents)
     R, p = np.empty((count, 3, 3)), np.empty((count, 3))
-    tree(*arrays, np.ascontiguousarray(positions, dtype=np.float64), R, p)
+    tree(arrays, np.ascontiguousarray(positions, dtype=np.float64), R, p)
     poses = np.zeros((count, 4, 4))
     poses[:, :3, :3], poses[:, :3, 3], poses[:, 3, 3] = R, p, 1.0
     found = dict(zip(robot.links, poses, strict=True))

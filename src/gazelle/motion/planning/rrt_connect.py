@@ -6,7 +6,7 @@ import numpy as np
 
 from gazelle.motion.collision.sweep_kernels import MOST_STEPS
 from gazelle.motion.planning.problem import Problem, Waypoints
-from gazelle.motion.planning.rrt_connect_kernels import ARRIVED, DOUBTFUL, connect_trees
+from gazelle.motion.planning.rrt_connect_kernels import ARRIVED, DOUBTFUL, Draws, connect_trees
 from gazelle.motion.planning.tree import Tree, warm_up_trees
 from gazelle.motion.space import FloatArray, JointSpace, SweptMotions, SweptValidity, Validity
 
@@ -93,11 +93,10 @@ def _connect(
     step: float,
     motions: SweptMotions,
 ) -> tuple[int, int, int, int]:
+    draws = Draws(space.continuous, space.low, space.width, chances)
     state, draw, node, meeting, near.arrays, far.arrays = connect_trees(
-        *near.arrays, *far.arrays, space.continuous, space.low, space.width, chances,
-        float(reach), float(_DOMAIN * reach), motions.lower, motions.upper, float(step),
-        motions.bounds,
-    )  # fmt: skip
+        near.arrays, far.arrays, draws, float(reach), float(_DOMAIN * reach), motions, float(step)
+    )
     return state, draw, node, meeting
 
 

@@ -1,22 +1,41 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0917
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled loop of RRT-Connect, for robots whose motions a kernel can check."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from gazelle.compiling import njit
 from gazelle.motion.collision.sweep_kernels import COLLIDES, FREE, sweep
+from gazelle.motion.planning.tree import TreeArrays
 from gazelle.motion.planning.tree_kernels import drawn, nearest
+from gazelle.motion.space import BoolArray, FloatArray
 
-__all__ = ["ARRIVED", "BLOCKED", "DOUBTFUL", "connect_trees"]
+__all__ = ["ARRIVED", "BLOCKED", "DOUBTFUL", "Draws", "connect_trees"]
 
 BLOCKED, ARRIVED, DOUBTFUL = 0, 1, 2
 
 _TURN = 2.0 * math.pi
+
+
+class Draws(NamedTuple):
+    """What is drawn of a space.
+
+    Attributes:
+        turning: (n,) joints that turn without end.
+        low: (n,) where draws begin.
+        width: (n,) how wide their range is.
+        chances: (draws, d, n), see `tree_kernels.drawn`.
+    """
+
+    turning: BoolArray
+    low: FloatArray
+    width: FloatArray
+    chances: FloatArray
 
 
 @njit(cache=True, nogil=True)
@@ -36,12 +55,12 @@ def _step_to(q, target, turning, reach, end):
 
 
 @njit(cache=True, nogil=True)
-def _verdict(q, end, lower, upper, step, bounds):
+def _verdict(q, end, motions, step):
     """Return what is known of the motion between two configurations."""
     for k in range(len(q)):
-        if not lower[k] <= end[k] <= upper[k]:
+        if not motions.lower[k] <= end[k] <= motions.upper[k]:
             return COLLIDES
-    return sweep(q, end - q, step, *bounds)[0]
+    return sweep(q, end - q, step, motions.plain)[0]
 
 
 @njit(cache=True, nogil=True)
@@ -55,95 +74,74 @@ def _twice(nodes, parents, domains):
 
 
 @njit(cache=True, nogil=True)
-def _grow(
-    nodes, parents, domains, count, here, target, most, turning, reach, lower, upper, step, bounds
-):
+def _grow(tree, here, target, most, turning, reach, motions, step):
     """Grow a tree from a node towards a target, in motions of the planner's range.
 
     Returns:
         the tree; the last node added, -1 where none was; and how it ended.
     """
-    last, gone, end = -1, 0.0, np.empty(len(target))
+    nodes, parents, domains, count = tree.nodes, tree.parents, tree.domains, tree.size
+    last, gone, end, state = -1, 0.0, np.empty(len(target)), BLOCKED
     while gone < most:
         distance = _step_to(nodes[here], target, turning, reach, end)
         if distance > 0.0:
-            found = _verdict(nodes[here], end, lower, upper, step, bounds)
+            found = _verdict(nodes[here], end, motions, step)
             if found != FREE:
                 state = BLOCKED if found == COLLIDES else DOUBTFUL
-                return nodes, parents, domains, count, last, state
+                break
         if count == len(nodes):
             nodes, parents, domains = _twice(nodes, parents, domains)
         nodes[count], parents[count] = end, here
         here = last = count
         count += 1
         if distance <= reach:
-            return nodes, parents, domains, count, last, ARRIVED
+            state = ARRIVED
+            break
         gone += reach
-    return nodes, parents, domains, count, last, BLOCKED
+    return TreeArrays(nodes, parents, domains, count), last, state
 
 
 @njit(cache=True, nogil=True)
-def connect_trees(
-    nodes, parents, domains, count, nodes_b, parents_b, domains_b, count_b,
-    turning, low, width, chances, reach, domain, lower, upper, step, bounds,
-):  # fmt: skip
+def connect_trees(near, far, draws, reach, domain, motions, step):
     """Let two trees grow towards each other until they meet or the draws are used up.
 
     Args:
-        nodes: (m, n), of the first tree.
-        parents: (m,) likewise.
-        domains: (m,) likewise, how far a node grows.
-        count: how many nodes it has.
-        nodes_b: this and what follows up to `count_b` are the second tree.
-        parents_b: see there.
-        domains_b: see there.
-        count_b: see there.
-        turning: (n,) joints that turn without end.
-        low: (n,) where draws begin.
-        width: (n,) how wide their range is.
-        chances: (draws, d, n), see `tree_kernels.drawn`.
+        near: the first tree, `TreeArrays`.
+        far: the second one.
+        draws: a `Draws`.
         reach: longest motion added at once.
         domain: how far a node grows that an obstacle was next to.
-        lower: (n,) least allowed.
-        upper: (n,) most allowed.
+        motions: what is needed to check them, a `SweptMotions`.
         step: see `sweep_kernels.sweep`.
-        bounds: its arguments from the fourth on.
 
     Returns:
         how it ended, `BLOCKED` where the draws are used up; the number of the last draw, which is
         to be done by other means where it was `DOUBTFUL`; the nodes of both trees that met; and
         both trees.
     """
+    turning, low, width = draws.turning, draws.low, draws.width
     state, draw, node, meeting, is_swapped = BLOCKED, 0, -1, -1, False
-    for draw in range(len(chances)):
+    grown, other = near, far
+    for draw in range(len(draws.chances)):
         # The smaller tree grows, so that a tree in a narrow place is not left behind.
-        if count > count_b or (count == count_b and is_swapped):
-            nodes, nodes_b, parents, parents_b = nodes_b, nodes, parents_b, parents
-            domains, domains_b, count, count_b = domains_b, domains, count_b, count
+        if grown.size > other.size or (grown.size == other.size and is_swapped):
+            grown, other = other, grown
             is_swapped = not is_swapped
-        target, here = drawn(nodes, count, turning, domains, low, width, chances[draw])
-        nodes, parents, domains, count, node, state = _grow(
-            nodes, parents, domains, count, here, target, reach,
-            turning, reach, lower, upper, step, bounds,
-        )  # fmt: skip
+        target, here = drawn(
+            grown.nodes, grown.size, turning, grown.domains, low, width, draws.chances[draw]
+        )
+        grown, node, state = _grow(grown, here, target, reach, turning, reach, motions, step)
         if state == DOUBTFUL:
             break
         if node < 0:
-            domains[here] = domain
+            grown.domains[here] = domain
             continue
-        target = nodes[node].copy()
-        here = nearest(nodes_b, count_b, turning, target)[0]
-        nodes_b, parents_b, domains_b, count_b, meeting, state = _grow(
-            nodes_b, parents_b, domains_b, count_b, here, target, np.inf,
-            turning, reach, lower, upper, step, bounds,
-        )  # fmt: skip
+        target = grown.nodes[node].copy()
+        here = nearest(other.nodes, other.size, turning, target)[0]
+        other, meeting, state = _grow(other, here, target, np.inf, turning, reach, motions, step)
         if state != BLOCKED:
             break
     if is_swapped:
-        nodes, nodes_b, parents, parents_b = nodes_b, nodes, parents_b, parents
-        domains, domains_b, count, count_b = domains_b, domains, count_b, count
+        grown, other = other, grown
         node, meeting = meeting, node
-    return (
-        state, draw, node, meeting,
-        (nodes, parents, domains, count), (nodes_b, parents_b, domains_b, count_b),
-    )  # fmt: skip
+    return state, draw, node, meeting, grown, other

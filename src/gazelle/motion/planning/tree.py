@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +17,21 @@ __all__ = ["Tree", "TreeArrays", "warm_up_trees"]
 
 _TURN = 2.0 * math.pi
 
-TreeArrays = tuple[FloatArray, NDArray[np.int64], FloatArray, int]
-"""Nodes, (m, n), the parent of each, how far each grows, and how many of them there are."""
+
+class TreeArrays(NamedTuple):
+    """A tree as kernels take it, with room for more nodes than there are.
+
+    Attributes:
+        nodes: (m, n).
+        parents: (m,) node above each, -1 for roots.
+        domains: (m,) how far each grows, inf where nothing bars it.
+        size: how many nodes there are.
+    """
+
+    nodes: FloatArray
+    parents: NDArray[np.int64]
+    domains: FloatArray
+    size: int
 
 
 @cache
@@ -63,7 +77,7 @@ class Tree:
     @property
     def arrays(self) -> TreeArrays:
         """The nodes and what is known of them, for kernels that make the tree grow."""
-        return self._nodes, self.parents, self._domains, self._count
+        return TreeArrays(self._nodes, self.parents, self._domains, self._count)
 
     @arrays.setter
     def arrays(self, arrays: TreeArrays) -> None:
