@@ -27,7 +27,7 @@ from gazelle.description.srdf import load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker
-from gazelle.motion.kinematics import Solver
+from gazelle.motion.kinematics import Patience, Solver
 from gazelle.motion.model import RobotModel
 from gazelle.motion.scene import PlanningScene, WorldObject
 from gazelle.motion.space import FloatArray
@@ -223,7 +223,9 @@ def problem_of(
             continue
         solver = Solver(robot, "arm")
         for T_base_tip in _poses(furniture, target, arm.approach, rng):
-            goal = solver.ik(T_base_tip, seed_q=start, attempts=30, validity=checker, rng=rng)
+            goal = solver.ik(
+                T_base_tip, seed_q=start, patience=Patience(attempts=30), validity=checker, rng=rng
+            )
             if goal is not None:
                 return scene, "arm", start, goal
     raise AssertionError(f"{robot.name}: '{family}' {number} leaves the arm no room")

@@ -34,7 +34,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.model import RobotModel
-from gazelle.motion.planning import PlanningError, plan
+from gazelle.motion.planning import PlanningError, Search, plan
 from gazelle.motion.scene import AllowedCollisions, PlacedShape, PlanningScene, WorldObject
 from gazelle.motion.space import FloatArray
 
@@ -170,7 +170,7 @@ def _result(
     space = scene.robot.group(group).space
     mark = time.process_time()
     try:
-        path = plan(space, checker, start, [goal], time_limit_s=_LIMIT_S)
+        path = plan(space, checker, start, [goal], search=Search(time_limit_s=_LIMIT_S))
     except PlanningError:
         return _Result(1e3 * (built - begin), 1e3 * (time.process_time() - mark), False, True)
     planned = time.process_time()

@@ -23,7 +23,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from tests.motion.problems import REACHES_M, Case, case_of, robot_named
 
-from gazelle.motion.planning import PlannerSettings, PlanningError, plan
+from gazelle.motion.planning import PlannerSettings, PlanningError, Search, plan
 from gazelle.motion.planning.ompl_planners import solver, why_missing
 from gazelle.motion.planning.problem import Problem
 from gazelle.motion.timing import parameterise
@@ -56,7 +56,9 @@ def main() -> None:
 
 def _own(case: Case) -> tuple[float, ...] | None:
     try:
-        path = plan(case.space, case.checker, case.start, [case.goal], time_limit_s=60.0)
+        path = plan(
+            case.space, case.checker, case.start, [case.goal], search=Search(time_limit_s=60.0)
+        )
     except PlanningError as error:
         print(f"  {case.number}: {error}")
         return None

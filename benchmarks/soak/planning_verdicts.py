@@ -23,7 +23,7 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from tests.motion.problems import REACHES_M, Case, random_case, robot_named
 
-from gazelle.motion.planning import PlannerSettings, PlanningError, first_fault, plan
+from gazelle.motion.planning import PlannerSettings, PlanningError, Search, first_fault, plan
 from gazelle.motion.planning.ompl_planners import solver
 from gazelle.motion.planning.problem import Problem
 
@@ -79,7 +79,13 @@ def _has_solution(case: Case, limit_s: float) -> bool:
 
 def _is_solved(case: Case) -> bool:
     try:
-        plan(case.space, case.checker, case.start, [case.goal], seed=case.number, time_limit_s=60.0)
+        plan(
+            case.space,
+            case.checker,
+            case.start,
+            [case.goal],
+            search=Search(seed=case.number, time_limit_s=60.0),
+        )
     except PlanningError as error:
         print(f"  problem {case.number}: {error}")
         return False

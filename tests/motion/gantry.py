@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from gazelle.motion.constraints.rotation import Parameterization, euler_xyz, matrix_of
+from gazelle.motion.kinematics import Patience
 from gazelle.motion.space import FloatArray, JointSpace
 
 
@@ -48,7 +49,7 @@ class Gantry:
         T_base_tip: FloatArray,
         *,
         seed_q: FloatArray | None = None,
-        attempts: int = 100,
+        patience: Patience,
         link: str = "",
     ) -> FloatArray | None:
         q = np.concatenate([T_base_tip[:3, 3], euler_xyz(T_base_tip[:3, :3])])

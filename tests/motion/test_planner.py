@@ -12,7 +12,7 @@ from gazelle.description.model import Box
 from gazelle.errors import NotFoundError, UserFileError
 from gazelle.geometry import Pose
 from gazelle.motion import Planner
-from gazelle.motion.planning import ErrorCode, PlanningError, first_fault
+from gazelle.motion.planning import ErrorCode, PlanningError, Search, first_fault
 from gazelle.motion.scene import WorldObject
 
 _ARMS = Path(__file__).parent / "arms"
@@ -73,7 +73,7 @@ def test_obstacles_are_gone_around(planner: Planner) -> None:
     post = WorldObject.single("post", Box((0.08, 0.08, 1.6)), Pose((x, y, 0.8)))
     planner.scene = planner.scene.with_object(post)
     assert "post" in str(planner.collisions({**_READY, "joint1": 0.7}, group="arm")[0])
-    motion = planner.plan({"joint1": 1.4}, group="arm", seed=1)
+    motion = planner.plan({"joint1": 1.4}, group="arm", search=Search(seed=1))
     assert len(motion.path.waypoints) > 2
     group = planner.robot.group("arm")
     checker = planner._checker(group)

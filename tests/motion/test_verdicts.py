@@ -11,7 +11,7 @@ import pytest
 from tests.motion.problems import REACHES_M, Case, case_of, robot_named
 from tests.shared_files import shared_cases
 
-from gazelle.motion.planning import FINE_STEP, PlanningError, first_fault, plan
+from gazelle.motion.planning import FINE_STEP, PlanningError, Search, first_fault, plan
 from gazelle.motion.timing import parameterise
 
 _FILE = Path(__file__).parent / "planning_verdicts.json"
@@ -40,7 +40,11 @@ def test_what_ompl_solves_is_solved(name: str) -> None:
     for number, case in enumerate(cases):
         try:
             path = plan(
-                case.space, case.checker, case.start, [case.goal], seed=1, time_limit_s=60.0
+                case.space,
+                case.checker,
+                case.start,
+                [case.goal],
+                search=Search(seed=1, time_limit_s=60.0),
             )
         except PlanningError as error:
             unsolved.append(f"{case.number}: {error}")

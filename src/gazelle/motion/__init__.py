@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gazelle.motion.planner import Goal, PlannedMotion, Planner
+    from gazelle.motion.planner import Goal, PlannedMotion, Planner, Search
 
-__all__ = ["Goal", "PlannedMotion", "Planner"]
+__all__ = ["Goal", "PlannedMotion", "Planner", "Search"]
 
 
 def __getattr__(name: str) -> Any:

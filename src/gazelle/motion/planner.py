@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,21 +14,22 @@ from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker, CollisionContact
 from gazelle.motion.constraints import Constrained, PathConstraint
-from gazelle.motion.kinematics import Solver, link_poses
+from gazelle.motion.kinematics import Patience, Solver, link_poses
 from gazelle.motion.model import JointGroup, RobotModel
-from gazelle.motion.planning import ErrorCode, Path, PlanningError, configured, plan
+from gazelle.motion.planning import ErrorCode, Path, PlanningError, Search, configured, plan
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory, method_of, parameterise
 from gazelle.workspace import Workspace
 
-__all__ = ["Goal", "PlannedMotion", "Planner"]
+__all__ = ["Goal", "PlannedMotion", "Planner", "Search"]
 
 Goal = str | Mapping[str, float] | Pose | FloatArray
 """A named state, positions by joint, or a pose of the tip (a 4×4 array or a `Pose`)."""
 
 _GOALS = 8
 _DRAWS = 40
+_USUAL = Search()
 
 
 @dataclass(frozen=True)
@@ -162,7 +163,7 @@ class Planner:
             _matrix(pose),
             seed_q=own.take(start),
             validity=self._checker(own) if avoid_collisions else None,
-            timeout_s=timeout_s,
+            patience=Patience(timeout_s=timeout_s),
             link=link,
         )
         return None if found is None else dict(zip(own.variables, found.tolist(), strict=True))
@@ -193,9 +194,7 @@ class Planner:
         group: str = "",
         start: Mapping[str, float] | None = None,
         link: str = "",
-        planner: str = "",
-        seed: int = 0,
-        time_limit_s: float = 5.0,
+        search: Search = _USUAL,
         velocity_scaling: float | None = None,
         acceleration_scaling: float | None = None,
         constraints: Sequence[PathConstraint] = (),
@@ -207,9 +206,8 @@ class Planner:
             group: what moves; the only group when empty.
             start: positions by joint; the scene's where it says nothing.
             link: what is brought to a pose; the group's tip when empty.
-            planner: name of a planner or of a configuration in ompl_planning.yaml.
-            seed: of all chance.
-            time_limit_s: gives up after so long.
+            search: how the path is looked for; its planner may be a configuration in
+                ompl_planning.yaml, with the parameters there unless it has its own.
             velocity_scaling: share of the velocity limits, 0 to 1; joint_limits.yaml's when None.
             acceleration_scaling: the same of acceleration.
             constraints: what must hold all along the path.
@@ -220,21 +218,20 @@ class Planner:
         """
         own = self._group(group)
         pipeline = self.config.pipelines[self.config.default_pipeline]
-        chosen = configured(pipeline, own.name, planner, own.space, self.diagnostics)
+        chosen = configured(pipeline, own.name, search.planner, own.space, self.diagnostics)
         scene = self.scene.with_positions(start or {})
         checker = self._checker(own).follow(scene)
         begin = own.take(scene.positions)
-        goals = self._goals(goal, own, begin, checker, link, seed)
+        goals = self._goals(goal, own, begin, checker, link, search.seed)
         path = plan(
             own.space,
             checker,
             begin,
             goals,
-            planner=chosen.planner,
-            seed=seed,
-            time_limit_s=time_limit_s,
+            search=replace(
+                search, planner=chosen.planner, settings=search.settings or chosen.settings
+            ),
             constraints=constraints,
-            settings=chosen.settings,
         )
         method, notes = method_of((*pipeline.request_adapters, *pipeline.response_adapters))
         velocity, acceleration = self.config.velocity_scaling, self.config.acceleration_scaling
@@ -296,7 +293,8 @@ class Planner:
         for _ in range(_DRAWS):
             if len(found) >= _GOALS:
                 break
-            other = solver.ik(pose, seed_q=group.space.sample(rng), rng=rng, attempts=5, link=link)
+            elsewhere, few = group.space.sample(rng), Patience(attempts=5)
+            other = solver.ik(pose, seed_q=elsewhere, rng=rng, patience=few, link=link)
             if other is not None and checker.is_valid(other) and _is_new(other, found):
                 found.append(other)
         if not found:

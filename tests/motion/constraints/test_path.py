@@ -15,7 +15,7 @@ from gazelle.motion.constraints import (
     Region,
     projection,
 )
-from gazelle.motion.planning import ErrorCode, PlannerSettings, PlanningError, plan
+from gazelle.motion.planning import ErrorCode, PlannerSettings, PlanningError, Search, plan
 
 _ARM = PlanarArm((), links=4, length_m=0.3)
 _SPACE = space_of(4)
@@ -69,10 +69,10 @@ def test_paths_keep_an_orientation(planner: str, circles: tuple[Circle, ...]) ->
         arm,
         start,
         [goal],
-        planner=planner,
+        search=Search(
+            planner=planner, settings=PlannerSettings(max_iterations=20), time_limit_s=300.0
+        ),
         constraints=[upright],
-        settings=PlannerSettings(max_iterations=20),
-        time_limit_s=300.0,
     )
     states = path.densified(0.005)
     assert np.abs(states.sum(axis=1)).max() <= 0.05 + 1e-6
@@ -88,7 +88,9 @@ def test_the_tip_follows_a_line_four_centimetres_wide() -> None:
         found = project(np.array([first, -first, 0.3 * first, 0.2]))
         assert found is not None
         q[index] = found
-    path = plan(_SPACE, _ARM, q[0], [q[1]], constraints=[_on_line(0.02)], time_limit_s=300.0)
+    path = plan(
+        _SPACE, _ARM, q[0], [q[1]], constraints=[_on_line(0.02)], search=Search(time_limit_s=300.0)
+    )
     tips = np.array([_ARM.corners(state)[-1] for state in path.densified(0.005)])
     assert np.abs(tips[:, 0] - 0.6).max() <= 0.02 + 1e-6
 
@@ -97,7 +99,7 @@ def test_joint_constraints_narrow_the_limits() -> None:
     keep = JointConstraint("joint_2", 1, 0.2, 0.1, 0.1)
     wall = PlanarArm(((0.0, -0.6, 0.2), (1.0, 0.3, 0.1)), links=4, length_m=0.3)
     start, goal = np.array([1.5, 0.2, 0.0, 0.0]), np.array([-0.8, 0.25, 0.0, 0.0])
-    path = plan(_SPACE, wall, start, [goal], constraints=[keep], time_limit_s=300.0)
+    path = plan(_SPACE, wall, start, [goal], constraints=[keep], search=Search(time_limit_s=300.0))
     assert np.abs(path.waypoints[:, 1] - 0.2).max() <= 0.1 + 1e-9
 
 

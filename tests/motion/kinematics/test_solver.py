@@ -11,7 +11,7 @@ from gazelle.description.moveit import KinematicsSettings
 from gazelle.description.posing import posed_model
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
-from gazelle.motion.kinematics import Solver, link_poses
+from gazelle.motion.kinematics import Patience, Solver, link_poses
 from gazelle.motion.model import RobotModel
 from gazelle.motion.space import FloatArray
 
@@ -122,7 +122,7 @@ def test_whole_turns_are_taken_towards_the_seed(ur_like: RobotModel) -> None:
 def test_what_is_out_of_reach_has_no_answer(ur_like: RobotModel) -> None:
     pose = np.eye(4)
     pose[:3, 3] = 5.0, 0.0, 0.0
-    assert Solver(ur_like, "arm").ik(pose, attempts=20) is None
+    assert Solver(ur_like, "arm").ik(pose, patience=Patience(attempts=20)) is None
 
 
 def test_position_only_leaves_the_orientation(ur_like: RobotModel) -> None:

@@ -10,7 +10,7 @@ from tests.motion.plane import Map2D, space_of
 
 from gazelle.description.moveit import DEFAULT_CONFIGS, GroupPlanners, Pipeline
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.motion.planning import PLANNERS, PlannerConfig, configured, plan
+from gazelle.motion.planning import PLANNERS, PlannerConfig, Search, configured, plan
 
 _SPAN = SourceSpan("ompl_planning.yaml", 3)
 
@@ -83,7 +83,11 @@ def test_settings_of_paths_are_kept_by_every_planner() -> None:
     assert not config.settings.simplify
     assert not found
     path = plan(
-        space_of(2), Map2D(()), np.zeros(2), [np.ones(2)], planner="PRM", settings=config.settings
+        space_of(2),
+        Map2D(()),
+        np.zeros(2),
+        [np.ones(2)],
+        search=Search(planner="PRM", settings=config.settings),
     )
     assert len(path.waypoints) >= 10
 
@@ -158,7 +162,11 @@ def test_planners_of_ompl_get_their_parameters_and_projection() -> None:
     circle = Map2D(((0.0, 0.0, 1.0),))
     ends = np.array([-2.0, 0.0]), np.array([2.0, 0.0])
     path = plan(
-        space_of(2), circle, ends[0], [ends[1]], planner=config.planner, settings=config.settings
+        space_of(2),
+        circle,
+        ends[0],
+        [ends[1]],
+        search=Search(planner=config.planner, settings=config.settings),
     )
     assert path.planner == "BKPIECE"
     assert path.notes == ()

@@ -11,7 +11,7 @@ from tests.motion.plane import Map2D, space_of
 
 from gazelle.description.moveit import Pipeline
 from gazelle.diagnostics import Diagnostics
-from gazelle.motion.planning import PlanningError, configured, plan
+from gazelle.motion.planning import PlanningError, Search, configured, plan
 from gazelle.motion.planning.planners import choose
 
 _EMPTY = Map2D(())
@@ -43,8 +43,7 @@ def test_a_planner_of_an_installed_package_plans_with_its_own_parameters(tmp_pat
             _EMPTY,
             np.zeros(2),
             [np.ones(2)],
-            planner=config.planner,
-            settings=config.settings,
+            search=Search(planner=config.planner, settings=config.settings),
         )
         assert path.planner == "Beeline"
         assert path.waypoints.tolist() == [[0.0, 0.0], [-0.5, -0.5], [1.0, 1.0]]
@@ -52,11 +51,13 @@ def test_a_planner_of_an_installed_package_plans_with_its_own_parameters(tmp_pat
 
 def test_the_planner_of_the_page_goes_straight_or_not_at_all(tmp_path: Path) -> None:
     with installed(tmp_path, "bee_parts", code_of_page("A planner"), _POINTS):
-        path = plan(space_of(2), _EMPTY, np.zeros(2), [np.ones(2)], planner="Beeline")
+        path = plan(
+            space_of(2), _EMPTY, np.zeros(2), [np.ones(2)], search=Search(planner="Beeline")
+        )
         assert path.waypoints.tolist() == [[0.0, 0.0], [1.0, 1.0]]
         wall = Map2D(((0.5, 0.5, 0.1),))
         with pytest.raises(PlanningError, match="Beeline gave up before 5 s were over"):
-            plan(space_of(2), wall, np.zeros(2), [np.ones(2)], planner="Beeline")
+            plan(space_of(2), wall, np.zeros(2), [np.ones(2)], search=Search(planner="Beeline"))
 
 
 def test_a_planner_that_cannot_be_loaded_is_told_where_another_one_plans(tmp_path: Path) -> None:

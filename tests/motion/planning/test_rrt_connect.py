@@ -11,7 +11,7 @@ from tests.motion.problems import random_case
 
 from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.model import RobotModel
-from gazelle.motion.planning import FINE_STEP, plan
+from gazelle.motion.planning import FINE_STEP, Search, plan
 from gazelle.motion.planning.problem import Problem
 from gazelle.motion.planning.rrt_connect import rrt_connect
 from gazelle.motion.planning.rrt_connect_kernels import DOUBTFUL
@@ -117,7 +117,7 @@ def test_the_last_check_does_not_repeat_what_shortcuts_were_checked_for(
 ) -> None:
     case = random_case(ur_like, "ur_like", 7)
     swept = _Swept(case.checker)
-    path = plan(case.space, swept, case.start, [case.goal], time_limit_s=1e6)
+    path = plan(case.space, swept, case.start, [case.goal], search=Search(time_limit_s=1e6))
     assert len(path.waypoints) > 2
     fine = [ends for ends, step in swept.asked if step <= FINE_STEP]
     assert fine and len(set(fine)) == len(fine)

@@ -13,6 +13,7 @@ from gazelle.motion.planning import (
     ErrorCode,
     PlannerSettings,
     PlanningError,
+    Search,
     first_fault,
     plan,
 )
@@ -33,9 +34,7 @@ def test_every_planner_of_moveit_plans_past_circles(planner: str) -> None:
         _SLALOM,
         _LEFT,
         [_RIGHT],
-        planner=planner,
-        settings=settings,
-        time_limit_s=limit_s,
+        search=Search(planner=planner, settings=settings, time_limit_s=limit_s),
     )
     assert path.waypoints[0] == pytest.approx(_LEFT)
     assert path.waypoints[-1] == pytest.approx(_RIGHT)
@@ -61,10 +60,7 @@ def test_a_seed_gives_one_path(planner: str) -> None:
             _SLALOM,
             _LEFT,
             [_RIGHT],
-            planner=planner,
-            seed=seed,
-            settings=settings,
-            time_limit_s=60.0,
+            search=Search(planner=planner, seed=seed, settings=settings, time_limit_s=60.0),
         )
         assert not found.timed_out
         return found.waypoints
@@ -85,9 +81,7 @@ def test_optimising_planners_come_near_the_shortest_path() -> None:
             circle,
             start,
             [goal],
-            planner=planner,
-            settings=settings,
-            time_limit_s=60.0,
+            search=Search(planner=planner, settings=settings, time_limit_s=60.0),
         )
         assert shortest <= path.length < 1.1 * shortest
 
@@ -95,7 +89,9 @@ def test_optimising_planners_come_near_the_shortest_path() -> None:
 def test_shortcuts_shorten_a_path() -> None:
     arm = PlanarArm(((0.7, 0.5, 0.15), (-0.6, 0.6, 0.2)))
     start, goal = np.array([0.0, 0.0, 0.0]), np.array([math.pi, 0.0, 0.0])
-    raw = plan(space_of(3), arm, start, [goal], settings=PlannerSettings(simplify=False))
+    raw = plan(
+        space_of(3), arm, start, [goal], search=Search(settings=PlannerSettings(simplify=False))
+    )
     short = plan(space_of(3), arm, start, [goal])
     assert short.length < 0.9 * raw.length
 
@@ -120,9 +116,7 @@ def test_turning_paths_have_no_jumps(planner: str) -> None:
         torus,
         np.array([2.2, 2.0]),
         [goal],
-        planner=planner,
-        settings=settings,
-        time_limit_s=100.0,
+        search=Search(planner=planner, settings=settings, time_limit_s=100.0),
     )
     assert first_fault(space, torus, path.waypoints, FINE_STEP) == ""
     turns = (path.waypoints[-1] - goal) / math.tau
@@ -173,7 +167,7 @@ def test_goals_are_drawn_where_the_first_cannot_be_reached() -> None:
     def source(rng: np.random.Generator) -> FloatArray | None:
         return offered.pop(0) if offered else None
 
-    path = plan(space_of(2), ring, np.array([-2.0, 0.0]), source, time_limit_s=100.0)
+    path = plan(space_of(2), ring, np.array([-2.0, 0.0]), source, search=Search(time_limit_s=100.0))
     assert path.waypoints[-1] == pytest.approx([-1.0, 2.0])
 
 
@@ -190,24 +184,30 @@ def test_what_cannot_be_reached_times_out_and_says_so() -> None:
     angles = np.linspace(0.0, math.tau, 24, endpoint=False)
     ring = Map2D(tuple((0.8 * math.cos(a), 0.8 * math.sin(a), 0.2) for a in angles))
     with pytest.raises(PlanningError, match=r"RRTConnect found no path within 0\.2 s") as caught:
-        plan(space_of(2), ring, _LEFT, [np.zeros(2)], time_limit_s=0.2)
+        plan(space_of(2), ring, _LEFT, [np.zeros(2)], search=Search(time_limit_s=0.2))
     assert caught.value.code is ErrorCode.TIMED_OUT
 
 
 def test_walls_thinner_than_the_search_is_fine_are_found_by_the_last_check() -> None:
     wall = Map2D(tuple((0.0, y, 0.02) for y in np.arange(-math.pi, 1.0, 0.03)))
     for seed in range(1):
-        path = plan(space_of(2), wall, np.array([-1.0, 0.0]), [np.array([1.0, 0.0])], seed=seed)
+        path = plan(
+            space_of(2),
+            wall,
+            np.array([-1.0, 0.0]),
+            [np.array([1.0, 0.0])],
+            search=Search(seed=seed),
+        )
         assert first_fault(space_of(2), wall, path.waypoints, 0.001) == ""
         assert path.length > 2.5
 
 
 def test_names_of_planners_are_understood_as_moveit_writes_them() -> None:
     for name in ("", "RRTkConfigDefault", "geometric::RRT", "arm[RRTkConfigDefault]"):
-        path = plan(space_of(2), Map2D(()), _LEFT, [_RIGHT], planner=name)
+        path = plan(space_of(2), Map2D(()), _LEFT, [_RIGHT], search=Search(planner=name))
         assert path.planner == ("RRT" if name else "RRTConnect")
         assert path.notes == ()
-    path = plan(space_of(2), Map2D(()), _LEFT, [_RIGHT], planner="RRTConect")
+    path = plan(space_of(2), Map2D(()), _LEFT, [_RIGHT], search=Search(planner="RRTConect"))
     assert path.planner == "RRTConnect"
     assert path.notes == (
         "there is no planner 'RRTConect'; RRTConnect plans instead, as in MoveIt. "

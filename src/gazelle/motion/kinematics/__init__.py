@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.motion.kinematics.poses import link_poses
-from gazelle.motion.kinematics.solver import Solver
+from gazelle.motion.kinematics.solver import Patience, Solver
 from gazelle.motion.kinematics.warming import warm_up
 
-__all__ = ["Solver", "link_poses", "warm_up"]
+__all__ = ["Patience", "Solver", "link_poses", "warm_up"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,12 +17,27 @@ from gazelle.motion.kinematics.kernels import chain_jacobian, chain_pose, solve
 from gazelle.motion.model import JointGroup, JointKind, RobotModel
 from gazelle.motion.space import BoolArray, FloatArray, Validity
 
-__all__ = ["Solver"]
+__all__ = ["Patience", "Solver"]
 
 _STEPS = 60
 _BATCH = 16
 _TURN = 2.0 * math.pi
 _IDENTITY = np.eye(4)
+
+
+class Patience(NamedTuple):
+    """How long inverse kinematics tries.
+
+    Attributes:
+        attempts: number of starts.
+        timeout_s: gives up after so long; None for all attempts.
+    """
+
+    attempts: int = 100
+    timeout_s: float | None = None
+
+
+_USUAL = Patience()
 
 
 class Solver:
@@ -102,8 +118,7 @@ class Solver:
         T_base_tip: FloatArray,
         *,
         seed_q: FloatArray | None = None,
-        timeout_s: float | None = None,
-        attempts: int = 100,
+        patience: Patience = _USUAL,
         validity: Validity | None = None,
         rng: np.random.Generator | None = None,
         link: str = "",
@@ -120,8 +135,7 @@ class Solver:
         Args:
             T_base_tip: 4×4 pose in the robot's frame, m.
             seed_q: where to start; the middle of all ranges when None.
-            timeout_s: gives up after so long; None for all attempts.
-            attempts: number of starts.
+            patience: how long it is tried.
             validity: refuses solutions, such as those that collide.
             rng: draws the random starts; one with a fixed seed when None.
             link: what is brought to the pose; the group's tip when empty.
@@ -139,8 +153,7 @@ class Solver:
         alone = self.settings.position_only if position_only is None else position_only
         weight = 0.0 if alone else self.settings.orientation_vs_position or 1.0
         seed = self._middle() if seed_q is None else np.array(seed_q, dtype=np.float64)
-        end = math.inf if timeout_s is None else time.monotonic() + timeout_s
-        for q in self._solutions(chain, target, weight, seed, attempts, rng, end):
+        for q in self._solutions(chain, target, weight, seed, patience, rng):
             found = self._near(q, seed)
             if validity is None or validity.is_valid(found):
                 return found
@@ -152,11 +165,12 @@ class Solver:
         target: FloatArray,
         weight: float,
         seed: FloatArray,
-        attempts: int,
+        patience: Patience,
         rng: np.random.Generator | None,
-        end_s: float,
     ) -> Iterator[FloatArray]:
         """Yield one solution per attempt that succeeds."""
+        timeout_s, attempts = patience.timeout_s, patience.attempts
+        end_s = math.inf if timeout_s is None else time.monotonic() + timeout_s
         space, settings = self.group.space, self.settings
         lower = np.where(space.continuous, -np.inf, space.lower)
         upper = np.where(space.continuous, np.inf, space.upper)

@@ -9,6 +9,7 @@ import numpy as np
 
 from gazelle.description.moveit import CartesianLimits
 from gazelle.motion.constraints.rotation import rotation_vector
+from gazelle.motion.kinematics import Patience
 from gazelle.motion.pilz.cartesian import CartesianPath, circle, line
 from gazelle.motion.pilz.command import Command, CommandKind
 from gazelle.motion.pilz.motion import Motion, check_limits, grid, measured, thinned
@@ -21,7 +22,7 @@ from gazelle.motion.timing.trajectory import Trajectory
 __all__ = ["Kinematics", "PilzPlanner"]
 
 _LEAST_MOVEMENT = 1e-3
-_GOAL_ATTEMPTS = 50
+_GOAL_PATIENCE = Patience(attempts=50)
 
 
 class Kinematics(Protocol):
@@ -40,7 +41,7 @@ class Kinematics(Protocol):
         T_base_tip: FloatArray,
         *,
         seed_q: FloatArray | None = None,
-        attempts: int = 100,
+        patience: Patience,
         link: str = "",
     ) -> FloatArray | None:
         """Return a configuration near `seed_q` that brings a link to a pose, or None."""
@@ -170,7 +171,7 @@ class PilzPlanner:
 
     def near(self, pose: FloatArray, seed: FloatArray) -> FloatArray | None:
         """Return the configuration for a pose that is near another one."""
-        q = self.kinematics.ik(pose, seed_q=seed, attempts=1, link=self.link)
+        q = self.kinematics.ik(pose, seed_q=seed, patience=Patience(attempts=1), link=self.link)
         if q is None:
             return None
         # Solvers stop at their tolerance, which differences of positions would make noise of.
@@ -185,7 +186,7 @@ class PilzPlanner:
         """Return the goal of a PTP as positions of the joints."""
         if command.goal.shape == (4, 4):
             q = self.kinematics.ik(
-                command.goal, seed_q=start, attempts=_GOAL_ATTEMPTS, link=self.link
+                command.goal, seed_q=start, patience=_GOAL_PATIENCE, link=self.link
             )
             if q is None:
                 raise PlanningError(ErrorCode.NO_IK_SOLUTION, _unreachable(command))
@@ -195,8 +196,7 @@ class PilzPlanner:
     def _goal_pose(self, start: FloatArray, command: Command) -> FloatArray:
         if command.goal.shape != (4, 4):
             return self.kinematics.fk(self._checked(command.goal), self.link)
-        attempts = _GOAL_ATTEMPTS
-        q = self.kinematics.ik(command.goal, seed_q=start, attempts=attempts, link=self.link)
+        q = self.kinematics.ik(command.goal, seed_q=start, patience=_GOAL_PATIENCE, link=self.link)
         if q is None:
             raise PlanningError(ErrorCode.NO_IK_SOLUTION, _unreachable(command))
         return command.goal

@@ -11,7 +11,7 @@ from gazelle.motion.planning.path import Path
 from gazelle.motion.planning.planners import PLANNERS
 from gazelle.motion.planning.problem import GoalSource
 from gazelle.motion.planning.rrt_connect import warm_up
-from gazelle.motion.planning.settings import PlannerSettings
+from gazelle.motion.planning.settings import PlannerSettings, Search
 from gazelle.motion.planning.solve import plan
 from gazelle.motion.planning.validation import FINE_STEP, first_fault
 
@@ -24,6 +24,7 @@ __all__ = [
     "PlannerConfig",
     "PlannerSettings",
     "PlanningError",
+    "Search",
     "configured",
     "first_fault",
     "plan",

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-__all__ = ["PlannerSettings"]
+__all__ = ["PlannerSettings", "Search"]
 
 
 @dataclass(frozen=True)
@@ -45,3 +45,20 @@ class PlannerSettings:
             raise ValueError(f"range is {self.range:g}: the longest motion is 0 or more")
         if not 0.0 < self.step < math.inf:
             raise ValueError(f"step is {self.step:g}: checks are more than 0 apart, and finite")
+
+
+@dataclass(frozen=True)
+class Search:
+    """How a path is looked for.
+
+    Attributes:
+        planner: a planner's name or id as MoveIt writes it; empty for the default.
+        seed: of all chance.
+        time_limit_s: MoveIt's allowed_planning_time.
+        settings: parameters of the planner; its usual ones when None.
+    """
+
+    planner: str = ""
+    seed: int = 0
+    time_limit_s: float = 5.0
+    settings: PlannerSettings | None = None

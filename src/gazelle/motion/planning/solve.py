@@ -15,7 +15,7 @@ from gazelle.motion.planning.path import Path
 from gazelle.motion.planning.planners import Chosen, choose
 from gazelle.motion.planning.problem import GoalSource, Problem, Waypoints
 from gazelle.motion.planning.rrt_connect import warm_up
-from gazelle.motion.planning.settings import PlannerSettings
+from gazelle.motion.planning.settings import PlannerSettings, Search
 from gazelle.motion.planning.shortcut import shortcut
 from gazelle.motion.planning.validation import (
     FINE_STEP,
@@ -31,6 +31,7 @@ _START_BEYOND = 0.1
 _GOAL_BEYOND = 1e-3
 _FINER = 0.4
 _MOST_GOALS_TOLD = 3
+_USUAL = Search()
 
 
 def plan(
@@ -39,11 +40,8 @@ def plan(
     start: FloatArray,
     goals: Sequence[FloatArray] | GoalSource,
     *,
-    planner: str = "RRTConnect",
-    seed: int = 0,
-    time_limit_s: float = 5.0,
+    search: Search = _USUAL,
     constraints: Sequence[PathConstraint] = (),
-    settings: PlannerSettings | None = None,
 ) -> Path:
     """Return a path from a configuration to one of the goals.
 
@@ -57,11 +55,8 @@ def plan(
         start: where the path begins, rad or m. Up to 0.1 outside the limits it is led back into
             them first, as MoveIt's FixStartStateBounds does.
         goals: configurations to reach, any of them, or a function that draws one.
-        planner: a planner's name or id as MoveIt writes it.
-        seed: of all chance.
-        time_limit_s: MoveIt's allowed_planning_time.
+        search: how it is looked for.
         constraints: what must hold all along the path.
-        settings: parameters of the planner.
 
     Raises:
         PlanningError: there is no path, with MoveIt's error code and why.
@@ -69,10 +64,10 @@ def plan(
     """
     warm_up(space, validity)
     began = time.perf_counter()
-    settings = settings or PlannerSettings()
+    settings = search.settings or PlannerSettings()
     narrow = _narrowed(space, constraints)
     guarded = Constrained(validity, tuple(constraints)) if constraints else validity
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(search.seed)
     actual, inside = _start(space, narrow, validity, guarded, start)
     project = projection(narrow, constraints)
     problem = Problem(
@@ -83,13 +78,13 @@ def plan(
         rng=rng,
         settings=settings,
         step=settings.step,
-        deadline=began + time_limit_s,
+        deadline=began + search.time_limit_s,
         source=goals if callable(goals) else None,
         project=project,
     )
     _find_goals(problem, space, validity, () if callable(goals) else goals)
-    chosen = choose(planner, constrained=project is not None)
-    path = _solved(problem, chosen, began, time_limit_s)
+    chosen = choose(search.planner, constrained=project is not None)
+    path = _solved(problem, chosen, began, search.time_limit_s)
     if not np.array_equal(actual, inside):
         rows = np.vstack([actual, path.waypoints])
         note = f"the start lies outside the limits ({space.outside(actual)[0]}) and is led back"

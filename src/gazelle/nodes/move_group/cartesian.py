@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.motion.constraints import PathConstraint
 from gazelle.motion.constraints.rotation import Parameterization, matrix_of, rotation_vector
-from gazelle.motion.kinematics import Solver
+from gazelle.motion.kinematics import Patience, Solver
 from gazelle.motion.space import FloatArray, Validity
 
 __all__ = ["JumpLimits", "straight_path"]
@@ -62,7 +62,7 @@ def straight_path(
     targets = _targets(solver.fk(start_q, link), poses, step_m)
     rows, why = [start_q], ""
     for target in targets:
-        q = solver.ik(target, seed_q=rows[-1], attempts=1, link=link)
+        q = solver.ik(target, seed_q=rows[-1], patience=Patience(attempts=1), link=link)
         why = _fault(q, rows[-1], target, validity, along)
         if why or q is None:
             break

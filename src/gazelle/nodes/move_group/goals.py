@@ -14,7 +14,7 @@ from gazelle.motion.constraints import (
     PositionConstraint,
 )
 from gazelle.motion.constraints.rotation import matrix_of
-from gazelle.motion.kinematics import Solver
+from gazelle.motion.kinematics import Patience, Solver
 from gazelle.motion.space import FloatArray, Validity
 
 __all__ = ["Goal", "GoalSampler"]
@@ -141,7 +141,7 @@ class GoalSampler:
             q = self.solver.ik(
                 target,
                 seed_q=seed,
-                attempts=attempts,
+                patience=Patience(attempts=attempts),
                 validity=validity,
                 rng=rng,
                 link=link,

@@ -10,7 +10,7 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import set_xyz
 from gazelle.interfaces.stamps import seconds_of, set_stamp
 from gazelle.motion.constraints import Constrained
-from gazelle.motion.kinematics import link_poses
+from gazelle.motion.kinematics import Patience, link_poses
 from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray, Validity
@@ -81,11 +81,12 @@ def _solved(
     timeout_s: float,
 ) -> FloatArray:
     solver, seed = problem.solver, problem.start_q
+    patience = Patience(timeout_s=timeout_s)
     try:
-        q = solver.ik(target, seed_q=seed, timeout_s=timeout_s, validity=validity, link=link)
+        q = solver.ik(target, seed_q=seed, patience=patience, validity=validity, link=link)
         if q is not None:
             return q
-        alone = solver.ik(target, seed_q=seed, timeout_s=timeout_s, link=link)
+        alone = solver.ik(target, seed_q=seed, patience=patience, link=link)
     except NotFoundError as error:
         raise MoveGroupError(ErrorCode.INVALID_LINK_NAME, str(error)) from error
     if validity is not None and alone is not None:

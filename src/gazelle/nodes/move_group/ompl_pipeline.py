@@ -10,7 +10,15 @@ from typing import Any
 from gazelle.description.moveit import Pipeline
 from gazelle.diagnostics import Diagnostic, Diagnostics
 from gazelle.motion.constraints import Constrained, PathConstraint
-from gazelle.motion.planning import PLANNERS, ErrorCode, Path, PlanningError, configured, plan
+from gazelle.motion.planning import (
+    PLANNERS,
+    ErrorCode,
+    Path,
+    PlanningError,
+    Search,
+    configured,
+    plan,
+)
 from gazelle.motion.planning.planners import DEFAULT
 from gazelle.motion.timing import Trajectory, method_of, parameterise
 from gazelle.nodes.move_group.error_codes import MoveGroupError
@@ -126,11 +134,13 @@ def _path(
         problem.checker,
         start,
         exact if len(exact) == len(goals) else sampler,
-        planner=job.choice.planner,
-        seed=job.seed + attempt * _SEEDS,
-        time_limit_s=limit_s,
+        search=Search(
+            planner=job.choice.planner,
+            seed=job.seed + attempt * _SEEDS,
+            time_limit_s=limit_s,
+            settings=job.choice.settings,
+        ),
         constraints=along,
-        settings=job.choice.settings,
     )
 
 

@@ -12,7 +12,7 @@ from gazelle.geometry import Pose
 from gazelle.motion import kinematics, planning
 from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.constraints import PathConstraint
-from gazelle.motion.kinematics import Solver
+from gazelle.motion.kinematics import Patience, Solver
 from gazelle.motion.model import JointGroup, RobotModel
 from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import PlanningScene
@@ -127,7 +127,7 @@ class ProblemMaker:
             planning.warm_up(group.space, self.checker(scene, group.name))
             if group.tip_link:
                 solver, q = self._solver(group), group.take(scene.positions)
-                solver.ik(solver.fk(q), seed_q=q, attempts=1)
+                solver.ik(solver.fk(q), seed_q=q, patience=Patience(attempts=1))
                 solver.jacobian(q)
 
     def _solver(self, group: JointGroup) -> Solver:

@@ -9,7 +9,7 @@ import numpy as np
 from gazelle.geometry import Pose
 from gazelle.interfaces import convert, message_type
 from gazelle.motion import model as motion_model
-from gazelle.motion.kinematics import Solver, link_poses
+from gazelle.motion.kinematics import Patience, Solver, link_poses
 from gazelle.motion.model import JointGroup
 from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory
@@ -152,7 +152,7 @@ class RobotState:
         found = solver.ik(
             pose_of(geometry_pose).matrix(),
             seed_q=self.get_joint_group_positions(joint_model_group_name),
-            timeout_s=timeout or None,
+            patience=Patience(timeout_s=timeout or None),
             link=tip_name,
         )
         if found is not None:
