@@ -10,7 +10,6 @@ import pytest
 from gazelle.bag import BagWriter, Encoding, cdr_connection, create_bag, ros1_connection
 from gazelle.bag import storage_of as by_name
 from gazelle.bag.qos import offered_qos
-from gazelle.bag.records import Storage
 from gazelle.interfaces import ros1_message_type, to_cdr, to_ros1
 
 START_NS = 1_700_000_000_000_000_000
@@ -57,7 +56,7 @@ def bag_of(tmp_path: Path) -> Fill:
     def make(name: str, count: int = 100, **options: object) -> Path:
         path = tmp_path / name
         storage = options.pop("storage", None) or by_name(path)
-        assert isinstance(storage, Storage)
+        assert isinstance(storage, str)
         writer = create_bag(path, storage, **options)  # type: ignore[arg-type]
         fill(writer, count)
         writer.close()

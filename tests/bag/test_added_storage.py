@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -19,6 +20,8 @@ from gazelle.cli import ros2
 from gazelle.cli.bag import main as bag_command
 from gazelle.graph import Graph
 
+FOLDER_FORMATS = [one for one in OWN_FORMATS if one.in_folder]
+LISTED = "".join(f"{one.name}\n" for one in FOLDER_FORMATS)
 TAPE = {"gazelle.bag_storage": {"tape": "tapes:TAPE"}}
 
 
@@ -101,7 +104,7 @@ def test_the_commands_know_an_added_storage(
     shown = capsys.readouterr().out
     assert "Storage id:" in shown and "tape" in shown and "100" in shown
     assert ros2.main(["bag", "list", "storage"]) == 0
-    assert capsys.readouterr().out == "mcap\nsqlite3\ntape\n"
+    assert capsys.readouterr().out == f"{LISTED}tape\n"
 
 
 def test_a_storage_that_cannot_be_loaded_is_told_and_the_others_go_on(
@@ -120,7 +123,7 @@ def test_a_storage_that_cannot_be_loaded_is_told_and_the_others_go_on(
         assert str(raised.value).endswith(why) and problems_of_added() == (why,)
         assert ros2.main(["bag", "list", "storage"]) == 0
         told = capsys.readouterr()
-        assert told.out == "mcap\nsqlite3\n"
+        assert told.out == LISTED
         assert why in told.err and "[bag.storage-not-loaded]" in told.err
 
 
@@ -135,7 +138,8 @@ def test_a_storage_that_is_not_there_is_named(tmp_path: Path) -> None:
 
 
 def test_a_folder_without_bag_names_the_suffixes(tmp_path: Path) -> None:
-    with pytest.raises(BagError, match=r"no bag in this folder \(no .mcap and no .db3\)"):
+    missing = re.escape(" and ".join(f"no {one.suffix}" for one in FOLDER_FORMATS))
+    with pytest.raises(BagError, match=rf"no bag in this folder \({missing}\)"):
         open_bag(tmp_path)
 
 

@@ -38,7 +38,7 @@ class Encoding(enum.StrEnum):
 
 
 class Storage(enum.StrEnum):
-    """The names of Gazelle's own formats, those that rosbag2 gives them (`gazelle.bag.formats`)."""
+    """The names of ROS's own formats, as rosbag2 gives them; all are in `gazelle.bag.formats`."""
 
     ROS1 = "rosbag"
     MCAP = "mcap"

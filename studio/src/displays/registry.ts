@@ -1,58 +1,10 @@
 /** All kinds of displays: rows of the server's table, each with its drawing. */
 import type { Connection } from '../connection';
 import { DISPLAY_ROWS, type DisplayName } from '../generated/displays';
+import { DRAWINGS } from '../generated/drawings';
 import type { AddedDisplays, DisplayRow } from '../generated/messages';
 import { shortType } from '../graph_store';
-import { MOTION_PLANNING } from '../motion/display';
-import type { DisplayKind, Drawing } from './display';
-import { EFFORT } from './effort';
-import { AXES, GRID } from './grid';
-import { CAMERA, IMAGE } from './image';
-import { INTERACTIVE_MARKERS } from './interactive';
-import { MAP } from './map';
-import { MARKERS } from './markers';
-import { ODOMETRY } from './odometry';
-import { PATH, POLYGON } from './path';
-import { DEPTH_CLOUD, FLUID_PRESSURE, ILLUMINANCE, LASER_SCAN, POINT_CLOUD, RELATIVE_HUMIDITY, TEMPERATURE } from './points';
-import { PARTICLE_CLOUD, POINT_STAMPED, POSE, POSE_ARRAY, POSE_WITH_COVARIANCE } from './poses';
-import { ROBOT_MODEL } from './robot_model';
-import { GRID_CELLS, IMU, RANGE, WRENCH } from './sensors';
-import { TF } from './tf';
-
-const DRAWINGS: Record<DisplayName, Drawing> = {
-  Axes: AXES,
-  Camera: CAMERA,
-  DepthCloud: DEPTH_CLOUD,
-  Effort: EFFORT,
-  FluidPressure: FLUID_PRESSURE,
-  Grid: GRID,
-  GridCells: GRID_CELLS,
-  Illuminance: ILLUMINANCE,
-  Image: IMAGE,
-  Imu: IMU,
-  InteractiveMarkers: INTERACTIVE_MARKERS,
-  LaserScan: LASER_SCAN,
-  Map: MAP,
-  Marker: MARKERS,
-  MarkerArray: MARKERS,
-  MotionPlanning: MOTION_PLANNING,
-  Odometry: ODOMETRY,
-  ParticleCloud: PARTICLE_CLOUD,
-  Path: PATH,
-  PointCloud: POINT_CLOUD,
-  PointCloud2: POINT_CLOUD,
-  PointStamped: POINT_STAMPED,
-  Polygon: POLYGON,
-  Pose: POSE,
-  PoseArray: POSE_ARRAY,
-  PoseWithCovariance: POSE_WITH_COVARIANCE,
-  Range: RANGE,
-  RelativeHumidity: RELATIVE_HUMIDITY,
-  RobotModel: ROBOT_MODEL,
-  TF: TF,
-  Temperature: TEMPERATURE,
-  Wrench: WRENCH,
-};
+import type { DisplayKind } from './display';
 
 let kinds: readonly DisplayKind[] = kindsOf(Object.values(DISPLAY_ROWS));
 let asked: Promise<readonly string[]> | null = null;

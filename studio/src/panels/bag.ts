@@ -1,5 +1,6 @@
 /** Bag: recording topics, playing a bag with a timeline. */
 
+import { BAG_FORMATS } from '../generated/bags';
 import type { BagState, PlayerState, RecorderState } from '../generated/messages';
 import { isObject, textOf, textsOf, type Json, type JsonObject } from '../json';
 import { button, checkbox, h, icon, notice, select, setText, spacer, toolbar } from '../widgets/dom';
@@ -7,7 +8,6 @@ import { clock } from '../widgets/format';
 import { BasePanel } from './base';
 import { BagTimeline } from './bag_timeline';
 
-const FORMATS = [['bag', 'ROS 1 .bag'], ['mcap', 'rosbag2 .mcap'], ['db3', 'rosbag2 .db3']] as const;
 const FACTORS = ['0.1', '0.25', '0.5', '1', '2', '5', '10'];
 
 /** rqt_bag. */
@@ -40,7 +40,7 @@ export class Bag extends BasePanel {
         this.time, spacer(), button('Close', () => void this.ask('bag.close'), { icon: 'close', title: 'Close the bag' })),
       this.timeline.element, this.rows);
     this.element.append(
-      toolbar('Record', this.recordButton, this.path, select('Format', FORMATS, this.format, (format) => { this.format = format; this.host.touched(); }),
+      toolbar('Record', this.recordButton, this.path, select('Format', BAG_FORMATS, this.format, (format) => { this.format = format; this.host.touched(); }),
         checkbox('All topics', true, (on) => { this.all = on; this.showTopics(); }), spacer(), this.recordState),
       this.topics,
       toolbar('Open', this.playPath, button('Open', () => void this.openBag(), { title: 'Open the bag' })),

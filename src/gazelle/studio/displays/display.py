@@ -23,6 +23,8 @@ class Display:
         open: its stream ``display``; None for those that the page draws from other streams.
         aliases: what other versions of RViz call it.
         topic_names: RViz's properties, besides ``Topic``, that name its topic in a file.
+        drawing: of Gazelle's own, the module below ``studio/src`` and the constant in it that
+            draws it on the page.
         drawn_as: the display of the registry whose drawing it takes, empty for its own; only
             displays of other packages take another's.
         convert: of one that is drawn as another: makes its message into one that the other shows.
@@ -34,6 +36,7 @@ class Display:
     open: Callable[[Site], OpenStream] | None = None
     aliases: tuple[str, ...] = ()
     topic_names: tuple[str, ...] = ()
+    drawing: str = ""
     drawn_as: str = ""
     convert: Callable[[Any], Any] | None = None
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 
+from gazelle.bag.formats import OWN_FORMATS
+from gazelle.bag.records import Encoding
 from gazelle.studio.catalogue import STREAMS
 from gazelle.studio.displays.display import display_row
 from gazelle.studio.displays.registry import DISPLAYS
@@ -31,6 +33,39 @@ def _displays() -> str:
     )
 
 
+def _drawings() -> str:
+    used: dict[str, set[str]] = {}
+    rows = []
+    for display in DISPLAYS.values():
+        module, _, constant = display.drawing.partition(":")
+        used.setdefault(module, set()).add(constant)
+        rows.append(f"  {display.name}: {constant},\n")
+    imports = [
+        f"import {{ {', '.join(sorted(names))} }} from '../{module}';\n"
+        for module, names in sorted(used.items())
+    ]
+    return (
+        _HEAD.format(what="What draws the displays of `gazelle.studio.displays.registry`")
+        + "import type { Drawing } from '../displays/display';\n"
+        + "".join(imports)
+        + "import type { DisplayName } from './displays';\n\n"
+        + f"export const DRAWINGS: Record<DisplayName, Drawing> = {{\n{''.join(rows)}}};\n"
+    )
+
+
+def _bags() -> str:
+    kinds = {Encoding.ROS1: "ROS 1", Encoding.CDR: "rosbag2"}
+    rows = "".join(
+        f"  [{json.dumps(one.suffix.removeprefix('.'))},"
+        f" {json.dumps(f'{kinds[one.encoding]} {one.suffix}')}],\n"
+        for one in OWN_FORMATS
+    )
+    return (
+        _HEAD.format(what="What topics are recorded into: the formats of `gazelle.bag.formats`")
+        + f"export const BAG_FORMATS = [\n{rows}] as const;\n"
+    )
+
+
 def _messages() -> str:
     aliases = (f"export type {name} = {type_text(kind)};\n" for name, kind in ALIASES.items())
     of_ros = ros_interfaces(ROS_MESSAGES, ADDED)
@@ -50,7 +85,9 @@ def _streams() -> str:
 
 
 FILES: dict[str, Callable[[], str]] = {
+    "bags.ts": _bags,
     "displays.ts": _displays,
+    "drawings.ts": _drawings,
     "messages.ts": _messages,
     "streams.ts": _streams,
 }
