@@ -16,8 +16,11 @@ from gazelle.graph import Graph
 from gazelle.graph.errors import GraphError
 from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import twist_message
+from gazelle.simulator import Simulation
+from gazelle.simulator.gazebo_ros import physics_parameters
 from gazelle.simulator.server_main import ros_version_of, serve
 from gazelle.simulator.server_options import ServerOptions
+from gazelle.simulator.server_parameters import PARAMETERS
 from gazelle.simulator.spawn_model import spawn_model
 
 
@@ -407,3 +410,29 @@ def test_an_unknown_server_plug_in_is_reported(
     assert "part of Gazelle" not in text
     (log,) = tmp_path.glob("*.log")
     assert "server plug-in 'libgazebo_ros_init.so' is part of Gazelle" in log.read_text()
+
+
+def test_unknown_parameters_of_gazebo_are_told(
+    graph: Graph, start: Callable[..., None], capfd: pytest.CaptureFixture[str]
+) -> None:
+    graph.create_node("setter").parameters.set("/gazebo", {"time_stp": 0.1, "arm": {"p": 1}})
+    start("empty", started_by=1, params={"pub_clock_frequency": "fast"})
+    _models(graph)
+    said = "".join(capfd.readouterr())
+    assert "/gazebo: parameter 'time_stp' is not one of gazebo; it has no effect" in said
+    assert "parameter 'pub_clock_frequency' is 'fast', not a number; 0.0 is used" in said
+    assert "arm" not in said
+
+
+def test_parameter_of_the_command_line_is_the_nodes_in_ros_1(
+    graph: Graph, start: Callable[..., None]
+) -> None:
+    start("empty", started_by=1, params={"on_divergence": "remove"})
+    _models(graph)
+    assert graph.create_node("asks").parameters.get("/gazebo/on_divergence") == "remove"
+
+
+def test_every_dynamic_parameter_of_physics_is_in_the_table() -> None:
+    with Simulation() as sim:
+        names = {row.name for row in physics_parameters._rows(sim.server)}
+    assert names <= {row.key for row in PARAMETERS.rows}

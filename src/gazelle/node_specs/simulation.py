@@ -23,6 +23,7 @@ SIMULATION = (
         entry="gazelle.nodes.gzserver:run",
         does="the simulator",
         is_light=False,
+        parameters="gazelle.nodes.gzserver:PARAMETERS",
         aliases=(
             NodeName("gazebo_ros", "gazebo", ROS_1),
             NodeName("gazebo_ros", "debug", ROS_1),

@@ -8,8 +8,9 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.ros2_console import print_ros2
+from gazelle.simulator.server_parameters import PARAMETERS
 
-__all__ = ["run"]
+__all__ = ["PARAMETERS", "run"]
 
 
 def run(

@@ -21,6 +21,12 @@ from gazelle.simulator.plugins.gz_systems import TABLE as GZ_SYSTEMS
 from gazelle.simulator.plugins.registry import known_names, plain_name
 from gazelle.simulator.recovery import DIVERGENCE, OnDivergence
 from gazelle.simulator.server_options import HELP, ServerOptions, read_server_options
+from gazelle.simulator.server_parameters import (
+    CLOCK_RATE,
+    ROS1_CLOCK_RATE,
+    read_server_parameters,
+    report_unread,
+)
 from gazelle.simulator.sources import world_from
 from gazelle.simulator.viewing import offer_views
 from gazelle.simulator.world_server import ServerSettings, WorldServer
@@ -28,14 +34,11 @@ from gazelle.workspace import Workspace
 
 if TYPE_CHECKING:
     from gazelle.description.model import World
-    from gazelle.diagnostics import SourceSpan
     from gazelle.graph import Graph
+    from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["check_server_plugins", "ros2_plugins_of", "ros_version_of", "serve"]
 
-_Given = Callable[[str], tuple[Any, "SourceSpan | None"]]
-
-_RATE = "publish_rate"
 # What gazebo_ros declares; the clock comes more often here as long as nobody sets it.
 _DECLARED_RATE_HZ = 10.0
 _ROS1_PLUGINS = frozenset({"gazebo_ros_api_plugin", "gazebo_ros_paths_plugin"})
@@ -94,11 +97,13 @@ def serve(
         version = ros_version_of(options, arguments.started_by)
         if world_space(version, is_gz=options.is_gz) == SHOWN_SPACE:
             offer_loggers(node)
-        given = _given(arguments, node, diagnostics)
-        rate_hz = None if version == 1 else _clock_rate(given, node, diagnostics)
+        own = read_server_parameters(arguments, node, diagnostics, ros_version=version)
+        rate_hz = _clock_rate(own)
+        if not options.is_gz:
+            report_unread(own)
         declared = None
         if version == 2 and not options.is_gz:
-            declared = _offer_parameters(node, rate_hz, given(DIVERGENCE)[0])
+            declared = _offer_parameters(node, rate_hz, own.raw(DIVERGENCE))
         workspace = Workspace.discover()
         world = _world(options, node, workspace, diagnostics, falls_back=falls_back)
         ros = (version, rate_hz, _divergence(node, declared))
@@ -194,36 +199,17 @@ def _offer_parameters(
     return NodeParameters(
         node,
         node.name,
-        {_RATE: rate_hz, "use_sim_time": True, DIVERGENCE: divergence or "pause"},
+        {CLOCK_RATE: rate_hz, "use_sim_time": True, DIVERGENCE: divergence or "pause"},
         lambda changes: _divergence_problem(changes[DIVERGENCE]) if DIVERGENCE in changes else "",
-        descriptors={_RATE: fixed, "use_sim_time": fixed},
+        descriptors={CLOCK_RATE: fixed, "use_sim_time": fixed},
         now_ns=node.clock.now_ns,
     )
 
 
-def _clock_rate(given: _Given, node: Any, diagnostics: Diagnostics) -> float | None:
-    """Return ``publish_rate`` of ROS 2's node ``gazebo``, None where it is not given."""
-    value, place = given(_RATE)
-    if value is None:
-        return None
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        text = f"parameter '{_RATE}' of {node.name} is {value!r}, not a number; it is dropped"
-        diagnostics.report("simulator.unknown-argument", text, place)
-        return None
-    return max(0.0, float(value))
-
-
-def _given(arguments: _Arguments, node: Any, diagnostics: Diagnostics) -> _Given:
-    """Return what tells a parameter of ROS 2's node ``gazebo``: its value, and its place.
-
-    The files are read again under the node's own name: launch files start ``gzserver``.
-    """
-    from gazelle.control.sources.files import FileSource
-
-    name = node.name.rpartition("/")[2]
-    source = FileSource(arguments.parameter_files, node.namespace, diagnostics, manager=name)
-    values = {**source.manager_tree(), **arguments.params}
-    return lambda parameter: (values.get(parameter), source.place(name, parameter))
+def _clock_rate(own: ParameterReader) -> float | None:
+    """Return how often the clock is to be told, None where nobody says it."""
+    said = next((key for key in (CLOCK_RATE, ROS1_CLOCK_RATE) if own.has(key)), None)
+    return None if said is None else own.number(said)
 
 
 def _world(
