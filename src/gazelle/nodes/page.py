@@ -13,10 +13,10 @@ __all__ = ["page"]
 
 _INTRODUCTION = (
     "# Nodes: parameters\n\nGenerated from the tables that the nodes read; do not edit"
-    " (`python -m gazelle.nodes.page > docs/nodes.md`). Names are those below a node's own (`~`)."
-    " Parameters without effect are told when they are set, with the reason, and so are names that"
-    " are not listed. Nodes of [navigation](navigation.md) and [SLAM](slam.md) have pages of their"
-    " own."
+    " (`python -m gazelle.nodes.page > docs/nodes.md`). Names are those below a node's own (`~`);"
+    " parts are joined with dots here, in ROS 1 with slashes. Parameters without effect are told,"
+    " with the reason, where they ask for what the original does, and so are names that are not"
+    " listed. Nodes of [navigation](navigation.md) and [SLAM](slam.md) have pages of their own."
 )
 # What the pages of navigation and SLAM are made of.
 _ELSEWHERE = ("frontier_exploration", "move_base", "nav2", "slam")
