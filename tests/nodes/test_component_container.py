@@ -62,6 +62,37 @@ def test_component_is_loaded_listed_and_unloaded(bench: Any) -> None:
     assert bench.stop() == [0]
 
 
+def _load(bench: Any, package: str, plugin: str, **parameters: Any) -> None:
+    kind = message_type("rcl_interfaces/msg/Parameter")
+    answer = bench.call(
+        "/box/_container/load_node",
+        f"{_SERVICES}/LoadNode",
+        package_name=package,
+        plugin_name=plugin,
+        node_name="one",
+        parameters=[
+            kind(name=name.replace("__", "."), value=value_message(value))
+            for name, value in parameters.items()
+        ],
+    )
+    assert answer.success
+
+
+def test_a_component_of_a_fixed_transform_is_told_it_by_parameters(bench: Any) -> None:
+    bench.start("rclcpp_components/component_container", "--ros-args", "-r", "__node:=box")
+    static = bench.listen("/tf_static", "tf2_msgs/msg/TFMessage")
+    said = bench.listen("/rosout", "rcl_interfaces/msg/Log")
+    _load(bench, "tf2_ros", "tf2_ros::StaticTransformBroadcasterNode", translation__x=1.5,
+          rotation__z=1.0, rotation__w=0.0, frame_id="a", child_frame_id="b",
+          frame="c")  # fmt: skip
+    (one,) = bench.eventually(lambda: static)[0].transforms
+    assert (one.header.frame_id, one.child_frame_id) == ("a", "b")
+    moved, turned = one.transform.translation, one.transform.rotation
+    assert (moved.x, moved.y, turned.z, turned.w) == (1.5, 0.0, 1.0, 0.0)
+    text = "/one: parameter 'frame' is not one of static_transform_publisher; it has no effect"
+    bench.eventually(lambda: any(text in line.msg for line in said))
+
+
 def test_compiled_components_are_refused_with_what_there_is(bench: Any) -> None:
     bench.start("rclcpp_components/component_container_mt", "--ros-args", "-r", "__node:=box")
     answer = bench.call(

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import threading
 from typing import Any
 
 import pytest
 
 from gazelle.errors import LaunchError
+from gazelle.nodes.host import run_node
 from gazelle.nodes.static_transform_publisher import parse_arguments, parse_options
 
 
@@ -58,6 +60,14 @@ def test_options_of_ros2_are_checked() -> None:
         parse_options([*frames, "--qz", "1", "--yaw", "1"])
     with pytest.raises(LaunchError, match="argument --x: invalid float value: 'one'"):
         parse_options([*frames, "--x", "one"])
+
+
+def test_a_frame_cannot_lie_in_itself(bench: Any) -> None:
+    words = ["--frame-id", "base", "--child-frame-id", "base", "--ros-args"]
+    node = {"node": "tf2_ros/static_transform_publisher", "argv": words}
+    text = "cannot publish static transform from 'base' to 'base', exiting"
+    with pytest.raises(LaunchError, match=text):
+        run_node(node, bench.graph, threading.Event())
 
 
 def test_unnamed_ones_of_ros2_live_side_by_side(bench: Any) -> None:

@@ -68,6 +68,7 @@ TRANSFORMS = (
         entry="gazelle.nodes.static_transform_publisher:run_tf2",
         does="publishes one fixed transform, latched",
         is_light=True,
+        parameters="gazelle.nodes.static_transform_publisher:PARAMETERS",
         role=NodeRole.STATIC_TRANSFORM,
         topics=(publishes("/tf_static", "tf2_msgs/msg/TFMessage"),),
         is_complete=True,

@@ -16,9 +16,35 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_transform
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node, ticks
+from gazelle.parameters import Parameter, ParameterTable
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.trees import nested
 
-__all__ = ["StaticTransform", "parse_arguments", "parse_options", "run_tf", "run_tf2"]
+__all__ = ["PARAMETERS", "StaticTransform", "parse_arguments", "parse_options", "run_tf", "run_tf2"]
+
+PARAMETERS = ParameterTable(
+    "static_transform_publisher",
+    "Publishes one fixed transform, latched. Parameters count where no words are given, as they do"
+    " for the component `tf2_ros::StaticTransformBroadcasterNode`.",
+    ("tf2_ros/static_transform_publisher",),
+    (
+        Parameter("frame_id", "text", "/frame", "the frame above", generations=(2,)),
+        Parameter("child_frame_id", "text", "/child", "the frame below", generations=(2,)),
+        *(
+            Parameter(f"translation.{axis}", "number", 0.0, "where it is", "m", generations=(2,))
+            for axis in "xyz"
+        ),
+        *(
+            Parameter(
+                f"rotation.{part}", "number", float(part == "w"), "how it is turned, a quaternion",
+                generations=(2,),
+            )
+            for part in "xyzw"
+        ),
+    ),
+)  # fmt: skip
 
 _USAGE = (
     "usage: static_transform_publisher x y z yaw pitch roll frame_id child_frame_id {period}\n"
@@ -128,21 +154,46 @@ def run_tf(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int
 
 
 def run_tf2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
-    """Publish once on /tf_static, latched."""
+    """Publish once on /tf_static, latched.
+
+    Raises:
+        LaunchError: words or parameters say no transform.
+    """
+    transform: StaticTransform | None = None
     if any(word in _OPTIONS for word in arguments.rest):
         transform = parse_options(arguments.rest)
-    else:
+    elif arguments.rest or not _has_parameters(arguments):
         transform = parse_arguments(arguments.rest, with_period=False)
     if arguments.generation == 2 and arguments.name == _NAME:
         # Many of them run side by side, as a rule without names.
         arguments = replace(arguments, name=f"{_NAME}_{secrets.token_hex(8)}")
     node = start_node(arguments, graph)
+    with private_parameters(node, arguments, PARAMETERS) as own:
+        transform = transform or _of_parameters(own)
+    if transform.frame_id == transform.child_frame_id:
+        node.shutdown()
+        frame = transform.frame_id
+        raise LaunchError(f"cannot publish static transform from '{frame}' to '{frame}', exiting")
     type_: Any = message_type("tf2_msgs/msg/TFMessage")
     publisher = node.create_publisher("/tf_static", type_, latch=True)
     publisher.publish(type_(transforms=[_message(transform, node.clock.now_ns())]))
     stop.wait()
     node.shutdown()
     return 0
+
+
+def _has_parameters(arguments: NodeArguments) -> bool:
+    given = nested(arguments.params)
+    return arguments.generation == 2 and any(
+        row.key.partition(".")[0] in given for row in PARAMETERS.rows
+    )
+
+
+def _of_parameters(own: ParameterReader) -> StaticTransform:
+    x, y, z = (own.number(f"translation.{axis}") for axis in "xyz")
+    qx, qy, qz, qw = (own.number(f"rotation.{part}") for part in "xyzw")
+    pose = Pose((x, y, z), (qx, qy, qz, qw))
+    return StaticTransform(pose, own.text("frame_id"), own.text("child_frame_id"), 0.0)
 
 
 def _message(transform: StaticTransform, stamp_ns: int) -> Any:
