@@ -9,8 +9,8 @@ import sys
 import numpy as np
 import pytest
 
-from gazelle.description.model import NOISE_TYPES, Noise
-from gazelle.sensors import NOISE_MODELS, DriftModel, noise_stream, picture_noise
+from gazelle.noise import Noise
+from gazelle.sensors import noise_stream, picture_noise
 from gazelle.sensors.seeding import seed_words
 
 
@@ -69,17 +69,6 @@ def test_seeds_are_the_same_in_every_process() -> None:
     code = "from gazelle.sensors.seeding import seed_words; print(seed_words(42, 'robot::laser'))"
     run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert run.stdout.strip() == str(seed_words(42, "robot::laser"))
-
-
-def test_every_word_of_sdf_and_of_plugins_is_a_row_that_adds_to_values() -> None:
-    assert set(NOISE_MODELS) == {*NOISE_TYPES, DriftModel.type}
-    drift = DriftModel((0.0,), (0.1,), (0.1,))
-    for word in NOISE_MODELS:
-        model = drift if word == DriftModel.type else Noise(word, stddev=0.3)
-        stream = noise_stream(model, 1, "s")
-        value = stream.apply(np.array([2.0]), dt_s=0.1)
-        assert value.shape == (1,)
-        assert (float(value[0]) == 2.0) is stream.is_silent
 
 
 def test_pictures_have_the_white_noise_of_gaussian_models_alone() -> None:

@@ -6,15 +6,21 @@ here knows topics, rates or plug-ins.
 
 from __future__ import annotations
 
+from gazelle.noise import (
+    NOISE_MODELS,
+    DriftModel,
+    DriftNoise,
+    NoiseModel,
+    NoiseStream,
+    PictureNoise,
+)
 from gazelle.sensors.bands import default_threads
 from gazelle.sensors.camera import CameraRecord, render
 from gazelle.sensors.contact import ContactRecord, link_wrenches, watched_contacts
 from gazelle.sensors.depth import POINT_DTYPE, depth_image, point_cloud
 from gazelle.sensors.distortion import distort, is_distorting
-from gazelle.sensors.drift_noise import DriftModel, DriftNoise
 from gazelle.sensors.embree import EmbreeError
 from gazelle.sensors.force_torque import JointLoad, WrenchRecord, force_torque_reading
-from gazelle.sensors.gaussian_noise import PictureNoise
 from gazelle.sensors.gps import (
     GpsRecord,
     flat_earth_position,
@@ -25,7 +31,7 @@ from gazelle.sensors.gps import (
 from gazelle.sensors.imu import ImuRecord, LinkMotion, imu_noise, imu_reading
 from gazelle.sensors.intrinsics import Intrinsics, camera_intrinsics
 from gazelle.sensors.lidar import LidarRecord, ScanAngles, scan, scan_angles, scene_kind
-from gazelle.sensors.noise import NOISE_MODELS, NoiseModel, NoiseStream, noise_stream, picture_noise
+from gazelle.sensors.noise import noise_stream, picture_noise
 from gazelle.sensors.ray_scene import RayScene
 from gazelle.sensors.sonar import SonarRecord, sonar_range
 from gazelle.sensors.surroundings import (

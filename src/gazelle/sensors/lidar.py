@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import LidarSpec
 from gazelle.geometry import Pose
+from gazelle.noise import NoiseStream
 from gazelle.sensors.embree import NOTHING, PACKET, PACKET_BYTES, library, packet_buffer
-from gazelle.sensors.noise import NoiseStream
 from gazelle.sensors.ray_scene import SHADOW_BIT, RayScene
 
 __all__ = ["LidarRecord", "ScanAngles", "cast", "scan", "scan_angles", "scene_kind"]

@@ -1,60 +1,13 @@
-"""Noise models: one table, from which every sensor and plug-in makes its streams of noise.
-
-A model is a record of parameters with a `type`; the table says what makes a stream of it. A new
-model is a row here, and its word in `gazelle.description.model.NOISE_TYPES` where SDF names it.
-"""
+"""Streams of noise, seeded by the world and by who has them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import partial
-from typing import Any, NamedTuple, Protocol, overload
+from typing import overload
 
-import numpy as np
-from numpy.typing import NDArray
-
-from gazelle.description.model import Noise
-from gazelle.sensors.drift_noise import DriftModel, DriftNoise
-from gazelle.sensors.gaussian_noise import GaussianNoise, NoNoise, PictureNoise
+from gazelle.noise import NOISE_MODELS, DriftModel, DriftNoise, Noise, NoiseStream, PictureNoise
 from gazelle.sensors.seeding import random_stream
 
-__all__ = ["NOISE_MODELS", "NoiseModel", "NoiseStream", "noise_stream", "picture_noise"]
-
-
-class NoiseStream(Protocol):
-    """Turns true values into measured ones, call by call."""
-
-    @property
-    def is_silent(self) -> bool:
-        """Whether `apply` returns its input, so that a sensor need not ask."""
-
-    def apply(self, values: Any, *, dt_s: float = 0.0) -> NDArray[np.float64]:
-        """Return values with noise; `dt_s` is the simulated time since the last call."""
-
-
-class NoiseModel(NamedTuple):
-    """A row of the table.
-
-    Attributes:
-        type: word of SDF's ``<noise type="…">``, or of a plug-in's own error model.
-        stream: makes a stream of the parameters and of random numbers.
-        picture: likewise for cameras, None where pictures have no such noise.
-    """
-
-    type: str
-    stream: Callable[[Any, np.random.Generator], NoiseStream]
-    picture: Callable[[Any, np.random.Generator], PictureNoise] | None = None
-
-
-NOISE_MODELS: Mapping[str, NoiseModel] = {
-    row.type: row
-    for row in (
-        NoiseModel("none", NoNoise),
-        NoiseModel("gaussian", GaussianNoise, PictureNoise),
-        NoiseModel("gaussian_quantized", partial(GaussianNoise, quantised=True), PictureNoise),
-        NoiseModel("hector_drift", DriftNoise),
-    )
-}
+__all__ = ["noise_stream", "picture_noise"]
 
 
 @overload

@@ -26,8 +26,6 @@ from gazelle.description.model.plugin import (
     TransmissionTag,
 )
 from gazelle.description.model.sensor import (
-    NO_NOISE,
-    NOISE_TYPES,
     AltimeterSpec,
     CameraSpec,
     ContactSpec,
@@ -38,7 +36,6 @@ from gazelle.description.model.sensor import (
     LidarSpec,
     LogicalCameraSpec,
     MagnetometerSpec,
-    Noise,
     OtherSensorSpec,
     PressureSpec,
     Sensor,
@@ -71,9 +68,9 @@ from gazelle.description.model.world import (
     SphericalCoordinates,
     World,
 )
+from gazelle.noise import NO_NOISE, Noise
 
 __all__ = [
-    "NOISE_TYPES",
     "NO_NOISE",
     "SOLIDS",
     "ActuatorTag",

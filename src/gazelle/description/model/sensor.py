@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from gazelle.description.model.plugin import PluginTag
 from gazelle.diagnostics import SourceSpan
 from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.noise import NO_NOISE, Noise
 
 __all__ = [
-    "NOISE_TYPES",
-    "NO_NOISE",
     "AltimeterSpec",
     "CameraSpec",
     "ContactSpec",
@@ -21,7 +20,6 @@ __all__ = [
     "LidarSpec",
     "LogicalCameraSpec",
     "MagnetometerSpec",
-    "Noise",
     "OtherSensorSpec",
     "PressureSpec",
     "Sensor",
@@ -29,27 +27,6 @@ __all__ = [
     "SonarSpec",
 ]
 
-NO_NOISE_TYPE = "none"
-
-
-@dataclass(frozen=True, slots=True)
-class Noise:
-    """SDF ``<noise>``: `type` is one of `NOISE_TYPES`."""
-
-    type: str = NO_NOISE_TYPE
-    mean: float = 0.0
-    stddev: float = 0.0
-    bias_mean: float = 0.0
-    bias_stddev: float = 0.0
-    dynamic_bias_stddev: float = 0.0
-    dynamic_bias_correlation_time_s: float = 0.0
-    precision: float = 0.0
-    span: SourceSpan | None = None
-
-
-# Each is a row of `gazelle.sensors.NOISE_MODELS` too.
-NOISE_TYPES = (NO_NOISE_TYPE, "gaussian", "gaussian_quantized")
-NO_NOISE = Noise()
 Noise3 = tuple[Noise, Noise, Noise]
 _NO_NOISE3: Noise3 = (NO_NOISE, NO_NOISE, NO_NOISE)
 

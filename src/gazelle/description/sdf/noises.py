@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from gazelle.description.context import ReadContext
-from gazelle.description.model import NOISE_TYPES, Noise
 from gazelle.description.sdf.values import child_float
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import did_you_mean
+from gazelle.noise import NOISE_TYPES, Noise
 
 __all__ = ["read_axis_noises", "read_noise", "read_noise_of"]
 

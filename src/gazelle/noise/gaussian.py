@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.model import Noise
+from gazelle.noise.record import Noise
 
 __all__ = ["GaussianNoise", "NoNoise", "PictureNoise"]
 
