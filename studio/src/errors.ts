@@ -5,7 +5,11 @@ import { isObject, type Json } from './json';
 
 /** An error of a call or stream: the message, what to do about it, and the names that do exist. */
 export class CallError extends Error {
-  constructor(message: string, readonly hint = '', readonly known: readonly string[] = []) {
+  constructor(
+    message: string,
+    readonly hint = '',
+    readonly known: readonly string[] = [],
+  ) {
     super(message);
     this.name = 'CallError';
   }

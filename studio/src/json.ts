@@ -23,5 +23,7 @@ export function numberOf(object: JsonObject, name: string, otherwise = 0): numbe
 /** The strings of a list under a name. */
 export function textsOf(object: JsonObject, name: string): string[] {
   const value = object[name];
-  return Array.isArray(value) ? value.filter((item): item is string => typeof item === 'string') : [];
+  return Array.isArray(value)
+    ? value.filter((item): item is string => typeof item === 'string')
+    : [];
 }

@@ -41,7 +41,16 @@ export interface PanelHost {
 
 /** The groups of the menu, in its order. */
 export const PANEL_GROUPS = [
-  'Simulation', 'Visualization', 'Topics', 'Services', 'Actions', 'Introspection', 'Configuration', 'Logging', 'Robot Tools', 'Plugins',
+  'Simulation',
+  'Visualization',
+  'Topics',
+  'Services',
+  'Actions',
+  'Introspection',
+  'Configuration',
+  'Logging',
+  'Robot Tools',
+  'Plugins',
 ] as const;
 export type PanelGroup = (typeof PANEL_GROUPS)[number];
 

@@ -24,19 +24,31 @@ export function covarianceProperties(): PropertySpec[] {
     flag('Covariance/Orientation', true, 'The fan of the yaw.'),
     colour('Covariance/Orientation/Color', '255; 255; 127', 'Colour of the fan.'),
     num('Covariance/Orientation/Alpha', 0.5, 'How opaque the fan is.', { min: 0, max: 1 }),
-    num('Covariance/Orientation/Offset', 1, 'How far from the pose the fan ends, metres.', { min: 0 }),
+    num('Covariance/Orientation/Offset', 1, 'How far from the pose the fan ends, metres.', {
+      min: 0,
+    }),
     num('Covariance/Orientation/Scale', 1, 'Standard deviations to each side.', { min: 0 }),
   ];
 }
 
 /** Draws covariances by the properties above. */
 export class Covariance {
-  private readonly positionPaint = new THREE.MeshPhongMaterial({ transparent: true, depthWrite: false });
-  private readonly yawPaint = new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide });
+  private readonly positionPaint = new THREE.MeshPhongMaterial({
+    transparent: true,
+    depthWrite: false,
+  });
+  private readonly yawPaint = new THREE.MeshBasicMaterial({
+    transparent: true,
+    depthWrite: false,
+    side: THREE.DoubleSide,
+  });
   private readonly ellipsoids: InstancePool;
   private readonly fans = new THREE.Group();
 
-  constructor(parent: THREE.Object3D, private readonly props: Properties) {
+  constructor(
+    parent: THREE.Object3D,
+    private readonly props: Properties,
+  ) {
     this.ellipsoids = new InstancePool(parent, unit.sphere(), this.positionPaint);
     parent.add(this.fans);
   }
@@ -68,10 +80,18 @@ export class Covariance {
   /** The covariance of the position is in the frame of the message, not of the pose. */
   private ellipsoid({ pose, values }: Uncertain): THREE.Matrix4 {
     const scale = this.props.num('Covariance/Position/Scale');
-    const { axes, squares } = eigen([0, 1, 2].map((row) => [0, 1, 2].map((column) => values[row * 6 + column] || 0)));
-    const lengths = squares.map((square) => Math.max(Math.sqrt(Math.max(square, 0)) * scale, SMALLEST_M));
+    const { axes, squares } = eigen(
+      [0, 1, 2].map((row) => [0, 1, 2].map((column) => values[row * 6 + column] || 0)),
+    );
+    const lengths = squares.map((square) =>
+      Math.max(Math.sqrt(Math.max(square, 0)) * scale, SMALLEST_M),
+    );
     const matrix = new THREE.Matrix4().makeBasis(
-      ...(axes.map((axis, i) => new THREE.Vector3(...axis).multiplyScalar(lengths[i])) as [THREE.Vector3, THREE.Vector3, THREE.Vector3]),
+      ...(axes.map((axis, i) => new THREE.Vector3(...axis).multiplyScalar(lengths[i])) as [
+        THREE.Vector3,
+        THREE.Vector3,
+        THREE.Vector3,
+      ]),
     );
     return matrix.setPosition(new THREE.Vector3().setFromMatrixPosition(pose));
   }
@@ -80,7 +100,10 @@ export class Covariance {
     const scale = this.props.num('Covariance/Orientation/Scale');
     const half = Math.min(WIDEST_RAD, Math.max(0.005, Math.sqrt(Math.max(values[35], 0)) * scale));
     const radius = this.props.num('Covariance/Orientation/Offset');
-    const mesh = new THREE.Mesh(new THREE.CircleGeometry(radius, 24, -half, 2 * half), this.yawPaint);
+    const mesh = new THREE.Mesh(
+      new THREE.CircleGeometry(radius, 24, -half, 2 * half),
+      this.yawPaint,
+    );
     mesh.matrixAutoUpdate = false;
     mesh.matrix.copy(pose);
     mesh.raycast = () => undefined;
@@ -91,9 +114,17 @@ export class Covariance {
 /** Eigenvectors and eigenvalues of a symmetric matrix, by Jacobi's turns. */
 export function eigen(matrix: number[][]): { axes: [number, number, number][]; squares: number[] } {
   const a = matrix.map((row) => [...row]);
-  const v = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  const v = [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ];
   for (let sweep = 0; sweep < 12; sweep++) {
-    for (const [p, q] of [[0, 1], [0, 2], [1, 2]]) {
+    for (const [p, q] of [
+      [0, 1],
+      [0, 2],
+      [1, 2],
+    ]) {
       if (Math.abs(a[p][q]) < 1e-15) continue;
       const angle = 0.5 * Math.atan2(2 * a[p][q], a[q][q] - a[p][p]);
       turn(a, v, p, q, Math.cos(angle), Math.sin(angle));

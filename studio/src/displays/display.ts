@@ -72,16 +72,31 @@ export class Display {
   private channel: Channel | null = null;
   private messages = 0;
 
-  constructor(readonly kind: DisplayKind, public name: string, readonly stage: Stage, initial: JsonObject = {}) {
+  constructor(
+    readonly kind: DisplayKind,
+    public name: string,
+    readonly stage: Stage,
+    initial: JsonObject = {},
+  ) {
     const topic: PropertySpec[] = kind.types.length
-      ? [{ path: 'Topic', kind: 'topic', value: '', about: `A topic of ${kind.types.join(' or ')}.`, types: kind.types }]
+      ? [
+          {
+            path: 'Topic',
+            kind: 'topic',
+            value: '',
+            about: `A topic of ${kind.types.join(' or ')}.`,
+            types: kind.types,
+          },
+        ]
       : [];
     this.props = new Properties([...topic, ...kind.properties]);
     this.props.fromObject(initial);
     this.root.name = name;
     stage.view.scene.add(this.root);
     this.drawer = kind.make({
-      ...stage, root: this.root, props: this.props,
+      ...stage,
+      root: this.root,
+      props: this.props,
       status: (what, level, words) => this.tell(what, level, words),
       offer: (spec) => void (this.props.add(spec) && this.onChange('properties')),
     });
@@ -120,7 +135,8 @@ export class Display {
       if (!this.channel && this.enabled) this.begin();
       else if (!this.topic) this.end();
       else this.channel?.change(this.params());
-    } else if (this.props.specs.find((spec) => spec.path === path)?.server) this.channel?.change(this.params());
+    } else if (this.props.specs.find((spec) => spec.path === path)?.server)
+      this.channel?.change(this.params());
     this.drawer.changed?.(path);
     this.stage.view.invalidate();
   }
@@ -151,7 +167,10 @@ export class Display {
 
   private params(): JsonObject {
     return {
-      display: this.kind.name, topic: this.topic, fixed_frame: this.stage.frames.fixed, ...this.props.forServer(),
+      display: this.kind.name,
+      topic: this.topic,
+      fixed_frame: this.stage.frames.fixed,
+      ...this.props.forServer(),
     };
   }
 
@@ -165,7 +184,8 @@ export class Display {
         return this.drawer.frame?.(frame);
       },
       onStatus: (level, words) => this.tell('Transform', level, words),
-      onFailed: (error) => this.tell('Topic', 'error', [error.message, error.hint].filter(Boolean).join(' ')),
+      onFailed: (error) =>
+        this.tell('Topic', 'error', [error.message, error.hint].filter(Boolean).join(' ')),
       onEnded: (error) => error && this.tell('Topic', 'error', error.message),
     });
     this.tell('Topic', 'warn', 'No messages received');
@@ -183,7 +203,11 @@ export class Display {
     if (!this.kind.ownPose && 'pose' in value) {
       this.root.visible = this.enabled && pose !== null;
       if (pose === null) {
-        this.tell('Transform', 'error', `No transform from [${textOf(value, 'frame')}] to [${this.stage.frames.fixed}]`);
+        this.tell(
+          'Transform',
+          'error',
+          `No transform from [${textOf(value, 'frame')}] to [${this.stage.frames.fixed}]`,
+        );
       } else {
         place(this.root, pose as number[]);
         if (this.status.has('Transform')) this.tell('Transform', 'ok', 'Transform OK');

@@ -14,7 +14,9 @@ export class DisplayList {
   tools: readonly RvizTool[] = [];
   /** Of classes that are not known yet. */
   private waiting: readonly RvizDisplay[] = [];
-  private readonly listeners = new Set<(what: 'list' | 'status' | 'properties', display?: Display) => void>();
+  private readonly listeners = new Set<
+    (what: 'list' | 'status' | 'properties', display?: Display) => void
+  >();
 
   constructor(readonly stage: Stage) {
     stage.frames.onRenamed(() => this.chooseFrame());
@@ -71,9 +73,12 @@ export class DisplayList {
   load(value: JsonObject): boolean {
     [...this.displays].forEach((display) => this.remove(display));
     if (textOf(value, 'fixed_frame')) this.setFixedFrame(textOf(value, 'fixed_frame'));
-    this.tools = (Array.isArray(value['tools']) ? value['tools'] : []).filter(isObject) as unknown as RvizTool[];
+    this.tools = (Array.isArray(value['tools']) ? value['tools'] : []).filter(
+      isObject,
+    ) as unknown as RvizTool[];
     // What a world file says of its scene stays.
-    if (textOf(value, 'background') && !this.stage.view.lighting.ofWorld) this.setBackground(textOf(value, 'background'));
+    if (textOf(value, 'background') && !this.stage.view.lighting.ofWorld)
+      this.setBackground(textOf(value, 'background'));
     const displays = Array.isArray(value['displays']) ? value['displays'] : [];
     this.waiting = this.addAll(displays.filter(isObject) as unknown as RvizDisplay[]);
     this.tell('list');
@@ -92,7 +97,11 @@ export class DisplayList {
   private addAll(values: readonly RvizDisplay[]): RvizDisplay[] {
     return values.filter((given) => {
       const topic: JsonObject = given.topic ? { Topic: given.topic } : {};
-      const display = this.add(given.class, { ...given.properties, ...topic }, given.name || undefined);
+      const display = this.add(
+        given.class,
+        { ...given.properties, ...topic },
+        given.name || undefined,
+      );
       if (display && given.enabled === false) display.setEnabled(false);
       return display === null;
     });
@@ -100,11 +109,22 @@ export class DisplayList {
 
   /** What a layout keeps. */
   save(): JsonObject {
-    const displays = [...this.displays.map((each) => ({
-      class: each.kind.name, name: each.name, enabled: each.enabled, properties: each.props.toObject(),
-    })), ...this.waiting];
+    const displays = [
+      ...this.displays.map((each) => ({
+        class: each.kind.name,
+        name: each.name,
+        enabled: each.enabled,
+        properties: each.props.toObject(),
+      })),
+      ...this.waiting,
+    ];
     const [shown, tools] = [displays, this.tools] as unknown as Json[];
-    return { fixed_frame: this.fixedFrame, background: this.backgroundColour, displays: shown, tools };
+    return {
+      fixed_frame: this.fixedFrame,
+      background: this.backgroundColour,
+      displays: shown,
+      tools,
+    };
   }
 
   dispose(): void {
@@ -119,7 +139,8 @@ export class DisplayList {
 
   private freeName(base: string): string {
     let name = base;
-    for (let i = 2; this.displays.some((display) => display.name === name); i++) name = `${base} ${i}`;
+    for (let i = 2; this.displays.some((display) => display.name === name); i++)
+      name = `${base} ${i}`;
     return name;
   }
 
@@ -127,7 +148,12 @@ export class DisplayList {
   private chooseFrame(): void {
     const { infos, fixed, robotRoot } = this.stage.frames;
     if (this.displays.length === 0 || this.chosen) return this.tell('list');
-    const root = ['map', 'odom', 'world'].find((name) => infos.some((info) => info.name === name || info.parent === name)) ?? rootOf(infos) ?? robotRoot;
+    const root =
+      ['map', 'odom', 'world'].find((name) =>
+        infos.some((info) => info.name === name || info.parent === name),
+      ) ??
+      rootOf(infos) ??
+      robotRoot;
     if (root && root !== fixed) this.setFixedFrame(root);
     else this.tell('list');
   }

@@ -22,18 +22,31 @@ export class DisplayRow {
   private readonly status = h('div', { class: 'display-statuses' });
   private readonly open = new Set<string>();
 
-  constructor(readonly display: Display, private readonly host: RowHost, expanded: boolean) {
+  constructor(
+    readonly display: Display,
+    private readonly host: RowHost,
+    expanded: boolean,
+  ) {
     const { enabled } = this;
     enabled.setAttribute('aria-label', `Show ${display.name}`);
     enabled.addEventListener('change', () => {
       display.setEnabled(enabled.checked);
       host.touched();
     });
-    const twist = button('', () => this.expand(!this.expanded), { icon: 'down', class: 'ghost display-twist', title: `Properties of ${display.name}` });
+    const twist = button('', () => this.expand(!this.expanded), {
+      icon: 'down',
+      class: 'ghost display-twist',
+      title: `Properties of ${display.name}`,
+    });
     this.head = h('div', { class: 'display-head' }, twist, this.light, this.name, enabled);
     this.head.addEventListener('click', () => host.chosen(display));
     this.head.addEventListener('dblclick', () => this.expand(!this.expanded));
-    this.element = h('div', { class: 'display', role: 'treeitem', tabindex: -1, 'aria-label': display.name }, this.head, this.body);
+    this.element = h(
+      'div',
+      { class: 'display', role: 'treeitem', tabindex: -1, 'aria-label': display.name },
+      this.head,
+      this.body,
+    );
     setText(this.name, display.name);
     this.expand(expanded);
     this.refreshStatus();
@@ -62,8 +75,16 @@ export class DisplayRow {
     this.light.dataset['level'] = display.enabled ? display.level : 'off';
     this.element.dataset['level'] = display.level;
     if (this.body.hidden) return;
-    this.status.replaceChildren(...[...display.status].map(([what, line]) =>
-      h('div', { class: `display-status status-${line.level}` }, h('span', { class: 'status-what' }, what), h('span', {}, line.text))));
+    this.status.replaceChildren(
+      ...[...display.status].map(([what, line]) =>
+        h(
+          'div',
+          { class: `display-status status-${line.level}` },
+          h('span', { class: 'status-what' }, what),
+          h('span', {}, line.text),
+        ),
+      ),
+    );
   }
 
   /** Properties came or changed from outside. */
@@ -85,16 +106,19 @@ export class DisplayRow {
         order.push(group);
       }
     }
-    return order.map((each) => typeof each === 'string'
-      ? this.group(each, groups.get(each) ?? [], prefix)
-      : this.row(each, each.path.slice(prefix.length)));
+    return order.map((each) =>
+      typeof each === 'string'
+        ? this.group(each, groups.get(each) ?? [], prefix)
+        : this.row(each, each.path.slice(prefix.length)),
+    );
   }
 
   private group(name: string, specs: readonly PropertySpec[], prefix: string): HTMLElement {
     const path = `${prefix}${name}/`;
     const details = h('details', { class: 'property-group' }, h('summary', {}, name));
     details.open = this.open.has(path);
-    const fill = (): void => void (details.childElementCount < 2 && details.append(...this.rows(specs, path)));
+    const fill = (): void =>
+      void (details.childElementCount < 2 && details.append(...this.rows(specs, path)));
     if (details.open) fill();
     details.addEventListener('toggle', () => {
       if (details.open) {
@@ -110,6 +134,11 @@ export class DisplayRow {
       this.display.set(spec.path, value);
       this.host.touched();
     });
-    return h('div', { class: 'property-row', title: spec.about }, h('span', { class: 'property-name' }, name), h('span', { class: 'property-value' }, control));
+    return h(
+      'div',
+      { class: 'property-row', title: spec.about },
+      h('span', { class: 'property-name' }, name),
+      h('span', { class: 'property-value' }, control),
+    );
   }
 }

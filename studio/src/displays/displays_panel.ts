@@ -25,7 +25,11 @@ export class DisplaysPanel extends BasePanel {
   private chosen: Display | null = null;
   private views: ViewsBox | null = null;
   private unwatch: () => void = () => undefined;
-  private readonly tree = h('div', { class: 'display-tree', role: 'tree', 'aria-label': 'Displays' });
+  private readonly tree = h('div', {
+    class: 'display-tree',
+    role: 'tree',
+    'aria-label': 'Displays',
+  });
   private readonly globals = h('div', { class: 'display-body' });
   private readonly viewsPlace = h('details', { class: 'views' }, h('summary', {}, 'Views'));
 
@@ -36,17 +40,33 @@ export class DisplaysPanel extends BasePanel {
       if (file.files?.[0] && this.scene) void insertFile(this.scene, file.files[0]);
       file.value = '';
     });
-    const more = button('More', () => openMenu(more, [
-      { text: 'Duplicate', run: () => this.duplicate() },
-      { text: 'Rename…', run: () => void this.rename() },
-      { text: 'Open a .rviz file…', run: () => file.click() },
-    ], 'More'), { icon: 'down', title: 'Duplicate, rename, open a .rviz file' });
+    const more = button(
+      'More',
+      () =>
+        openMenu(
+          more,
+          [
+            { text: 'Duplicate', run: () => this.duplicate() },
+            { text: 'Rename…', run: () => void this.rename() },
+            { text: 'Open a .rviz file…', run: () => file.click() },
+          ],
+          'More',
+        ),
+      { icon: 'down', title: 'Duplicate, rename, open a .rviz file' },
+    );
     more.setAttribute('aria-haspopup', 'menu');
     this.element.classList.add('displays-panel');
     this.element.append(
-      toolbar('Displays', button('Add', () => void this.add(), { icon: 'plus', title: 'Add a display' }),
-        button('Remove', () => this.remove()), more, file),
-      h('div', { class: 'displays-scroll' }, this.globals, this.tree), this.viewsPlace);
+      toolbar(
+        'Displays',
+        button('Add', () => void this.add(), { icon: 'plus', title: 'Add a display' }),
+        button('Remove', () => this.remove()),
+        more,
+        file,
+      ),
+      h('div', { class: 'displays-scroll' }, this.globals, this.tree),
+      this.viewsPlace,
+    );
     this.tree.addEventListener('keydown', (event) => this.key(event));
     this.atEnd(onActiveScene(() => this.attach()));
     this.atEnd(() => this.unwatch());
@@ -59,8 +79,14 @@ export class DisplaysPanel extends BasePanel {
 
   private get known(): Known {
     return {
-      topics: (types) => this.host.graph.value.topics.filter((topic) => !types.length || types.includes(shortType(topic.type))).map((topic) => topic.name),
-      frames: () => ['<Fixed Frame>', ...(this.scene?.displays.stage.frames.infos ?? []).map((info) => info.name)],
+      topics: (types) =>
+        this.host.graph.value.topics
+          .filter((topic) => !types.length || types.includes(shortType(topic.type)))
+          .map((topic) => topic.name),
+      frames: () => [
+        '<Fixed Frame>',
+        ...(this.scene?.displays.stage.frames.infos ?? []).map((info) => info.name),
+      ],
     };
   }
 
@@ -72,7 +98,10 @@ export class DisplaysPanel extends BasePanel {
     this.chosen = null;
     this.views?.dispose();
     this.views = scene ? new ViewsBox(scene.view, scene.displays.stage.frames) : null;
-    this.viewsPlace.replaceChildren(h('summary', {}, 'Views'), this.views?.element ?? notice('No view is open.'));
+    this.viewsPlace.replaceChildren(
+      h('summary', {}, 'Views'),
+      this.views?.element ?? notice('No view is open.'),
+    );
     if (scene) {
       this.unwatch = scene.displays.watch((what, display) => {
         if (what === 'list') this.rebuild();
@@ -89,11 +118,24 @@ export class DisplaysPanel extends BasePanel {
     const displays = this.scene?.displays.displays ?? [];
     this.fillGlobals();
     const old = new Map(this.rows.map((row) => [row.display, row]));
-    this.rows = displays.map((display) => old.get(display) ?? new DisplayRow(display, {
-      known: this.known, chosen: (each) => this.choose(each), touched: () => this.host.touched(),
-    }, expanded.has(display)));
+    this.rows = displays.map(
+      (display) =>
+        old.get(display) ??
+        new DisplayRow(
+          display,
+          {
+            known: this.known,
+            chosen: (each) => this.choose(each),
+            touched: () => this.host.touched(),
+          },
+          expanded.has(display),
+        ),
+    );
     this.tree.replaceChildren(...this.rows.map((row) => row.element));
-    if (!displays.length) this.tree.append(notice(this.scene ? 'Add shows what topics carry.' : 'Open an RViz or Gazebo view first.'));
+    if (!displays.length)
+      this.tree.append(
+        notice(this.scene ? 'Add shows what topics carry.' : 'Open an RViz or Gazebo view first.'),
+      );
     if (!this.chosen || !displays.includes(this.chosen)) this.choose(displays[0] ?? null);
   }
 
@@ -101,22 +143,72 @@ export class DisplaysPanel extends BasePanel {
     const { scene } = this;
     if (!scene) return this.globals.replaceChildren();
     if (this.globals.contains(document.activeElement)) return;
-    const frame = { path: 'Fixed Frame', kind: 'frame' as const, value: '', about: 'The frame in which everything is drawn.' };
-    const back = { path: 'Background Color', kind: 'colour' as const, value: '', about: 'Colour of the background.' };
-    const frames: Known = { topics: () => [], frames: () => scene.displays.stage.frames.infos.map((info) => info.name) };
-    const rows: [string, HTMLElement][] = [['Fixed Frame', editor(frame, scene.displays.fixedFrame, frames, (value) => {
-      scene.displays.chosen = true;
-      scene.displays.setFixedFrame(String(value));
-      this.host.touched();
-    })]];
-    if (scene.kind === 'rviz') rows.push(['Background Color', editor(back, scene.displays.backgroundColour, frames, (value) => scene.displays.setBackground(String(value)))]);
+    const frame = {
+      path: 'Fixed Frame',
+      kind: 'frame' as const,
+      value: '',
+      about: 'The frame in which everything is drawn.',
+    };
+    const back = {
+      path: 'Background Color',
+      kind: 'colour' as const,
+      value: '',
+      about: 'Colour of the background.',
+    };
+    const frames: Known = {
+      topics: () => [],
+      frames: () => scene.displays.stage.frames.infos.map((info) => info.name),
+    };
+    const rows: [string, HTMLElement][] = [
+      [
+        'Fixed Frame',
+        editor(frame, scene.displays.fixedFrame, frames, (value) => {
+          scene.displays.chosen = true;
+          scene.displays.setFixedFrame(String(value));
+          this.host.touched();
+        }),
+      ],
+    ];
+    if (scene.kind === 'rviz')
+      rows.push([
+        'Background Color',
+        editor(back, scene.displays.backgroundColour, frames, (value) =>
+          scene.displays.setBackground(String(value)),
+        ),
+      ]);
     const { infos } = scene.displays.stage.frames;
-    const isThere = infos.some((info) => info.name === scene.displays.fixedFrame || info.parent === scene.displays.fixedFrame);
+    const isThere = infos.some(
+      (info) =>
+        info.name === scene.displays.fixedFrame || info.parent === scene.displays.fixedFrame,
+    );
     this.globals.replaceChildren(
-      h('div', { class: 'display-head' }, h('span', { class: 'display-light', 'data-level': infos.length && !isThere ? 'error' : 'ok' }), h('span', { class: 'display-name' }, 'Global Options')),
-      ...rows.map(([name, control]) => h('div', { class: 'property-row' }, h('span', { class: 'property-name' }, name), h('span', { class: 'property-value' }, control))));
+      h(
+        'div',
+        { class: 'display-head' },
+        h('span', {
+          class: 'display-light',
+          'data-level': infos.length && !isThere ? 'error' : 'ok',
+        }),
+        h('span', { class: 'display-name' }, 'Global Options'),
+      ),
+      ...rows.map(([name, control]) =>
+        h(
+          'div',
+          { class: 'property-row' },
+          h('span', { class: 'property-name' }, name),
+          h('span', { class: 'property-value' }, control),
+        ),
+      ),
+    );
     if (infos.length && !isThere) {
-      this.globals.append(h('div', { class: 'display-status status-error' }, h('span', { class: 'status-what' }, 'Fixed Frame'), h('span', {}, `Unknown frame ${scene.displays.fixedFrame}`)));
+      this.globals.append(
+        h(
+          'div',
+          { class: 'display-status status-error' },
+          h('span', { class: 'status-what' }, 'Fixed Frame'),
+          h('span', {}, `Unknown frame ${scene.displays.fixedFrame}`),
+        ),
+      );
     }
   }
 
@@ -127,7 +219,8 @@ export class DisplaysPanel extends BasePanel {
 
   private key(event: KeyboardEvent): void {
     const at = this.rows.findIndex((row) => row.display === this.chosen);
-    const inRow = event.target instanceof HTMLElement && event.target.getAttribute('role') === 'treeitem';
+    const inRow =
+      event.target instanceof HTMLElement && event.target.getAttribute('role') === 'treeitem';
     if (!inRow || at < 0) return;
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (step) {
@@ -145,7 +238,10 @@ export class DisplaysPanel extends BasePanel {
     if (!this.scene) return;
     const choice = await askDisplay(this.host.graph, this.connection);
     if (!choice) return;
-    const display = this.scene.displays.add(choice.className, choice.topic ? { Topic: choice.topic } : this.onlyTopic(choice.className));
+    const display = this.scene.displays.add(
+      choice.className,
+      choice.topic ? { Topic: choice.topic } : this.onlyTopic(choice.className),
+    );
     this.choose(display);
     this.rows.find((row) => row.display === display)?.expand(true);
     this.host.touched();

@@ -31,9 +31,12 @@ class EffortDrawer implements Drawer {
   private last: JsonObject | null = null;
 
   constructor(private readonly site: Site) {
-    const geometry = shared('effort', () => joined([
-      arrowGeometry(0.75, 0.04, 0.25, 0.09), new THREE.TorusGeometry(0.4, 0.03, 8, 40, 1.6 * Math.PI).rotateY(Math.PI / 2),
-    ]));
+    const geometry = shared('effort', () =>
+      joined([
+        arrowGeometry(0.75, 0.04, 0.25, 0.09),
+        new THREE.TorusGeometry(0.4, 0.03, 8, 40, 1.6 * Math.PI).rotateY(Math.PI / 2),
+      ]),
+    );
     this.pool = new InstancePool(site.root, geometry, this.paint);
   }
 
@@ -69,10 +72,20 @@ class EffortDrawer implements Drawer {
     const isTopic = graph.value.topics.some((each) => each.name === topic);
     const source: JsonObject = isTopic ? { topic } : { parameter: props.text('Robot Description') };
     try {
-      const scene = (await connection.call('robot.get', { ...source, tf_prefix: prefix })) as unknown as PageScene;
+      const scene = (await connection.call('robot.get', {
+        ...source,
+        tf_prefix: prefix,
+      })) as unknown as PageScene;
       const moving = scene.joints.filter((joint) => joint.type !== 'fixed');
-      this.joints = new Map(moving.map((joint) => [joint.name, { joint, frame: (prefix ? `${prefix}/` : '') + scene.bodies[joint.child].link }]));
-      moving.forEach((joint) => offer(flag(`Joints/${joint.name}`, true, `The effort of ${joint.name}.`)));
+      this.joints = new Map(
+        moving.map((joint) => [
+          joint.name,
+          { joint, frame: (prefix ? `${prefix}/` : '') + scene.bodies[joint.child].link },
+        ]),
+      );
+      moving.forEach((joint) =>
+        offer(flag(`Joints/${joint.name}`, true, `The effort of ${joint.name}.`)),
+      );
       status('URDF', 'ok', 'URDF parsed OK');
       this.draw();
     } catch (problem) {
@@ -84,7 +97,8 @@ class EffortDrawer implements Drawer {
     this.pool.begin();
     const names = this.last ? list<string>(this.last, 'name') : [];
     const efforts = numbers(this.last?.['effort']);
-    if (names.length && !efforts.length) this.site.status('Efforts', 'warn', 'The joint states hold no efforts');
+    if (names.length && !efforts.length)
+      this.site.status('Efforts', 'warn', 'The joint states hold no efforts');
     else if (names.length) this.site.status('Efforts', 'ok', `${efforts.length} efforts`);
     names.forEach((name, index) => this.put(name, efforts[index] ?? 0));
     this.pool.end();
@@ -93,16 +107,26 @@ class EffortDrawer implements Drawer {
   private put(name: string, effort: number): void {
     const { props, frames } = this.site;
     const found = this.joints.get(name);
-    if (!found || !props.flag('Joints/All Enabled') || props.get(`Joints/${name}`) === false) return;
+    if (!found || !props.flag('Joints/All Enabled') || props.get(`Joints/${name}`) === false)
+      return;
     const at = frames.at(found.frame);
     if (at < 0 || !Number.isFinite(effort)) return;
-    const share = Math.min(1, Math.abs(effort) / (found.joint.effort || Math.max(Math.abs(effort), 1)));
+    const share = Math.min(
+      1,
+      Math.abs(effort) / (found.joint.effort || Math.max(Math.abs(effort), 1)),
+    );
     const size = props.num('Scale') * share;
     if (size < 1e-4) return;
-    const pose = matrixOf([...frames.poses.subarray(at, at + 7)] as never).multiply(matrixOf(found.joint.pose));
-    const axis = new THREE.Vector3(...found.joint.axis).multiplyScalar(effort < 0 ? -1 : 1).normalize();
+    const pose = matrixOf([...frames.poses.subarray(at, at + 7)] as never).multiply(
+      matrixOf(found.joint.pose),
+    );
+    const axis = new THREE.Vector3(...found.joint.axis)
+      .multiplyScalar(effort < 0 ? -1 : 1)
+      .normalize();
     const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(1, 0, 0), axis);
-    pose.multiply(new THREE.Matrix4().makeRotationFromQuaternion(turn)).scale(new THREE.Vector3(size, size, size));
+    pose
+      .multiply(new THREE.Matrix4().makeRotationFromQuaternion(turn))
+      .scale(new THREE.Vector3(size, size, size));
     this.pool.put(pose, new THREE.Color(Math.min(1, 2 * share), Math.min(1, 2 - 2 * share), 0));
   }
 }

@@ -8,7 +8,10 @@ import { choice, colour, num, type PropertySpec } from './properties';
 
 const FIXED = '<Fixed Frame>';
 const FRAME: PropertySpec = {
-  path: 'Reference Frame', kind: 'frame', value: FIXED, about: 'The frame this is drawn in.',
+  path: 'Reference Frame',
+  kind: 'frame',
+  value: FIXED,
+  about: 'The frame this is drawn in.',
 };
 
 /** RViz's Grid. */
@@ -24,11 +27,16 @@ export const GRID: Drawing = {
   make(site) {
     const rebuild = (): void => {
       site.root.clear();
-      site.root.add(gridLines({
-        cells: Math.min(1000, site.props.num('Plane Cell Count')), size_m: site.props.num('Cell Size'),
-        colour: site.props.colour('Color'), alpha: site.props.num('Alpha'),
-        plane: site.props.text('Plane') as 'XY', axes: false,
-      }));
+      site.root.add(
+        gridLines({
+          cells: Math.min(1000, site.props.num('Plane Cell Count')),
+          size_m: site.props.num('Cell Size'),
+          colour: site.props.colour('Color'),
+          alpha: site.props.num('Alpha'),
+          plane: site.props.text('Plane') as 'XY',
+          axes: false,
+        }),
+      );
     };
     return framed(site, rebuild, () => ({ lines: 2 * (site.props.num('Plane Cell Count') + 1) }));
   },
@@ -45,9 +53,15 @@ export const AXES: Drawing = {
   make(site) {
     const rebuild = (): void => {
       site.root.clear();
-      const [length, radius, alpha] = ['Length', 'Radius', 'Alpha'].map((name) => site.props.num(name));
+      const [length, radius, alpha] = ['Length', 'Radius', 'Alpha'].map((name) =>
+        site.props.num(name),
+      );
       const geometry = shared(`axes ${length} ${radius}`, () => axesGeometry(length, radius));
-      const paint = new THREE.MeshPhongMaterial({ vertexColors: true, opacity: alpha, transparent: alpha < 1 });
+      const paint = new THREE.MeshPhongMaterial({
+        vertexColors: true,
+        opacity: alpha,
+        transparent: alpha < 1,
+      });
       site.root.add(new THREE.Mesh(geometry, paint));
     };
     return framed(site, rebuild, () => ({ axes: 1 }));
@@ -64,7 +78,12 @@ function framed(site: Site, rebuild: () => void, counts: () => Record<string, nu
       return;
     }
     const at = site.frames.at(name);
-    if (at < 0) return site.status('Transform', 'error', `No transform from [${name}] to [${site.frames.fixed}]`);
+    if (at < 0)
+      return site.status(
+        'Transform',
+        'error',
+        `No transform from [${name}] to [${site.frames.fixed}]`,
+      );
     place(site.root, site.frames.poses, at);
     site.status('Transform', 'ok', 'Transform OK');
     site.view.invalidate();

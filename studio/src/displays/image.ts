@@ -34,7 +34,12 @@ export const IMAGE: Drawing = {
 export const CAMERA: Drawing = {
   ownPose: true,
   properties: [
-    choice('Image Rendering', 'background and overlay', ['background', 'overlay', 'background and overlay'], 'Where the picture lies.'),
+    choice(
+      'Image Rendering',
+      'background and overlay',
+      ['background', 'overlay', 'background and overlay'],
+      'Where the picture lies.',
+    ),
     num('Overlay Alpha', 0.5, 'How opaque the picture is over the scene.', { min: 0, max: 1 }),
     num('Zoom Factor', 1, 'Scale of the picture.', { min: 0.1, max: 20 }),
   ],
@@ -64,7 +69,8 @@ class CameraDrawer implements Drawer {
     this.info = part(value, 'camera_info');
     this.pose = arrayMatrix(value['pose']);
     const { status, frames } = this.site;
-    if (!this.pose) return status('Transform', 'error', `No transform from the camera to [${frames.fixed}]`);
+    if (!this.pose)
+      return status('Transform', 'error', `No transform from the camera to [${frames.fixed}]`);
     status('Transform', 'ok', 'Transform OK');
     this.camera.matrix.copy(this.pose).multiply(OPTICAL);
     this.camera.matrixWorldNeedsUpdate = true;
@@ -77,7 +83,11 @@ class CameraDrawer implements Drawer {
     this.sheet.height = picture.height;
     this.sheet.getContext('2d')?.drawImage(picture, 0, 0);
     this.box.show(picture);
-    this.site.status('Camera Info', this.info ? 'ok' : 'warn', this.info ? 'OK' : 'No CameraInfo received: only the picture is shown');
+    this.site.status(
+      'Camera Info',
+      this.info ? 'ok' : 'warn',
+      this.info ? 'OK' : 'No CameraInfo received: only the picture is shown',
+    );
     this.site.view.invalidate();
   }
 
@@ -100,7 +110,10 @@ class CameraDrawer implements Drawer {
   }
 
   counts(): Record<string, number> {
-    return { pictures: this.box.pictures, overlaid: Number(this.pose !== null && this.info !== null) };
+    return {
+      pictures: this.box.pictures,
+      overlaid: Number(this.pose !== null && this.info !== null),
+    };
   }
 
   /** The projection of the camera's P or K. */
@@ -111,11 +124,16 @@ class CameraDrawer implements Drawer {
     const k = numbers(info['k'] ?? info['K']);
     const [fx, fy, cx, cy] = p[0] > 0 ? [p[0], p[5], p[2], p[6]] : [k[0], k[4], k[2], k[5]];
     const [width, height] = [Number(info['width']), Number(info['height'])];
-    if (!(fx > 0 && width > 0)) return this.site.status('Camera Info', 'error', 'CameraInfo holds no focal length');
+    if (!(fx > 0 && width > 0))
+      return this.site.status('Camera Info', 'error', 'CameraInfo holds no focal length');
     const zoom = this.site.props.num('Zoom Factor');
     this.camera.projectionMatrix.makePerspective(
-      (-cx / fx / zoom) * NEAR_M, ((width - cx) / fx / zoom) * NEAR_M,
-      (cy / fy / zoom) * NEAR_M, (-(height - cy) / fy / zoom) * NEAR_M, NEAR_M, FAR_M,
+      (-cx / fx / zoom) * NEAR_M,
+      ((width - cx) / fx / zoom) * NEAR_M,
+      (cy / fy / zoom) * NEAR_M,
+      (-(height - cy) / fy / zoom) * NEAR_M,
+      NEAR_M,
+      FAR_M,
     );
     this.camera.projectionMatrixInverse.copy(this.camera.projectionMatrix).invert();
   }
@@ -143,7 +161,9 @@ class CameraDrawer implements Drawer {
   /** The view itself is drawn after this and covers the corner again. */
   private renderCorner(x: number, y: number, width: number, height: number): void {
     const { renderer, scene, host } = this.site.view;
-    const hidden = scene.children.filter((child) => child.visible && ['sky', 'hands', 'grid'].includes(child.name));
+    const hidden = scene.children.filter(
+      (child) => child.visible && ['sky', 'hands', 'grid'].includes(child.name),
+    );
     const background = scene.background;
     hidden.forEach((child) => (child.visible = false));
     scene.background = null;

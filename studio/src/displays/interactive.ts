@@ -1,6 +1,10 @@
 /** InteractiveMarkers: markers of programs that people drag, press and open menus of. */
 import * as THREE from 'three';
-import type { InteractiveFrame, InteractiveMarker, InteractiveMarkerControl } from '../generated/messages';
+import type {
+  InteractiveFrame,
+  InteractiveMarker,
+  InteractiveMarkerControl,
+} from '../generated/messages';
 import type { JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
 import { freeLabel, label } from '../scene/labels';
@@ -11,7 +15,14 @@ import { arrayMatrix, poseMatrix } from './message';
 import { flag } from './properties';
 
 /** Event types of InteractiveMarkerFeedback. */
-export const FEEDBACK = { KEEP_ALIVE: 0, POSE_UPDATE: 1, MENU_SELECT: 2, BUTTON_CLICK: 3, MOUSE_DOWN: 4, MOUSE_UP: 5 };
+export const FEEDBACK = {
+  KEEP_ALIVE: 0,
+  POSE_UPDATE: 1,
+  MENU_SELECT: 2,
+  BUTTON_CLICK: 3,
+  MOUSE_DOWN: 4,
+  MOUSE_UP: 5,
+};
 
 /** RViz's InteractiveMarkers. */
 export const INTERACTIVE_MARKERS: Drawing = {
@@ -59,7 +70,8 @@ class InteractiveDrawer implements Drawer {
     });
     for (const update of message.poses) {
       const found = this.markers.get(update.name);
-      if (found && !found.held) setPose(found, found.base.clone().multiply(poseMatrix(update.pose)));
+      if (found && !found.held)
+        setPose(found, found.base.clone().multiply(poseMatrix(update.pose)));
     }
     if (lost) status('Transform', 'error', `No transform from [${lost}] to [${frames.fixed}]`);
     else status('Transform', 'ok', 'Transform OK');
@@ -75,7 +87,10 @@ class InteractiveDrawer implements Drawer {
   }
 
   counts(): Record<string, number> {
-    const controls = [...this.markers.values()].reduce((sum, each) => sum + each.marker.controls.length, 0);
+    const controls = [...this.markers.values()].reduce(
+      (sum, each) => sum + each.marker.controls.length,
+      0,
+    );
     return { markers: this.markers.size, controls };
   }
 
@@ -119,7 +134,9 @@ class InteractiveDrawer implements Drawer {
       return group;
     }
     const set = new MarkerSet(group, () => this.site.view.invalidate());
-    own.forEach((marker, index) => set.take({ ...marker, ns: 'control', id: index, action: 0 }, IDENTITY));
+    own.forEach((marker, index) =>
+      set.take({ ...marker, ns: 'control', id: index, action: 0 }, IDENTITY),
+    );
     set.tick();
     shown.sets.push(set);
     return group;
@@ -147,23 +164,39 @@ class InteractiveDrawer implements Drawer {
     };
   }
 
-  private feedback(shown: Shown, control: InteractiveMarkerControl, event: number, menu: number, point?: THREE.Vector3): void {
+  private feedback(
+    shown: Shown,
+    control: InteractiveMarkerControl,
+    event: number,
+    menu: number,
+    point?: THREE.Vector3,
+  ): void {
     const { connection, graph, frames } = this.site;
     shown.node.updateMatrix();
     const pose = poseOf(shown.node.matrix);
-    const space = this.site.props.text('Topic').replace(/\/update(_full)?$/, '').replace(/\/$/, '');
+    const space = this.site.props
+      .text('Topic')
+      .replace(/\/update(_full)?$/, '')
+      .replace(/\/$/, '');
     const type = graph.typeOf(`${space}/update`)?.includes('/msg/')
-      ? 'visualization_msgs/msg/InteractiveMarkerFeedback' : 'visualization_msgs/InteractiveMarkerFeedback';
+      ? 'visualization_msgs/msg/InteractiveMarkerFeedback'
+      : 'visualization_msgs/InteractiveMarkerFeedback';
     const message = {
-      header: { frame_id: frames.fixed }, client_id: 'rviz', marker_name: shown.marker.name, control_name: control.name,
-      event_type: event, menu_entry_id: menu, mouse_point_valid: Boolean(point),
+      header: { frame_id: frames.fixed },
+      client_id: 'rviz',
+      marker_name: shown.marker.name,
+      control_name: control.name,
+      event_type: event,
+      menu_entry_id: menu,
+      mouse_point_valid: Boolean(point),
       pose: {
         position: { x: pose[0], y: pose[1], z: pose[2] },
         orientation: { x: pose[3], y: pose[4], z: pose[5], w: pose[6] },
       },
       mouse_point: { x: point?.x ?? 0, y: point?.y ?? 0, z: point?.z ?? 0 },
     };
-    connection.call('topic.publish', { topic: `${space}/feedback`, type, message })
+    connection
+      .call('topic.publish', { topic: `${space}/feedback`, type, message })
       .catch((problem: Error) => this.site.status('Feedback', 'error', problem.message));
   }
 }

@@ -3,8 +3,15 @@ import * as THREE from 'three';
 import { arrowGeometry, joined, shared } from '../model/geometry';
 import type { InteractiveMarkerControl } from '../generated/messages';
 
-export const MENU = 1, BUTTON = 2, MOVE_AXIS = 3, MOVE_PLANE = 4, ROTATE_AXIS = 5, MOVE_ROTATE = 6,
-  MOVE_3D = 7, ROTATE_3D = 8, MOVE_ROTATE_3D = 9;
+export const MENU = 1,
+  BUTTON = 2,
+  MOVE_AXIS = 3,
+  MOVE_PLANE = 4,
+  ROTATE_AXIS = 5,
+  MOVE_ROTATE = 6,
+  MOVE_3D = 7,
+  ROTATE_3D = 8,
+  MOVE_ROTATE_3D = 9;
 
 /** Can this mode be dragged? */
 export const isDragged = (mode: number): boolean => mode >= MOVE_AXIS;
@@ -23,7 +30,11 @@ export function defaultHandle(control: InteractiveMarkerControl, size: number): 
   if (mode < MOVE_AXIS) return null;
   const axis = controlAxis(control);
   const geometry = mode === MOVE_AXIS ? arrows() : mode >= MOVE_3D ? cube() : ring();
-  const paint = new THREE.MeshPhongMaterial({ side: THREE.DoubleSide, transparent: true, opacity: 0.8 });
+  const paint = new THREE.MeshPhongMaterial({
+    side: THREE.DoubleSide,
+    transparent: true,
+    opacity: 0.8,
+  });
   paint.color.setRGB(Math.abs(axis.x) || 0.15, Math.abs(axis.y) || 0.15, Math.abs(axis.z) || 0.15);
   const mesh = new THREE.Mesh(geometry, paint);
   mesh.quaternion.setFromUnitVectors(new THREE.Vector3(1, 0, 0), axis);
@@ -31,12 +42,17 @@ export function defaultHandle(control: InteractiveMarkerControl, size: number): 
   return mesh;
 }
 
-const arrows = (): THREE.BufferGeometry => shared('control arrows', () => joined([
-  arrowGeometry(0.3, 0.08, 0.3, 0.18).translate(0.55, 0, 0),
-  arrowGeometry(0.3, 0.08, 0.3, 0.18).translate(0.55, 0, 0).rotateZ(Math.PI),
-]));
-const ring = (): THREE.BufferGeometry => shared('control ring', () => new THREE.RingGeometry(0.85, 1.08, 48).rotateY(Math.PI / 2));
-const cube = (): THREE.BufferGeometry => shared('control cube', () => new THREE.BoxGeometry(0.6, 0.6, 0.6));
+const arrows = (): THREE.BufferGeometry =>
+  shared('control arrows', () =>
+    joined([
+      arrowGeometry(0.3, 0.08, 0.3, 0.18).translate(0.55, 0, 0),
+      arrowGeometry(0.3, 0.08, 0.3, 0.18).translate(0.55, 0, 0).rotateZ(Math.PI),
+    ]),
+  );
+const ring = (): THREE.BufferGeometry =>
+  shared('control ring', () => new THREE.RingGeometry(0.85, 1.08, 48).rotateY(Math.PI / 2));
+const cube = (): THREE.BufferGeometry =>
+  shared('control cube', () => new THREE.BoxGeometry(0.6, 0.6, 0.6));
 
 /** A drag that began: turns rays into poses of the marker (matrices in the fixed frame). */
 export class ControlDrag {
@@ -45,11 +61,19 @@ export class ControlDrag {
   private readonly plane = new THREE.Plane();
   private readonly from: THREE.Vector3 | null;
 
-  constructor(private readonly mode: number, private readonly start: THREE.Matrix4, axis: THREE.Vector3, ray: THREE.Ray) {
+  constructor(
+    private readonly mode: number,
+    private readonly start: THREE.Matrix4,
+    axis: THREE.Vector3,
+    ray: THREE.Ray,
+  ) {
     this.origin = new THREE.Vector3().setFromMatrixPosition(start);
     this.axis = axis.clone().normalize();
     const facing = mode === MOVE_3D || mode === MOVE_ROTATE_3D || mode === ROTATE_3D;
-    this.plane.setFromNormalAndCoplanarPoint(facing ? ray.direction.clone().negate() : this.axis, this.origin);
+    this.plane.setFromNormalAndCoplanarPoint(
+      facing ? ray.direction.clone().negate() : this.axis,
+      this.origin,
+    );
     this.from = this.point(ray);
   }
 
@@ -58,7 +82,11 @@ export class ControlDrag {
     const to = this.point(ray);
     if (!to || !this.from) return null;
     if (this.mode === ROTATE_AXIS || this.mode === ROTATE_3D) return this.turned(to);
-    if (this.mode === MOVE_ROTATE) return this.turned(to, to.clone().sub(this.origin).length() - this.from.clone().sub(this.origin).length());
+    if (this.mode === MOVE_ROTATE)
+      return this.turned(
+        to,
+        to.clone().sub(this.origin).length() - this.from.clone().sub(this.origin).length(),
+      );
     return this.moved(to.clone().sub(this.from));
   }
 

@@ -29,7 +29,10 @@ export class ThinLines {
       this.object.geometry.dispose();
       this.object.geometry = new THREE.BufferGeometry();
       const array = new Float32Array(Math.ceil(points.length * 1.5));
-      this.object.geometry.setAttribute('position', new THREE.BufferAttribute(array, 3).setUsage(THREE.DynamicDrawUsage));
+      this.object.geometry.setAttribute(
+        'position',
+        new THREE.BufferAttribute(array, 3).setUsage(THREE.DynamicDrawUsage),
+      );
     }
     const attribute = this.object.geometry.getAttribute('position') as THREE.BufferAttribute;
     (attribute.array as Float32Array).set(points);
@@ -87,7 +90,10 @@ export class WideLines {
 }
 
 /** The pairs of points of a strip. */
-export function strip(points: readonly { x: number; y: number; z: number }[], closed = false): number[] {
+export function strip(
+  points: readonly { x: number; y: number; z: number }[],
+  closed = false,
+): number[] {
   const found: number[] = [];
   for (let i = 1; i < points.length; i++) push(found, points[i - 1], points[i]);
   if (closed && points.length > 2) push(found, points[points.length - 1], points[0]);

@@ -33,13 +33,18 @@ class MapDrawer implements Drawer {
 
   frame(frame: Frame): void {
     const head = floats(frame, 8);
-    const [width, height, number, x, y, columns, rows] = new Uint32Array(frame.buffer, frame.offset + 32, 7);
+    const [width, height, number, x, y, columns, rows] = new Uint32Array(
+      frame.buffer,
+      frame.offset + 32,
+      7,
+    );
     const { frames, status } = this.site;
     const { root } = this.swatches;
     // A part of a grid that was shown before, of another topic.
     if (frame.kind === PART && number !== this.number) return;
     root.visible = !Number.isNaN(head[0]) && width > 0 && height > 0;
-    if (Number.isNaN(head[0])) return status('Transform', 'error', `No transform to [${frames.fixed}]`);
+    if (Number.isNaN(head[0]))
+      return status('Transform', 'error', `No transform to [${frames.fixed}]`);
     status('Transform', 'ok', 'Transform OK');
     if (!root.visible) return status('Map', 'error', `The map is empty (${width} x ${height})`);
     status('Map', 'ok', `Map received: ${width} x ${height} at ${head[7].toFixed(3)} m`);
@@ -47,7 +52,10 @@ class MapDrawer implements Drawer {
     root.scale.set(head[7], head[7], 1);
     this.number = number;
     this.swatches.resize(width, height);
-    this.swatches.put({ x, y, width: columns, height: rows }, new Uint8Array(frame.buffer, frame.offset + HEADER_BYTES, columns * rows));
+    this.swatches.put(
+      { x, y, width: columns, height: rows },
+      new Uint8Array(frame.buffer, frame.offset + HEADER_BYTES, columns * rows),
+    );
     this.site.view.invalidate();
   }
 
@@ -101,7 +109,10 @@ const PALETTES: Record<string, THREE.DataTexture> = {
   raw: palette((v) => [v, v, v, 255]),
 };
 
-function illegal(value: number, unknown: [number, number, number, number]): [number, number, number, number] {
+function illegal(
+  value: number,
+  unknown: [number, number, number, number],
+): [number, number, number, number] {
   if (value === 255) return unknown;
   if (value <= 127) return [0, 255, 0, 255];
   return [255, (255 * (value - 128)) / 126, 0, 255];

@@ -55,7 +55,10 @@ export class Swatches {
   private swatches: Swatch[] = [];
   private readonly before = ++made;
 
-  constructor(private readonly renderer: THREE.WebGLRenderer, private look: Look) {}
+  constructor(
+    private readonly renderer: THREE.WebGLRenderer,
+    private look: Look,
+  ) {}
 
   /** Make room for a grid of a size. */
   resize(width: number, height: number): void {
@@ -63,7 +66,8 @@ export class Swatches {
     this.dispose();
     [this.width, this.height] = [width, height];
     for (let y = 0; y < height; y += SIDE) {
-      for (let x = 0; x < width; x += SIDE) this.add({ x, y, width: Math.min(SIDE, width - x), height: Math.min(SIDE, height - y) });
+      for (let x = 0; x < width; x += SIDE)
+        this.add({ x, y, width: Math.min(SIDE, width - x), height: Math.min(SIDE, height - y) });
     }
     this.restyle(this.look);
   }
@@ -81,7 +85,10 @@ export class Swatches {
 
   /** How many cells have a value that a function says yes to. */
   count(wanted: (value: number) => boolean): number {
-    return this.swatches.reduce((sum, { values }) => values.reduce((found, value) => found + Number(wanted(value)), sum), 0);
+    return this.swatches.reduce(
+      (sum, { values }) => values.reduce((found, value) => found + Number(wanted(value)), sum),
+      0,
+    );
   }
 
   restyle(look: Look): void {
@@ -114,12 +121,26 @@ export class Swatches {
     texture.needsUpdate = true;
     const material = new THREE.ShaderMaterial({
       uniforms: { cells: { value: texture }, palette: { value: null }, alpha: { value: 1 } },
-      vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide, depthWrite: false,
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      side: THREE.DoubleSide,
+      depthWrite: false,
       // Blended also where it counts as opaque; what lies in its plane is seen, the ground of a world below it.
-      blending: THREE.CustomBlending, blendSrcAlpha: THREE.OneFactor, blendDstAlpha: THREE.OneMinusSrcAlphaFactor,
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4,
+      blending: THREE.CustomBlending,
+      blendSrcAlpha: THREE.OneFactor,
+      blendDstAlpha: THREE.OneMinusSrcAlphaFactor,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 4,
     });
-    const mesh = new THREE.Mesh(new THREE.PlaneGeometry(rect.width, rect.height).translate(rect.x + rect.width / 2, rect.y + rect.height / 2, 0), material);
+    const mesh = new THREE.Mesh(
+      new THREE.PlaneGeometry(rect.width, rect.height).translate(
+        rect.x + rect.width / 2,
+        rect.y + rect.height / 2,
+        0,
+      ),
+      material,
+    );
     mesh.raycast = () => undefined;
     this.root.add(mesh);
     this.swatches.push({ ...rect, mesh, texture, values });
@@ -129,7 +150,10 @@ export class Swatches {
     const [left, bottom] = [part.x - swatch.x, part.y - swatch.y];
     for (let row = 0; row < part.height; row++) {
       const from = (part.y + row - rect.y) * rect.width + part.x - rect.x;
-      swatch.values.set(cells.subarray(from, from + part.width), (bottom + row) * swatch.width + left);
+      swatch.values.set(
+        cells.subarray(from, from + part.width),
+        (bottom + row) * swatch.width + left,
+      );
     }
     const isWhole = part.width === swatch.width && part.height === swatch.height;
     const isThere = this.renderer.properties.has(swatch.texture) && !isWhole;
@@ -137,9 +161,22 @@ export class Swatches {
       swatch.texture.needsUpdate = true;
       return;
     }
-    const source = new THREE.DataTexture(swatch.values, swatch.width, swatch.height, THREE.RedFormat);
-    const box = new THREE.Box2(new THREE.Vector2(left, bottom), new THREE.Vector2(left + part.width, bottom + part.height));
-    this.renderer.copyTextureToTexture(source, swatch.texture, box, new THREE.Vector2(left, bottom));
+    const source = new THREE.DataTexture(
+      swatch.values,
+      swatch.width,
+      swatch.height,
+      THREE.RedFormat,
+    );
+    const box = new THREE.Box2(
+      new THREE.Vector2(left, bottom),
+      new THREE.Vector2(left + part.width, bottom + part.height),
+    );
+    this.renderer.copyTextureToTexture(
+      source,
+      swatch.texture,
+      box,
+      new THREE.Vector2(left, bottom),
+    );
     source.dispose();
   }
 }

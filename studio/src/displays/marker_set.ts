@@ -1,7 +1,14 @@
 /** All markers of a display: instanced pools by shape and opacity, and single objects. */
 import * as THREE from 'three';
 import type { Marker } from '../generated/messages';
-import { solidGeometry, instancesOf, singleOf, type Instance, type Single, type Solid } from './marker_shapes';
+import {
+  solidGeometry,
+  instancesOf,
+  singleOf,
+  type Instance,
+  type Single,
+  type Solid,
+} from './marker_shapes';
 import { poseMatrix, seconds } from './message';
 import { InstancePool } from './shapes';
 
@@ -14,7 +21,9 @@ interface Kept {
   until_ms: number;
 }
 
-const ADD = 0, DELETE = 2, DELETE_ALL = 3;
+const ADD = 0,
+  DELETE = 2,
+  DELETE_ALL = 3;
 const TINT = new THREE.Color();
 
 /** Keeps markers by namespace and id. */
@@ -37,8 +46,8 @@ export class MarkerSet {
   /** Take a marker; `base` is where its header's frame is. Returns what is wrong with it. */
   take(marker: Marker, base: THREE.Matrix4): string | null {
     const key = `${marker.ns}/${marker.id}`;
-    if (marker.action === DELETE_ALL) return this.clear(), null;
-    if (marker.action === DELETE) return this.remove(key), null;
+    if (marker.action === DELETE_ALL) return (this.clear(), null);
+    if (marker.action === DELETE) return (this.remove(key), null);
     if (marker.action !== ADD) return `Unknown action ${marker.action}`;
     this.remove(key);
     const problem = wrong(marker);
@@ -58,7 +67,9 @@ export class MarkerSet {
 
   /** Show or hide namespaces anew. */
   refresh(): void {
-    this.kept.forEach(({ single, marker }) => single && (single.object.visible = this.shows(marker.ns)));
+    this.kept.forEach(
+      ({ single, marker }) => single && (single.object.visible = this.shows(marker.ns)),
+    );
     this.stale = true;
   }
 
@@ -80,7 +91,9 @@ export class MarkerSet {
   /** How many markers of each type are kept, by the number of the type. */
   counts(): Record<string, number> {
     const found: Record<string, number> = { markers: this.kept.size, drawCalls: this.pools.size };
-    this.kept.forEach(({ marker }) => (found[`type${marker.type}`] = (found[`type${marker.type}`] ?? 0) + 1));
+    this.kept.forEach(
+      ({ marker }) => (found[`type${marker.type}`] = (found[`type${marker.type}`] ?? 0) + 1),
+    );
     return found;
   }
 
@@ -122,7 +135,11 @@ export class MarkerSet {
     const key = `${solid} ${opacity}`;
     let found = this.pools.get(key);
     if (!found) {
-      const paint = new THREE.MeshPhongMaterial({ opacity, transparent: opacity < 1, depthWrite: opacity === 1 });
+      const paint = new THREE.MeshPhongMaterial({
+        opacity,
+        transparent: opacity < 1,
+        depthWrite: opacity === 1,
+      });
       this.paints.set(key, paint);
       found = new InstancePool(this.root, solidGeometry(solid), paint);
       this.pools.set(key, found);
@@ -132,11 +149,23 @@ export class MarkerSet {
 }
 
 /** What RViz would warn of. */
-function wrong({ scale, color, type, ns, id, points, mesh, mesh_resource: resource }: Marker): string | null {
+function wrong({
+  scale,
+  color,
+  type,
+  ns,
+  id,
+  points,
+  mesh,
+  mesh_resource: resource,
+}: Marker): string | null {
   const name = `${ns}/${id}`;
-  if (color.a === 0 && type !== 10 && !(points.length && type >= 4)) return `Marker ${name} is invisible: its color.a is 0`;
-  if (type <= 3 && !points.length && scale.x * scale.y * scale.z === 0) return `Marker ${name}: scale contains 0.0 in x, y or z`;
-  if ((type === 4 || type === 5) && scale.x === 0) return `Marker ${name}: scale.x is 0, the line has no width`;
+  if (color.a === 0 && type !== 10 && !(points.length && type >= 4))
+    return `Marker ${name} is invisible: its color.a is 0`;
+  if (type <= 3 && !points.length && scale.x * scale.y * scale.z === 0)
+    return `Marker ${name}: scale contains 0.0 in x, y or z`;
+  if ((type === 4 || type === 5) && scale.x === 0)
+    return `Marker ${name}: scale.x is 0, the line has no width`;
   if (type === 10 && !mesh?.length) return `Marker ${name}: could not load [${resource}]`;
   if (type > 11) return `Marker ${name}: unknown type ${type}`;
   return null;

@@ -18,7 +18,8 @@ class MarkersDrawer implements Drawer {
   private readonly stop: () => void;
 
   constructor(private readonly site: Site) {
-    const shows = (namespace: string): boolean => site.props.get(`Namespaces/${namespace}`) !== false;
+    const shows = (namespace: string): boolean =>
+      site.props.get(`Namespaces/${namespace}`) !== false;
     this.set = new MarkerSet(site.root, () => site.view.invalidate(), shows);
     this.stop = site.view.beforeDraw((now) => {
       const wait = this.set.tick(now);
@@ -27,7 +28,10 @@ class MarkersDrawer implements Drawer {
   }
 
   take(value: JsonObject): void {
-    const { message: { markers }, poses } = value as unknown as MarkerFrame;
+    const {
+      message: { markers },
+      poses,
+    } = value as unknown as MarkerFrame;
     let problem: string | null = null;
     let lost = '';
     markers.forEach((marker, index) => {
@@ -37,7 +41,8 @@ class MarkersDrawer implements Drawer {
       else problem = this.set.take(marker, base ?? IDENTITY) ?? problem;
     });
     const { status, frames } = this.site;
-    for (const name of this.set.namespaces()) this.site.offer(flag(`Namespaces/${name}`, true, `The markers of ${name}.`));
+    for (const name of this.set.namespaces())
+      this.site.offer(flag(`Namespaces/${name}`, true, `The markers of ${name}.`));
     if (lost) status('Transform', 'error', `No transform from [${lost}] to [${frames.fixed}]`);
     else status('Transform', 'ok', 'Transform OK');
     if (problem) status('Markers', 'warn', problem);

@@ -24,10 +24,19 @@ export function vector(value: Vector3 | Json | undefined): THREE.Vector3 {
 
 /** A `geometry_msgs/Pose` as a matrix; a quaternion of zeros counts as no turn, as in RViz. */
 export function poseMatrix(value: Pose | Json | undefined): THREE.Matrix4 {
-  const { x = 0, y = 0, z = 0, w = 1 } = part(value as Json, 'orientation') as unknown as Partial<Pose['orientation']>;
+  const {
+    x = 0,
+    y = 0,
+    z = 0,
+    w = 1,
+  } = part(value as Json, 'orientation') as unknown as Partial<Pose['orientation']>;
   const turn = new THREE.Quaternion(x, y, z, w);
   if (turn.lengthSq() < 1e-12) turn.set(0, 0, 0, 1);
-  return new THREE.Matrix4().compose(vector(part(value as Json)['position']), turn.normalize(), ONE);
+  return new THREE.Matrix4().compose(
+    vector(part(value as Json)['position']),
+    turn.normalize(),
+    ONE,
+  );
 }
 
 const ONE = new THREE.Vector3(1, 1, 1);
@@ -36,7 +45,11 @@ const ONE = new THREE.Vector3(1, 1, 1);
 export function arrayMatrix(value: Json | undefined): THREE.Matrix4 | null {
   if (!Array.isArray(value) || value.length < 7 || value[0] === null) return null;
   const [x, y, z, qx, qy, qz, qw] = value as number[];
-  return new THREE.Matrix4().compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw), ONE);
+  return new THREE.Matrix4().compose(
+    new THREE.Vector3(x, y, z),
+    new THREE.Quaternion(qx, qy, qz, qw),
+    ONE,
+  );
 }
 
 /** Seconds of a duration or stamp, by ROS 1's or ROS 2's names. */

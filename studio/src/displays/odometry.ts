@@ -33,7 +33,12 @@ class OdometryDrawer implements Drawer {
   take(value: JsonObject): void {
     const { frames, status, props } = this.site;
     const frame = arrayMatrix(value['pose']);
-    if (!frame) return status('Transform', 'error', `No transform from [${String(value['frame'])}] to [${frames.fixed}]`);
+    if (!frame)
+      return status(
+        'Transform',
+        'error',
+        `No transform from [${String(value['frame'])}] to [${frames.fixed}]`,
+      );
     status('Transform', 'ok', 'Transform OK');
     const message = part(value, 'message');
     const pose = frame.multiply(poseMatrix(part(message, 'pose')['pose']));
@@ -65,10 +70,19 @@ class OdometryDrawer implements Drawer {
   }
 
   private isNear(a: THREE.Matrix4, b: THREE.Matrix4): boolean {
-    const [p, q] = [new THREE.Vector3().setFromMatrixPosition(a), new THREE.Vector3().setFromMatrixPosition(b)];
-    const [s, t] = [new THREE.Quaternion().setFromRotationMatrix(a), new THREE.Quaternion().setFromRotationMatrix(b)];
+    const [p, q] = [
+      new THREE.Vector3().setFromMatrixPosition(a),
+      new THREE.Vector3().setFromMatrixPosition(b),
+    ];
+    const [s, t] = [
+      new THREE.Quaternion().setFromRotationMatrix(a),
+      new THREE.Quaternion().setFromRotationMatrix(b),
+    ];
     const { props } = this.site;
-    return p.distanceTo(q) < props.num('Position Tolerance') && s.angleTo(t) < props.num('Angle Tolerance');
+    return (
+      p.distanceTo(q) < props.num('Position Tolerance') &&
+      s.angleTo(t) < props.num('Angle Tolerance')
+    );
   }
 
   private draw(): void {

@@ -16,7 +16,9 @@ export const PATH: Drawing = {
     colour('Color', '25; 255; 0', 'Colour of the line.'),
     num('Alpha', 1, 'How opaque the line is, 0 to 1.', { min: 0, max: 1 }),
     choice('Pose Style', 'None', ['None', 'Axes', 'Arrows'], 'What is drawn at every pose.'),
-    ...shapeProperties('Arrow', 'Pose ', true).slice(1).map((spec) => ({ ...spec, path: spec.path })),
+    ...shapeProperties('Arrow', 'Pose ', true)
+      .slice(1)
+      .map((spec) => ({ ...spec, path: spec.path })),
   ],
   make: (site) => new PathDrawer(site),
 };
@@ -86,7 +88,12 @@ export const POLYGON: Drawing = {
       take(value) {
         const points = list<Point>(part(value, 'message', 'polygon'), 'points');
         corners = points.length;
-        lines.set(strip(points.map((point) => vector(point as never) as THREE.Vector3), true));
+        lines.set(
+          strip(
+            points.map((point) => vector(point as never) as THREE.Vector3),
+            true,
+          ),
+        );
       },
       changed: () => lines.paint(site.props.colour('Color'), site.props.num('Alpha')),
       clear() {

@@ -10,10 +10,20 @@ export class PictureBox {
   pictures = 0;
   private readonly caption = h('figcaption', { class: 'picture-caption' });
 
-  constructor(private readonly view: View, title: string) {
-    this.element = h('figure', { class: 'picture', 'aria-label': title }, this.caption, this.canvas);
+  constructor(
+    private readonly view: View,
+    title: string,
+  ) {
+    this.element = h(
+      'figure',
+      { class: 'picture', 'aria-label': title },
+      this.caption,
+      this.canvas,
+    );
     this.setTitle(title);
-    const shelf = view.host.querySelector('.picture-shelf') ?? view.host.appendChild(h('div', { class: 'picture-shelf' }));
+    const shelf =
+      view.host.querySelector('.picture-shelf') ??
+      view.host.appendChild(h('div', { class: 'picture-shelf' }));
     shelf.append(this.element);
     this.element.hidden = true;
   }
@@ -48,7 +58,12 @@ export class PictureBox {
   place(): { x: number; y: number; width: number; height: number } {
     const outer = this.view.canvas.getBoundingClientRect();
     const inner = this.canvas.getBoundingClientRect();
-    return { x: inner.left - outer.left, y: outer.bottom - inner.bottom, width: inner.width, height: inner.height };
+    return {
+      x: inner.left - outer.left,
+      y: outer.bottom - inner.bottom,
+      width: inner.width,
+      height: inner.height,
+    };
   }
 
   dispose(): void {

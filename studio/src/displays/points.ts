@@ -20,7 +20,13 @@ const COMMON: PropertySpec[] = [
   num('Size (Pixels)', 3, 'Size of a point in the style Points.', { min: 1, max: 100 }),
   num('Alpha', 1, 'How opaque the points are, 0 to 1.', { min: 0, max: 1 }),
   num('Decay Time', 0, 'How long points stay, seconds; 0 until the next ones come.', { min: 0 }),
-  choice('Color Transformer', '', ['', 'Intensity', 'AxisColor', 'RGB8', 'FlatColor'], 'Where the colour comes from; empty: what the fields offer.', SERVER),
+  choice(
+    'Color Transformer',
+    '',
+    ['', 'Intensity', 'AxisColor', 'RGB8', 'FlatColor'],
+    'Where the colour comes from; empty: what the fields offer.',
+    SERVER,
+  ),
   text('Channel Name', 'intensity', 'The field that gives the colour.', SERVER),
   flag('Use rainbow', true, 'A rainbow in place of two colours.', SERVER),
   flag('Invert Rainbow', false, 'The rainbow the other way round.', SERVER),
@@ -35,19 +41,32 @@ const COMMON: PropertySpec[] = [
   num('Autocompute Value Bounds/Max Value', 10, 'The upper bound of AxisColor.', SERVER),
   flag('Use Fixed Frame', true, 'AxisColor along the axes of the fixed frame.', SERVER),
   colour('Color', '255; 255; 255', 'The colour of FlatColor.', SERVER),
-  num('Point Budget', 100000, 'Most points of one message that are sent to the page, evenly chosen.', { min: 1, ...SERVER }),
+  num(
+    'Point Budget',
+    100000,
+    'Most points of one message that are sent to the page, evenly chosen.',
+    { min: 1, ...SERVER },
+  ),
 ];
 
 /** Points whose properties begin with other values than usual, and that have more of them. */
 function points(values: JsonObject = {}, extra: PropertySpec[] = []): Drawing {
   const properties = COMMON.map((spec) => ({ ...spec, value: values[spec.path] ?? spec.value }));
-  return { ownPose: true, properties: [...properties, ...extra], make: (site) => new PointsDrawer(site) };
+  return {
+    ownPose: true,
+    properties: [...properties, ...extra],
+    make: (site) => new PointsDrawer(site),
+  };
 }
 
 /** A sensor of one number: a point whose colour tells it, between bounds as RViz has them. */
 function reading(channel: string, least: number, most: number, inverted = false): Drawing {
   return points({
-    'Channel Name': channel, 'Invert Rainbow': inverted, 'Autocompute Intensity Bounds': false, 'Min Intensity': least, 'Max Intensity': most,
+    'Channel Name': channel,
+    'Invert Rainbow': inverted,
+    'Autocompute Intensity Bounds': false,
+    'Min Intensity': least,
+    'Max Intensity': most,
   });
 }
 
@@ -59,7 +78,14 @@ export const POINT_CLOUD = points();
 
 /** RViz's DepthCloud. */
 export const DEPTH_CLOUD = points({}, [
-  { path: 'Color Image Topic', kind: 'topic', value: '', types: ['sensor_msgs/Image'], about: 'The image that gives the colours.', server: true },
+  {
+    path: 'Color Image Topic',
+    kind: 'topic',
+    value: '',
+    types: ['sensor_msgs/Image'],
+    about: 'The image that gives the colours.',
+    server: true,
+  },
 ]);
 
 /** RViz's FluidPressure, pascals. */
@@ -115,12 +141,19 @@ class Cloud {
     const begin = packed ? POSE_BYTES + CUBE_BYTES : POSE_BYTES;
     if (packed) {
       this.stretch(frame);
-      (position.array as Uint16Array).set(new Uint16Array(frame.buffer, frame.offset + begin + count * 4, count * 3));
+      (position.array as Uint16Array).set(
+        new Uint16Array(frame.buffer, frame.offset + begin + count * 4, count * 3),
+      );
     } else {
       (position.array as Float32Array).set(floats(frame, count * 3, begin));
     }
-    (tint.array as Uint8Array).set(new Uint8Array(frame.buffer, frame.offset + begin + (packed ? 0 : count * 12), count * 4));
-    for (const [attribute, used] of [[position, count * 3], [tint, count * 4]] as const) {
+    (tint.array as Uint8Array).set(
+      new Uint8Array(frame.buffer, frame.offset + begin + (packed ? 0 : count * 12), count * 4),
+    );
+    for (const [attribute, used] of [
+      [position, count * 3],
+      [tint, count * 4],
+    ] as const) {
       attribute.clearUpdateRanges();
       attribute.addUpdateRange(0, used);
       attribute.needsUpdate = true;
@@ -136,7 +169,9 @@ class Cloud {
   /** Packed positions are levels 0 to 1 of the cloud's cube. */
   private stretch(frame: Frame): void {
     const [origin, step] = floats(frame, 2, POSE_BYTES);
-    this.points.position.add(new THREE.Vector3(origin, origin, origin).applyQuaternion(this.points.quaternion));
+    this.points.position.add(
+      new THREE.Vector3(origin, origin, origin).applyQuaternion(this.points.quaternion),
+    );
     this.points.scale.setScalar(step * LEVELS);
   }
 
@@ -145,7 +180,9 @@ class Cloud {
     this.capacity = Math.ceil(count * 1.25) + 64;
     this.points.geometry.dispose();
     const geometry = new THREE.BufferGeometry();
-    const values = packed ? new Uint16Array(this.capacity * 3) : new Float32Array(this.capacity * 3);
+    const values = packed
+      ? new Uint16Array(this.capacity * 3)
+      : new Float32Array(this.capacity * 3);
     const position = new THREE.BufferAttribute(values, 3, packed);
     const tint = new THREE.BufferAttribute(new Uint8Array(this.capacity * 4), 4, true);
     geometry.setAttribute('position', position.setUsage(THREE.DynamicDrawUsage));
@@ -158,7 +195,13 @@ class Cloud {
 
 class PointsDrawer implements Drawer {
   private readonly material = new THREE.ShaderMaterial({
-    uniforms: { size: { value: 0.01 }, pixels: { value: 0 }, scale: { value: 1 }, alpha: { value: 1 }, form: { value: 0 } },
+    uniforms: {
+      size: { value: 0.01 },
+      pixels: { value: 0 },
+      scale: { value: 1 },
+      alpha: { value: 1 },
+      form: { value: 0 },
+    },
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
   });
@@ -178,7 +221,11 @@ class PointsDrawer implements Drawer {
       return;
     }
     status('Transform', 'ok', 'Transform OK');
-    status('Points', frame.count ? 'ok' : 'warn', `Showing [${frame.count}]${pose[7] > frame.count ? ` of [${pose[7]}]` : ''} points from [1] messages`);
+    status(
+      'Points',
+      frame.count ? 'ok' : 'warn',
+      `Showing [${frame.count}]${pose[7] > frame.count ? ` of [${pose[7]}]` : ''} points from [1] messages`,
+    );
     const cloud = this.next();
     cloud.take(frame, pose);
     cloud.born = performance.now();
@@ -190,7 +237,8 @@ class PointsDrawer implements Drawer {
     const style = props.text('Style');
     const uniforms = this.material.uniforms;
     uniforms.size.value = props.num('Size (m)');
-    uniforms.pixels.value = style === 'Points' ? props.num('Size (Pixels)') * view.renderer.getPixelRatio() : 0;
+    uniforms.pixels.value =
+      style === 'Points' ? props.num('Size (Pixels)') * view.renderer.getPixelRatio() : 0;
     uniforms.form.value = style === 'Spheres' ? 1 : style === 'Boxes' ? 2 : 0;
     uniforms.alpha.value = props.num('Alpha');
     this.material.transparent = props.num('Alpha') < 1;
@@ -208,7 +256,10 @@ class PointsDrawer implements Drawer {
   }
 
   counts(): Record<string, number> {
-    const points = this.living.reduce((sum, cloud) => sum + cloud.points.geometry.drawRange.count, 0);
+    const points = this.living.reduce(
+      (sum, cloud) => sum + cloud.points.geometry.drawRange.count,
+      0,
+    );
     return { points, clouds: this.living.length };
   }
 
@@ -233,7 +284,8 @@ class PointsDrawer implements Drawer {
 
   private tick(): void {
     const { view, props } = this.site;
-    this.material.uniforms.scale.value = (view.host.clientHeight * view.renderer.getPixelRatio()) / 2;
+    this.material.uniforms.scale.value =
+      (view.host.clientHeight * view.renderer.getPixelRatio()) / 2;
     const decay = props.num('Decay Time') * 1000;
     if (!decay) return;
     const now = performance.now();

@@ -16,8 +16,17 @@ export const POSE: Drawing = {
 
 /** RViz's PoseArray. */
 export const POSE_ARRAY: Drawing = {
-  properties: [...shapeProperties('Arrow (Flat)', '', true), num('Arrow Length', 0.3, 'Length of a flat arrow, metres.', { min: 0 })],
-  make: (site) => new PosesDrawer(site, (message) => list(message, 'poses').map((pose) => poseMatrix(pose as never)), null, 'Arrow Length'),
+  properties: [
+    ...shapeProperties('Arrow (Flat)', '', true),
+    num('Arrow Length', 0.3, 'Length of a flat arrow, metres.', { min: 0 }),
+  ],
+  make: (site) =>
+    new PosesDrawer(
+      site,
+      (message) => list(message, 'poses').map((pose) => poseMatrix(pose as never)),
+      null,
+      'Arrow Length',
+    ),
 };
 
 /** Nav2's ParticleCloud: the likelier a particle the longer its arrow. */
@@ -27,7 +36,8 @@ export const PARTICLE_CLOUD: Drawing = {
     num('Min Arrow Length', 0.02, 'Length of the least likely one, metres.', { min: 0 }),
     num('Max Arrow Length', 0.3, 'Length of the likeliest one, metres.', { min: 0.001 }),
   ],
-  make: (site) => new PosesDrawer(site, (message) => particles(message, site.props), null, 'Max Arrow Length'),
+  make: (site) =>
+    new PosesDrawer(site, (message) => particles(message, site.props), null, 'Max Arrow Length'),
 };
 
 function particles(message: JsonObject, props: Properties): THREE.Matrix4[] {
@@ -43,11 +53,12 @@ function particles(message: JsonObject, props: Properties): THREE.Matrix4[] {
 /** RViz's PoseWithCovariance. */
 export const POSE_WITH_COVARIANCE: Drawing = {
   properties: [...shapeProperties('Arrow'), ...covarianceProperties()],
-  make: (site) => new PosesDrawer(
-    site,
-    (message) => [poseMatrix(part(message, 'pose')['pose'])],
-    (message) => numbers(part(message, 'pose')['covariance']),
-  ),
+  make: (site) =>
+    new PosesDrawer(
+      site,
+      (message) => [poseMatrix(part(message, 'pose')['pose'])],
+      (message) => numbers(part(message, 'pose')['covariance']),
+    ),
 };
 
 class PosesDrawer implements Drawer {
@@ -93,7 +104,9 @@ class PosesDrawer implements Drawer {
     const poses = this.last ? this.posesOf(this.last) : [];
     this.shapes.set(poses);
     if (!this.covariance || !this.covarianceOf) return;
-    this.covariance.set(this.last ? [{ pose: poses[0], values: this.covarianceOf(this.last) }] : []);
+    this.covariance.set(
+      this.last ? [{ pose: poses[0], values: this.covarianceOf(this.last) }] : [],
+    );
   }
 }
 
@@ -113,16 +126,24 @@ export const POINT_STAMPED: Drawing = {
     const draw = (): void => {
       const radius = site.props.num('Radius');
       pool.begin();
-      for (const { x, y, z } of points) pool.put(new THREE.Matrix4().makeScale(radius, radius, radius).setPosition(x, y, z));
+      for (const { x, y, z } of points)
+        pool.put(new THREE.Matrix4().makeScale(radius, radius, radius).setPosition(x, y, z));
       pool.end();
     };
     return {
       take(value) {
         const { frames, status } = site;
         const pose = value['pose'];
-        if (!Array.isArray(pose)) return status('Transform', 'error', `No transform from [${String(value['frame'])}] to [${frames.fixed}]`);
+        if (!Array.isArray(pose))
+          return status(
+            'Transform',
+            'error',
+            `No transform from [${String(value['frame'])}] to [${frames.fixed}]`,
+          );
         const [x, y, z, qx, qy, qz, qw] = pose as number[];
-        const point = vector(part(value, 'message')['point']).applyQuaternion(new THREE.Quaternion(qx, qy, qz, qw));
+        const point = vector(part(value, 'message')['point']).applyQuaternion(
+          new THREE.Quaternion(qx, qy, qz, qw),
+        );
         points.push(point.add(new THREE.Vector3(x, y, z)));
         points = points.slice(-Math.max(1, site.props.num('History Length')));
         status('Transform', 'ok', 'Transform OK');

@@ -2,7 +2,15 @@
 import { parseColour } from '../model/materials';
 import { isObject, type Json, type JsonObject } from '../json';
 
-export type PropertyKind = 'bool' | 'number' | 'colour' | 'choice' | 'text' | 'topic' | 'frame' | 'vector';
+export type PropertyKind =
+  | 'bool'
+  | 'number'
+  | 'colour'
+  | 'choice'
+  | 'text'
+  | 'topic'
+  | 'frame'
+  | 'vector';
 
 /** One property: its path, its default, and how it is edited. */
 export interface PropertySpec {
@@ -22,20 +30,41 @@ export interface PropertySpec {
 type Extra = Partial<PropertySpec>;
 
 /** A switch. */
-export const flag = (path: string, value: boolean, about: string, extra: Extra = {}): PropertySpec =>
-  ({ path, kind: 'bool', value, about, ...extra });
+export const flag = (
+  path: string,
+  value: boolean,
+  about: string,
+  extra: Extra = {},
+): PropertySpec => ({ path, kind: 'bool', value, about, ...extra });
 /** A number. */
-export const num = (path: string, value: number, about: string, extra: Extra = {}): PropertySpec =>
-  ({ path, kind: 'number', value, about, ...extra });
+export const num = (
+  path: string,
+  value: number,
+  about: string,
+  extra: Extra = {},
+): PropertySpec => ({ path, kind: 'number', value, about, ...extra });
 /** A colour as RViz writes it: `255; 85; 0`. */
-export const colour = (path: string, value: string, about: string, extra: Extra = {}): PropertySpec =>
-  ({ path, kind: 'colour', value, about, ...extra });
+export const colour = (
+  path: string,
+  value: string,
+  about: string,
+  extra: Extra = {},
+): PropertySpec => ({ path, kind: 'colour', value, about, ...extra });
 /** One of several words. */
-export const choice = (path: string, value: string, options: readonly string[], about: string, extra: Extra = {}): PropertySpec =>
-  ({ path, kind: 'choice', value, options, about, ...extra });
+export const choice = (
+  path: string,
+  value: string,
+  options: readonly string[],
+  about: string,
+  extra: Extra = {},
+): PropertySpec => ({ path, kind: 'choice', value, options, about, ...extra });
 /** A text. */
-export const text = (path: string, value: string, about: string, extra: Extra = {}): PropertySpec =>
-  ({ path, kind: 'text', value, about, ...extra });
+export const text = (
+  path: string,
+  value: string,
+  about: string,
+  extra: Extra = {},
+): PropertySpec => ({ path, kind: 'text', value, about, ...extra });
 
 /** The values of a display's properties. */
 export class Properties {
@@ -105,7 +134,8 @@ export class Properties {
     for (const [name, value] of Object.entries(values)) {
       const path = prefix + name;
       if (!isObject(value)) {
-        if (path.endsWith('/Value') && this.specs.some((s) => s.path === path.slice(0, -6))) this.set(path.slice(0, -6), value);
+        if (path.endsWith('/Value') && this.specs.some((s) => s.path === path.slice(0, -6)))
+          this.set(path.slice(0, -6), value);
         else this.set(path, value);
       } else this.fromObject(value, `${path}/`);
     }

@@ -10,7 +10,9 @@ let kinds: readonly DisplayKind[] = kindsOf(Object.values(DISPLAY_ROWS));
 let asked: Promise<readonly string[]> | null = null;
 
 function kindsOf(rows: readonly DisplayRow[]): DisplayKind[] {
-  return rows.map((row) => ({ ...row, ...DRAWINGS[row.drawn_as as DisplayName] })).sort((a, b) => a.name.localeCompare(b.name));
+  return rows
+    .map((row) => ({ ...row, ...DRAWINGS[row.drawn_as as DisplayName] }))
+    .sort((a, b) => a.name.localeCompare(b.name));
 }
 
 /** All kinds that are known. */

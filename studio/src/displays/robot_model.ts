@@ -13,7 +13,11 @@ const RETRY_MS = 2000;
 export const ROBOT_MODEL: Drawing = {
   properties: [
     text('Robot Description', 'robot_description', 'The parameter with the URDF.'),
-    text('Description Topic', '/robot_description', 'The topic with the URDF; used where it exists.'),
+    text(
+      'Description Topic',
+      '/robot_description',
+      'The topic with the URDF; used where it exists.',
+    ),
     text('TF Prefix', '', 'Put before the names of the links to get those of the frames.'),
     flag('Visual Enabled', true, 'Whether the visuals are drawn.'),
     flag('Collision Enabled', false, 'Whether the collisions are drawn.'),
@@ -30,7 +34,8 @@ export const ROBOT_MODEL: Drawing = {
 /** RViz knows no ambient colours of Gazebo's materials. */
 function plainAmbient(value: PageScene): PageScene {
   for (const shape of value.bodies.flatMap((body) => body.visuals)) {
-    const parts = shape.geometry.type === 'mesh' ? shape.geometry.parts.map((part) => part.material) : [];
+    const parts =
+      shape.geometry.type === 'mesh' ? shape.geometry.parts.map((part) => part.material) : [];
     for (const paint of [shape.material, ...parts]) delete (paint as Surface | null)?.ambient;
   }
   return value;
@@ -55,9 +60,12 @@ class RobotDrawer implements Drawer {
 
   changed(path: string): void {
     const { props } = this.site;
-    if (['', 'Robot Description', 'Description Topic', 'TF Prefix'].includes(path)) void this.load();
+    if (['', 'Robot Description', 'Description Topic', 'TF Prefix'].includes(path))
+      void this.load();
     if (path === 'Links/All Links Enabled') {
-      this.assembly.bodies.forEach((node) => props.set(`Links/${node.entity.link}`, props.flag(path)));
+      this.assembly.bodies.forEach((node) =>
+        props.set(`Links/${node.entity.link}`, props.flag(path)),
+      );
     }
     this.assembly.setMode('collisions', props.flag('Collision Enabled'));
     this.assembly.setMode('com', props.flag('Mass Properties/Mass'));
@@ -93,7 +101,10 @@ class RobotDrawer implements Drawer {
   /** Which method's parameters fetch the description: a topic where there is one. */
   private wanted(): [string, string] {
     const { props, graph } = this.site;
-    const topic = props.text('Topic') || props.text('Description Topic') || props.text('Description Topic/Value');
+    const topic =
+      props.text('Topic') ||
+      props.text('Description Topic') ||
+      props.text('Description Topic/Value');
     if (topic && graph.value.topics.some((each) => each.name === topic)) return ['topic', topic];
     return ['parameter', props.text('Robot Description')];
   }
@@ -105,7 +116,10 @@ class RobotDrawer implements Drawer {
     this.source = [what, name].join();
     const prefix = this.site.props.text('TF Prefix');
     try {
-      const value = await this.site.connection.call('robot.get', { [what]: name, tf_prefix: prefix });
+      const value = await this.site.connection.call('robot.get', {
+        [what]: name,
+        tf_prefix: prefix,
+      });
       if (ask !== this.asked) return;
       this.adopt(value as unknown as PageScene, prefix);
     } catch (problem) {
@@ -120,7 +134,8 @@ class RobotDrawer implements Drawer {
     this.assembly.set(plainAmbient(value));
     const join = prefix ? `${prefix.replace(/^\/|\/$/g, '')}/` : '';
     this.frameNames = value.bodies.map((body) => join + body.link);
-    for (const body of value.bodies) this.site.offer(flag(`Links/${body.link}`, true, `Whether ${body.link} is drawn.`));
+    for (const body of value.bodies)
+      this.site.offer(flag(`Links/${body.link}`, true, `Whether ${body.link} is drawn.`));
     this.site.status('URDF', 'ok', 'URDF parsed OK');
     this.missing(value);
     const children = new Set(value.joints.map((each) => each.child));
@@ -132,7 +147,12 @@ class RobotDrawer implements Drawer {
   private missing(value: PageScene): void {
     const lost = value.bodies.flatMap((body) => body.visuals).map((shape) => shape.geometry);
     const first = lost.find((geometry) => geometry.type === 'missing');
-    if (first?.type === 'missing') this.site.status('Meshes', 'error', `Could not load resource [${first.uri}]: ${first.reason}`);
+    if (first?.type === 'missing')
+      this.site.status(
+        'Meshes',
+        'error',
+        `Could not load resource [${first.uri}]: ${first.reason}`,
+      );
   }
 
   private showLinks(): void {
@@ -157,7 +177,12 @@ class RobotDrawer implements Drawer {
         place(node.root, node.value.pose);
       } else place(node.root, frames.poses, at);
     });
-    if (lost.length) status('Transform', 'error', `No transform from [${lost.slice(0, 3).join(', ')}${lost.length > 3 ? ` and ${lost.length - 3} more` : ''}] to [${frames.fixed}]`);
+    if (lost.length)
+      status(
+        'Transform',
+        'error',
+        `No transform from [${lost.slice(0, 3).join(', ')}${lost.length > 3 ? ` and ${lost.length - 3} more` : ''}] to [${frames.fixed}]`,
+      );
     else status('Transform', 'ok', 'Transform OK');
     view.moved();
   }

@@ -19,11 +19,22 @@ export const IMU: Drawing = {
     num('Box properties/y_scale', 1, 'Size along y, metres.'),
     num('Box properties/z_scale', 1, 'Size along z, metres.'),
     flag('Acceleration properties/Enable acceleration', true, 'An arrow along the acceleration.'),
-    flag('Acceleration properties/Derotate acceleration', true, 'The acceleration is in the frame of the sensor.'),
+    flag(
+      'Acceleration properties/Derotate acceleration',
+      true,
+      'The acceleration is in the frame of the sensor.',
+    ),
     colour('Acceleration properties/Acc. vector color', '255; 0; 0', 'Colour of the arrow.'),
-    num('Acceleration properties/Acc. vector alpha', 1, 'How opaque the arrow is.', { min: 0, max: 1 }),
+    num('Acceleration properties/Acc. vector alpha', 1, 'How opaque the arrow is.', {
+      min: 0,
+      max: 1,
+    }),
     num('Acceleration properties/Acc. vector scale', 0.1, 'Metres of arrow per m/s².'),
-    flag('fixed_frame_orientation', true, 'The orientation is from the fixed frame, as REP-145 says.'),
+    flag(
+      'fixed_frame_orientation',
+      true,
+      'The orientation is from the fixed frame, as REP-145 says.',
+    ),
   ],
   make(site) {
     const box = new THREE.Mesh(unit.box(), new THREE.MeshPhongMaterial({ transparent: true }));
@@ -35,14 +46,21 @@ export const IMU: Drawing = {
       take(value) {
         taken += 1;
         const message = part(value, 'message');
-        const { x = 0, y = 0, z = 0, w = 1 } = part(message, 'orientation') as Record<string, number>;
+        const {
+          x = 0,
+          y = 0,
+          z = 0,
+          w = 1,
+        } = part(message, 'orientation') as Record<string, number>;
         const turn = new THREE.Quaternion(x, y, z, w);
         if (turn.lengthSq() < 1e-9) turn.identity();
-        if (site.props.flag('fixed_frame_orientation')) turn.premultiply(site.root.quaternion.clone().invert());
+        if (site.props.flag('fixed_frame_orientation'))
+          turn.premultiply(site.root.quaternion.clone().invert());
         box.quaternion.copy(turn);
         box.visible = site.props.flag('Box properties/Enable box');
         const acceleration = vector(message['linear_acceleration']);
-        if (!site.props.flag('Acceleration properties/Derotate acceleration')) acceleration.applyQuaternion(turn);
+        if (!site.props.flag('Acceleration properties/Derotate acceleration'))
+          acceleration.applyQuaternion(turn);
         aim(arrow, acceleration, site.props.num('Acceleration properties/Acc. vector scale'));
         arrow.visible &&= site.props.flag('Acceleration properties/Enable acceleration');
       },
@@ -51,9 +69,19 @@ export const IMU: Drawing = {
         const paint = box.material;
         paint.color.setRGB(...site.props.colour(`${p}Box color`));
         paint.opacity = site.props.num(`${p}Box alpha`);
-        box.scale.set(...(['x', 'y', 'z'].map((axis) => site.props.num(`${p}${axis}_scale`)) as [number, number, number]));
+        box.scale.set(
+          ...(['x', 'y', 'z'].map((axis) => site.props.num(`${p}${axis}_scale`)) as [
+            number,
+            number,
+            number,
+          ]),
+        );
         box.visible = taken > 0 && site.props.flag(`${p}Enable box`);
-        tint(arrow, site.props.colour('Acceleration properties/Acc. vector color'), site.props.num('Acceleration properties/Acc. vector alpha'));
+        tint(
+          arrow,
+          site.props.colour('Acceleration properties/Acc. vector color'),
+          site.props.num('Acceleration properties/Acc. vector alpha'),
+        );
       },
       clear() {
         taken = 0;
@@ -71,18 +99,32 @@ export const RANGE: Drawing = {
     num('Alpha', 0.5, 'How opaque the cone is, 0 to 1.', { min: 0, max: 1 }),
   ],
   make(site) {
-    const geometry = shared('range', () => new THREE.ConeGeometry(1, 1, 24, 1, true).rotateZ(Math.PI / 2).translate(0.5, 0, 0));
-    const cone = new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide }));
+    const geometry = shared('range', () =>
+      new THREE.ConeGeometry(1, 1, 24, 1, true).rotateZ(Math.PI / 2).translate(0.5, 0, 0),
+    );
+    const cone = new THREE.Mesh(
+      geometry,
+      new THREE.MeshPhongMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide }),
+    );
     cone.visible = false;
     site.root.add(cone);
     return {
       take(value) {
-        const { range = NaN, field_of_view: fov = 0.1, min_range: min = 0, max_range: max = Infinity } = part(value, 'message') as Record<string, number>;
+        const {
+          range = NaN,
+          field_of_view: fov = 0.1,
+          min_range: min = 0,
+          max_range: max = Infinity,
+        } = part(value, 'message') as Record<string, number>;
         const inside = Number.isFinite(range) && range >= min && range <= max;
         const radius = Math.max(range * Math.tan(fov / 2), 1e-4);
         cone.visible = inside;
         if (inside) cone.scale.set(range, radius, radius);
-        site.status('Range', inside ? 'ok' : 'warn', inside ? `${range.toFixed(3)} m` : `Nothing within ${min} to ${max} m`);
+        site.status(
+          'Range',
+          inside ? 'ok' : 'warn',
+          inside ? `${range.toFixed(3)} m` : `Nothing within ${min} to ${max} m`,
+        );
       },
       changed() {
         cone.material.color.setRGB(...site.props.colour('Color'));
@@ -107,15 +149,30 @@ export const WRENCH: Drawing = {
   make(site) {
     const force = thinArrow();
     const torque = thinArrow();
-    const ring = new THREE.Mesh(shared('wrench ring', () => new THREE.TorusGeometry(0.3, 0.025, 8, 40, 1.6 * Math.PI).rotateY(Math.PI / 2)), torque.material);
+    const ring = new THREE.Mesh(
+      shared('wrench ring', () =>
+        new THREE.TorusGeometry(0.3, 0.025, 8, 40, 1.6 * Math.PI).rotateY(Math.PI / 2),
+      ),
+      torque.material,
+    );
     torque.add(ring);
     site.root.add(force, torque);
     force.visible = torque.visible = false;
     return {
       take(value) {
         const wrench = part(value, 'message', 'wrench');
-        aim(force, vector(wrench['force']), site.props.num('Force Arrow Scale'), site.props.num('Arrow Width'));
-        aim(torque, vector(wrench['torque']), site.props.num('Torque Arrow Scale'), site.props.num('Arrow Width'));
+        aim(
+          force,
+          vector(wrench['force']),
+          site.props.num('Force Arrow Scale'),
+          site.props.num('Arrow Width'),
+        );
+        aim(
+          torque,
+          vector(wrench['torque']),
+          site.props.num('Torque Arrow Scale'),
+          site.props.num('Arrow Width'),
+        );
       },
       changed() {
         tint(force, site.props.colour('Force Color'), site.props.num('Alpha'));
@@ -142,9 +199,11 @@ export const GRID_CELLS: Drawing = {
         const message = part(value, 'message');
         const [width, height] = [Number(message['cell_width']), Number(message['cell_height'])];
         pool.begin();
-        for (const { x, y, z } of list<Point>(message, 'cells')) pool.put(matrix.makeScale(width, height, 1).setPosition(x, y, z));
+        for (const { x, y, z } of list<Point>(message, 'cells'))
+          pool.put(matrix.makeScale(width, height, 1).setPosition(x, y, z));
         pool.end();
-        if (!(width > 0 && height > 0)) site.status('Cells', 'error', `Cells of ${width} x ${height} m cannot be drawn`);
+        if (!(width > 0 && height > 0))
+          site.status('Cells', 'error', `Cells of ${width} x ${height} m cannot be drawn`);
       },
       changed() {
         paint.color.setRGB(...site.props.colour('Color'));
@@ -163,7 +222,10 @@ export const GRID_CELLS: Drawing = {
 
 /** An arrow along +x, one metre long. */
 export function thinArrow(): THREE.Mesh<THREE.BufferGeometry, THREE.MeshPhongMaterial> {
-  return new THREE.Mesh(shared('thin arrow', () => arrowGeometry(0.77, 0.04, 0.23, 0.09)), new THREE.MeshPhongMaterial());
+  return new THREE.Mesh(
+    shared('thin arrow', () => arrowGeometry(0.77, 0.04, 0.23, 0.09)),
+    new THREE.MeshPhongMaterial(),
+  );
 }
 
 /** Point an arrow along a vector, so many metres per unit of it; nothing for nothing. */
@@ -177,7 +239,11 @@ export function aim(arrow: THREE.Object3D, along: THREE.Vector3, scale: number, 
 }
 
 /** Colour an arrow. */
-export function tint(arrow: THREE.Mesh<THREE.BufferGeometry, THREE.MeshPhongMaterial>, rgb: [number, number, number], alpha: number): void {
+export function tint(
+  arrow: THREE.Mesh<THREE.BufferGeometry, THREE.MeshPhongMaterial>,
+  rgb: [number, number, number],
+  alpha: number,
+): void {
   arrow.material.color.setRGB(...rgb);
   arrow.material.opacity = alpha;
   arrow.material.transparent = alpha < 1;

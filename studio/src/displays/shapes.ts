@@ -79,7 +79,11 @@ export class InstancePool {
 const WHITE = new THREE.Color(1, 1, 1);
 
 /** RViz's properties of an arrow or axes, under a prefix such as `Shape/`. */
-export function shapeProperties(shape: 'Arrow' | 'Axes' | 'Arrow (Flat)', prefix = '', flat = false): PropertySpec[] {
+export function shapeProperties(
+  shape: 'Arrow' | 'Axes' | 'Arrow (Flat)',
+  prefix = '',
+  flat = false,
+): PropertySpec[] {
   const options = flat ? ['Arrow (Flat)', 'Arrow (3D)', 'Axes'] : ['Arrow', 'Axes'];
   return [
     choice(prefix ? prefix.slice(0, -1) : 'Shape', shape, options, 'What is drawn at the pose.'),
@@ -106,7 +110,12 @@ export class PoseShapes {
   private readonly flat: InstancePool;
   private readonly axes: InstancePool;
 
-  constructor(parent: THREE.Object3D, private readonly props: Properties, private readonly prefix = '', private readonly flatLength = '') {
+  constructor(
+    parent: THREE.Object3D,
+    private readonly props: Properties,
+    private readonly prefix = '',
+    private readonly flatLength = '',
+  ) {
     this.arrows = new InstancePool(parent, new THREE.BufferGeometry(), this.arrowPaint);
     this.flat = new InstancePool(parent, new THREE.BufferGeometry(), this.flatPaint);
     this.axes = new InstancePool(parent, new THREE.BufferGeometry(), this.axesPaint);
@@ -128,14 +137,21 @@ export class PoseShapes {
       paint.transparent = alpha < 1;
     }
     if (this.flatLength) this.flat.reshape(flatArrowGeometry(n(this.flatLength)));
-    this.arrows.reshape(arrowGeometry(n('Shaft Length'), n('Shaft Radius'), n('Head Length'), n('Head Radius')));
+    this.arrows.reshape(
+      arrowGeometry(n('Shaft Length'), n('Shaft Radius'), n('Head Length'), n('Head Radius')),
+    );
     this.axes.reshape(axesGeometry(n('Axes Length'), n('Axes Radius')));
   }
 
   /** Show these poses (matrices in the parent's frame). */
   set(poses: readonly THREE.Matrix4[]): void {
     const shape = this.props.text(this.prefix ? this.prefix.slice(0, -1) : 'Shape');
-    const used = shape === 'Axes' ? this.axes : shape === 'Arrow (Flat)' && this.flatLength ? this.flat : this.arrows;
+    const used =
+      shape === 'Axes'
+        ? this.axes
+        : shape === 'Arrow (Flat)' && this.flatLength
+          ? this.flat
+          : this.arrows;
     for (const pool of [this.arrows, this.flat, this.axes]) {
       pool.begin();
       if (pool === used) poses.forEach((pose) => pool.put(pose));

@@ -39,7 +39,10 @@ class TfDrawer implements Drawer {
     this.lines = new THREE.LineSegments(new THREE.BufferGeometry(), material);
     this.lines.frustumCulled = false;
     site.root.add(this.lines);
-    this.stops = [site.frames.onMoved(() => this.update()), site.frames.onRenamed(() => this.rename())];
+    this.stops = [
+      site.frames.onMoved(() => this.update()),
+      site.frames.onRenamed(() => this.rename()),
+    ];
     this.rename();
   }
 
@@ -72,7 +75,11 @@ class TfDrawer implements Drawer {
 
   counts(): Record<string, number> {
     const names = [...this.names.values()].filter((name) => name.visible).length;
-    return { frames: this.axes.count, names, arrows: (this.lines.geometry.drawRange.count || 0) / 2 };
+    return {
+      frames: this.axes.count,
+      names,
+      arrows: (this.lines.geometry.drawRange.count || 0) / 2,
+    };
   }
 
   private rename(): void {
@@ -84,7 +91,9 @@ class TfDrawer implements Drawer {
     this.names.clear();
     const height = 0.1 * props.num('Marker Scale');
     for (const { name } of frames.infos) {
-      this.site.offer(flag(`Frames/${name}`, props.flag('Frames/All Enabled'), `Whether ${name} is drawn.`));
+      this.site.offer(
+        flag(`Frames/${name}`, props.flag('Frames/All Enabled'), `Whether ${name} is drawn.`),
+      );
       const sprite = label(name, { height, alpha: props.num('Marker Alpha'), onTop: true });
       sprite.visible = false;
       this.names.set(name, sprite);
@@ -111,14 +120,20 @@ class TfDrawer implements Drawer {
       if (at < 0) continue;
       this.place.fromArray(frames.poses, at);
       this.turn.fromArray(frames.poses, at + 3);
-      if (showAxes) this.axes.put(this.matrix.compose(this.place, this.turn, this.size.setScalar(scale)));
+      if (showAxes)
+        this.axes.put(this.matrix.compose(this.place, this.turn, this.size.setScalar(scale)));
       name?.position.set(this.place.x, this.place.y, this.place.z + 0.22 * scale);
     }
     this.axes.end();
     this.arrows();
     const count = frames.infos.filter((info) => frames.at(info.name) >= 0).length;
     const lost = frames.infos.length - count;
-    if (lost) this.site.status('Frames', 'warn', `${lost} of ${frames.infos.length} frames have no way to [${frames.fixed}]`);
+    if (lost)
+      this.site.status(
+        'Frames',
+        'warn',
+        `${lost} of ${frames.infos.length} frames have no way to [${frames.fixed}]`,
+      );
     else if (count) this.site.status('Frames', 'ok', `${count} frames`);
     else this.site.status('Frames', 'warn', 'No tf data received');
     view.invalidate();
@@ -126,7 +141,9 @@ class TfDrawer implements Drawer {
 
   private arrows(): void {
     const { frames, props } = this.site;
-    const attribute = this.lines.geometry.getAttribute('position') as THREE.BufferAttribute | undefined;
+    const attribute = this.lines.geometry.getAttribute('position') as
+      | THREE.BufferAttribute
+      | undefined;
     if (!attribute) return;
     let at = 0;
     for (const info of props.flag('Show Arrows') ? frames.infos : []) {

@@ -15,7 +15,14 @@ const FIELDS: Record<ViewKind, readonly Field[]> = {
   TopDownOrtho: ['scale', 'angle', 'x', 'y'],
 };
 const NAMES: Record<Field, string> = {
-  distance: 'Distance', yaw: 'Yaw', pitch: 'Pitch', scale: 'Scale', angle: 'Angle', x: 'Focal Point X', y: 'Focal Point Y', z: 'Focal Point Z',
+  distance: 'Distance',
+  yaw: 'Yaw',
+  pitch: 'Pitch',
+  scale: 'Scale',
+  angle: 'Angle',
+  x: 'Focal Point X',
+  y: 'Focal Point Y',
+  z: 'Focal Point Z',
 };
 
 const FIXED = '<Fixed Frame>';
@@ -28,7 +35,10 @@ export class ViewsBox {
   private kind: ViewKind | null = null;
   private target = '';
 
-  constructor(private readonly view: View, private readonly frames: Frames) {
+  constructor(
+    private readonly view: View,
+    private readonly frames: Frames,
+  ) {
     this.stop = view.afterDraw(() => this.refresh());
     this.refresh();
   }
@@ -49,32 +59,50 @@ export class ViewsBox {
   private build(kind: ViewKind): void {
     this.kind = kind;
     this.inputs.clear();
-    const type = select('Type', Object.entries(VIEW_KINDS), kind, (next) => this.view.rig.setKind(next as ViewKind));
+    const type = select('Type', Object.entries(VIEW_KINDS), kind, (next) =>
+      this.view.rig.setKind(next as ViewKind),
+    );
     const target = nameInput({
-      label: 'Target Frame', placeholder: FIXED, value: this.target, names: () => [FIXED, ...this.frames.infos.map((info) => info.name)],
+      label: 'Target Frame',
+      placeholder: FIXED,
+      value: this.target,
+      names: () => [FIXED, ...this.frames.infos.map((info) => info.name)],
       chosen: (name) => this.follow(name),
     });
-    this.element.replaceChildren(this.row('Type', type), this.row('Target Frame', target), ...FIELDS[kind].map((field) => {
-      const input = h('input', { type: 'number', step: 'any', 'aria-label': NAMES[field] });
-      input.addEventListener('change', () => this.write(field, Number(input.value)));
-      this.inputs.set(field, input);
-      return this.row(NAMES[field], input);
-    }));
+    this.element.replaceChildren(
+      this.row('Type', type),
+      this.row('Target Frame', target),
+      ...FIELDS[kind].map((field) => {
+        const input = h('input', { type: 'number', step: 'any', 'aria-label': NAMES[field] });
+        input.addEventListener('change', () => this.write(field, Number(input.value)));
+        this.inputs.set(field, input);
+        return this.row(NAMES[field], input);
+      }),
+    );
   }
 
   /** RViz's Target Frame: the view goes along with a frame. */
   private follow(name: string): void {
     this.target = name === FIXED ? '' : name;
-    this.view.rig.follow(this.target ? () => {
-      const at = this.frames.at(this.target);
-      return at < 0 ? null : matrixOf([...this.frames.poses.subarray(at, at + 7)] as Pose);
-    } : null);
+    this.view.rig.follow(
+      this.target
+        ? () => {
+            const at = this.frames.at(this.target);
+            return at < 0 ? null : matrixOf([...this.frames.poses.subarray(at, at + 7)] as Pose);
+          }
+        : null,
+    );
   }
 
   private row(name: string, control: HTMLElement): HTMLElement {
     const words = h('span', { class: 'property-name' });
     setText(words, name);
-    return h('div', { class: 'property-row' }, words, h('span', { class: 'property-value' }, control));
+    return h(
+      'div',
+      { class: 'property-row' },
+      words,
+      h('span', { class: 'property-value' }, control),
+    );
   }
 
   private write(field: Field, value: number): void {

@@ -37,10 +37,16 @@ export class Assembly {
     value?.bodies.forEach((body, index) => {
       const model = value.models[body.model];
       const own = joints.get(index) ?? [];
-      const key = JSON.stringify([{ ...body, pose: 0, model: 0 }, model?.name, model?.static, own.map((j) => ({ ...j, parent: 0, child: 0 }))]);
+      const key = JSON.stringify([
+        { ...body, pose: 0, model: 0 },
+        model?.name,
+        model?.static,
+        own.map((j) => ({ ...j, parent: 0, child: 0 })),
+      ]);
       const name = model?.name ?? value.name;
       const entity = { model: name, link: body.link, body: body.name };
-      const node = old.get(key) ?? new BodyNode(body, entity, own, model?.static ?? false, () => this.later());
+      const node =
+        old.get(key) ?? new BodyNode(body, entity, own, model?.static ?? false, () => this.later());
       old.delete(key);
       this.keys.push(key);
       this.bodies.push(node);
@@ -95,7 +101,9 @@ export class Assembly {
 
   /** The bodies of a model, or the one of a link. */
   nodes(model: string, link?: string): BodyNode[] {
-    return this.bodies.filter((n) => n.entity.model === model && (link === undefined || n.entity.link === link));
+    return this.bodies.filter(
+      (n) => n.entity.model === model && (link === undefined || n.entity.link === link),
+    );
   }
 
   /** The box in the world around some bodies. */
@@ -104,7 +112,8 @@ export class Assembly {
     for (const node of nodes) {
       const own = node.box();
       node.root.updateWorldMatrix(true, false);
-      if (own.isEmpty()) box.expandByPoint(new THREE.Vector3().setFromMatrixPosition(node.root.matrixWorld));
+      if (own.isEmpty())
+        box.expandByPoint(new THREE.Vector3().setFromMatrixPosition(node.root.matrixWorld));
       else box.union(own.applyMatrix4(node.root.matrixWorld));
     }
     return box;
@@ -127,7 +136,10 @@ export class Assembly {
       const name = node.entity.model;
       if (!sizes.has(name)) {
         const size = this.worldBox(this.nodes(name)).getSize(new THREE.Vector3()).length();
-        sizes.set(name, Number.isFinite(size) && size > 0 ? Math.min(size, LARGEST_MODEL_M) : BARE_MODEL_M);
+        sizes.set(
+          name,
+          Number.isFinite(size) && size > 0 ? Math.min(size, LARGEST_MODEL_M) : BARE_MODEL_M,
+        );
       }
       node.apply(this.modes, sizes.get(name) as number);
     }
@@ -147,7 +159,8 @@ export class Assembly {
 
 function jointsByChild(value: PageScene): Map<number, JointValue[]> {
   const found = new Map<number, JointValue[]>();
-  for (const joint of value.joints) found.set(joint.child, [...(found.get(joint.child) ?? []), joint]);
+  for (const joint of value.joints)
+    found.set(joint.child, [...(found.get(joint.child) ?? []), joint]);
   return found;
 }
 
@@ -170,8 +183,13 @@ function moveIfNew(object: THREE.Object3D, poses: Float32Array, at: number): boo
   const { position: p, quaternion: q } = object;
   if (Number.isNaN(poses[at])) return false;
   const same =
-    Math.abs(p.x - poses[at]) + Math.abs(p.y - poses[at + 1]) + Math.abs(p.z - poses[at + 2]) < 1e-6 &&
-    Math.abs(q.x - poses[at + 3]) + Math.abs(q.y - poses[at + 4]) + Math.abs(q.z - poses[at + 5]) + Math.abs(q.w - poses[at + 6]) < 1e-6;
+    Math.abs(p.x - poses[at]) + Math.abs(p.y - poses[at + 1]) + Math.abs(p.z - poses[at + 2]) <
+      1e-6 &&
+    Math.abs(q.x - poses[at + 3]) +
+      Math.abs(q.y - poses[at + 4]) +
+      Math.abs(q.z - poses[at + 5]) +
+      Math.abs(q.w - poses[at + 6]) <
+      1e-6;
   if (!same) place(object, poses, at);
   return !same;
 }

@@ -20,7 +20,8 @@ export function readMesh(buffer: ArrayBuffer): THREE.BufferGeometry {
   };
   geometry.setAttribute('position', new THREE.BufferAttribute(floats(3 * vertices), 3));
   geometry.setAttribute('normal', new THREE.BufferAttribute(floats(3 * vertices), 3));
-  if (flags & HAS_UV) geometry.setAttribute('uv', new THREE.BufferAttribute(floats(2 * vertices), 2));
+  if (flags & HAS_UV)
+    geometry.setAttribute('uv', new THREE.BufferAttribute(floats(2 * vertices), 2));
   geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(buffer, at, corners), 1));
   geometry.computeBoundingBox();
   geometry.computeBoundingSphere();

@@ -49,17 +49,23 @@ export class BodyNode {
   /** Show what the modes say; `size` is the diagonal of the model's box. */
   apply(modes: ModeSet, size: number): void {
     const name = this.entity.model;
-    const look = { wireframe: modes.isOn('wireframe', name), transparent: modes.isOn('transparent', name) };
+    const look = {
+      wireframe: modes.isOn('wireframe', name),
+      transparent: modes.isOn('transparent', name),
+    };
     const paint = this.grey ? GREY : null;
     this.shapes.forEach((shape) => shape.setLook(look, paint));
-    for (const mode of Object.keys(MODES) as Mode[]) this.toggle(mode, modes.isOn(mode, name), size);
+    for (const mode of Object.keys(MODES) as Mode[])
+      this.toggle(mode, modes.isOn(mode, name), size);
   }
 
   /** Draw in plain white-grey, RViz's sign for a link without a transform. */
   setLost(lost: boolean): void {
     if (lost === this.grey) return;
     this.grey = lost;
-    this.shapes.forEach((shape) => shape.setLook({ wireframe: false, transparent: false }, lost ? GREY : null));
+    this.shapes.forEach((shape) =>
+      shape.setLook({ wireframe: false, transparent: false }, lost ? GREY : null),
+    );
   }
 
   /** How many overlays of a mode this body shows. */
@@ -97,4 +103,7 @@ export class BodyNode {
   }
 }
 
-const GREY = new THREE.MeshPhongMaterial({ color: new THREE.Color(0.85, 0.85, 0.85), side: THREE.DoubleSide });
+const GREY = new THREE.MeshPhongMaterial({
+  color: new THREE.Color(0.85, 0.85, 0.85),
+  side: THREE.DoubleSide,
+});

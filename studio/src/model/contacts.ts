@@ -20,10 +20,17 @@ export class Contacts {
   private readonly arrows: InstancePool;
   private channel: Channel | null = null;
 
-  constructor(private readonly view: View, private readonly connection: Connection) {
+  constructor(
+    private readonly view: View,
+    private readonly connection: Connection,
+  ) {
     this.root.name = 'hands';
     this.balls = new InstancePool(this.root, unit.ball(), flat(BLUE, 1, false));
-    this.arrows = new InstancePool(this.root, arrowGeometry(0.8, 0.02, 0.2, 0.06), flat([0.2, 0.85, 0.3], 1, false));
+    this.arrows = new InstancePool(
+      this.root,
+      arrowGeometry(0.8, 0.02, 0.2, 0.06),
+      flat([0.2, 0.85, 0.3], 1, false),
+    );
     view.scene.add(this.root);
   }
 
@@ -39,7 +46,11 @@ export class Contacts {
     if (on === this.on) return;
     this.channel?.close();
     this.channel = on
-      ? this.connection.open('world.contacts', {}, { onFrame: (frame) => this.draw(floats(frame, frame.count * CONTACT_LENGTH)) })
+      ? this.connection.open(
+          'world.contacts',
+          {},
+          { onFrame: (frame) => this.draw(floats(frame, frame.count * CONTACT_LENGTH)) },
+        )
       : null;
     if (!on) this.draw(new Float32Array(0));
   }

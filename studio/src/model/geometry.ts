@@ -22,7 +22,8 @@ export const unit = {
   box: () => shared('box', () => new THREE.BoxGeometry(1, 1, 1)),
   sphere: () => shared('sphere', () => new THREE.SphereGeometry(1, 32, 20).rotateX(Math.PI / 2)),
   ball: () => shared('ball', () => new THREE.IcosahedronGeometry(1, 2)),
-  cylinder: () => shared('cylinder', () => new THREE.CylinderGeometry(1, 1, 1, 40).rotateX(Math.PI / 2)),
+  cylinder: () =>
+    shared('cylinder', () => new THREE.CylinderGeometry(1, 1, 1, 40).rotateX(Math.PI / 2)),
   cone: () => shared('cone', () => new THREE.ConeGeometry(1, 1, 32).rotateX(Math.PI / 2)),
   rod: () => shared('rod', () => new THREE.CylinderGeometry(1, 1, 1, 12).rotateX(Math.PI / 2)),
   edges: () => shared('edges', () => new THREE.EdgesGeometry(new THREE.BoxGeometry(1, 1, 1))),
@@ -47,10 +48,17 @@ export function flatArrowGeometry(length: number): THREE.BufferGeometry {
   const [half, wide, neck] = [length * 0.02, length * 0.14, length * 0.7];
   const corners = [0, -half, neck, -half, neck, half, 0, half, neck, -wide, length, 0, neck, wide];
   const places = new Float32Array((corners.length / 2) * 3);
-  for (let i = 0; i < corners.length / 2; i++) places.set([corners[2 * i], corners[2 * i + 1], 0], 3 * i);
+  for (let i = 0; i < corners.length / 2; i++)
+    places.set([corners[2 * i], corners[2 * i + 1], 0], 3 * i);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(places, 3));
-  geometry.setAttribute('normal', new THREE.BufferAttribute(new Float32Array(places.length).map((_, i) => Number(i % 3 === 2)), 3));
+  geometry.setAttribute(
+    'normal',
+    new THREE.BufferAttribute(
+      new Float32Array(places.length).map((_, i) => Number(i % 3 === 2)),
+      3,
+    ),
+  );
   geometry.setIndex([0, 1, 2, 0, 2, 3, 4, 5, 6]);
   return geometry;
 }
@@ -86,7 +94,9 @@ export function painted(geometry: THREE.BufferGeometry, colour: Vector): THREE.B
 export function joined(parts: THREE.BufferGeometry[]): THREE.BufferGeometry {
   const flat = parts.map((part) => (part.index ? part.toNonIndexed() : part));
   const result = new THREE.BufferGeometry();
-  const names = ['position', 'normal', 'color'].filter((name) => flat.every((p) => p.hasAttribute(name)));
+  const names = ['position', 'normal', 'color'].filter((name) =>
+    flat.every((p) => p.hasAttribute(name)),
+  );
   for (const name of names) {
     const arrays = flat.map((part) => part.getAttribute(name).array as Float32Array);
     const all = new Float32Array(arrays.reduce((sum, array) => sum + array.length, 0));
@@ -102,7 +112,9 @@ export function joined(parts: THREE.BufferGeometry[]): THREE.BufferGeometry {
 }
 
 /** Geometry and scale of a primitive; a mesh or a missing mesh has its own way. */
-export function primitive(value: PageGeometry): { geometry: THREE.BufferGeometry; scale: Vector } | null {
+export function primitive(
+  value: PageGeometry,
+): { geometry: THREE.BufferGeometry; scale: Vector } | null {
   switch (value.type) {
     case 'box':
       return { geometry: unit.box(), scale: value.size };
@@ -117,7 +129,10 @@ export function primitive(value: PageGeometry): { geometry: THREE.BufferGeometry
     case 'capsule':
       return { geometry: capsule(value.radius, value.length), scale: [1, 1, 1] };
     case 'plane':
-      return { geometry: plane(value.normal), scale: [value.size[0] || 100, value.size[1] || 100, 1] };
+      return {
+        geometry: plane(value.normal),
+        scale: [value.size[0] || 100, value.size[1] || 100, 1],
+      };
     case 'missing':
       return { geometry: unit.box(), scale: [0.2, 0.2, 0.2] };
     default:

@@ -59,7 +59,8 @@ function build(
   giveAmbient(result, value);
   const [sr, sg, sb] = value.specular ?? [0.1, 0.1, 0.1];
   result.specular.setRGB(sr * 0.5, sg * 0.5, sb * 0.5);
-  if (value.emissive) result.emissive.setRGB(value.emissive[0], value.emissive[1], value.emissive[2]);
+  if (value.emissive)
+    result.emissive.setRGB(value.emissive[0], value.emissive[1], value.emissive[2]);
   if (value.texture) {
     const [u, v] = value.texture_scale ?? [1, 1];
     result.map = loadTexture(value.texture, u, v, () => {
@@ -72,12 +73,17 @@ function build(
 
 /** Gazebo's ambient colour of a material is its own; three's Phong takes the diffuse one. */
 function giveAmbient(target: THREE.MeshPhongMaterial, { ambient, diffuse }: Surface): void {
-  const share = [0, 1, 2].map((i) => (ambient ? Math.min(ambient[i] / Math.max(diffuse[i], 0.02), 50) : 1));
+  const share = [0, 1, 2].map((i) =>
+    ambient ? Math.min(ambient[i] / Math.max(diffuse[i], 0.02), 50) : 1,
+  );
   target.onBeforeCompile = (shader) => {
     shader.uniforms.ambientShare = { value: new THREE.Vector3(share[0], share[1], share[2]) };
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', '#include <common>\nuniform vec3 ambientShare;')
-      .replace('#include <lights_fragment_begin>', '#include <lights_fragment_begin>\nirradiance *= ambientShare;');
+      .replace(
+        '#include <lights_fragment_begin>',
+        '#include <lights_fragment_begin>\nirradiance *= ambientShare;',
+      );
   };
   target.customProgramCacheKey = () => 'gazebo ambient';
 }
@@ -103,7 +109,10 @@ export function flat(colour: number[], opacity = 1, depth = true): THREE.MeshBas
 
 /** RViz writes colours as '255; 85; 0'. */
 export function parseColour(text: string): [number, number, number] {
-  const numbers = text.split(/[;,\s]+/).map(Number).filter(Number.isFinite);
+  const numbers = text
+    .split(/[;,\s]+/)
+    .map(Number)
+    .filter(Number.isFinite);
   if (numbers.length < 3) return [1, 1, 1];
   return [numbers[0] / 255, numbers[1] / 255, numbers[2] / 255];
 }

@@ -73,7 +73,10 @@ function massCentre({ body, isStatic, size }: Subject): THREE.Object3D | null {
 
 function frameAxes({ size }: Subject): THREE.Object3D {
   const paint = shinesThrough();
-  const axes = new THREE.Mesh(shared('axes', () => axesGeometry(1, 0.025)), paint);
+  const axes = new THREE.Mesh(
+    shared('axes', () => axesGeometry(1, 0.025)),
+    paint,
+  );
   const length = 0.08 * size;
   fix(axes, [0, 0, 0, 0, 0, 0, 1], [length, length, length]);
   axes.renderOrder = 11;
@@ -87,7 +90,10 @@ function boundingBox({ box }: Subject): THREE.Object3D | null {
 function jointAxes({ joints, size }: Subject): THREE.Object3D | null {
   const group = new THREE.Group();
   for (const joint of joints) {
-    const mark = new THREE.Mesh(jointShape(joint.type), flat(joint.type === 'fixed' ? STILL : JOINT, 0.9, false));
+    const mark = new THREE.Mesh(
+      jointShape(joint.type),
+      flat(joint.type === 'fixed' ? STILL : JOINT, 0.9, false),
+    );
     const turn = new THREE.Quaternion().setFromUnitVectors(
       new THREE.Vector3(1, 0, 0),
       new THREE.Vector3(...(joint.axis ?? [1, 0, 0])).normalize(),
@@ -120,7 +126,11 @@ function jointShape(type: string): THREE.BufferGeometry {
 let through: THREE.MeshBasicMaterial | null = null;
 
 function shinesThrough(): THREE.MeshBasicMaterial {
-  through ??= new THREE.MeshBasicMaterial({ vertexColors: true, depthTest: false, transparent: true });
+  through ??= new THREE.MeshBasicMaterial({
+    vertexColors: true,
+    depthTest: false,
+    transparent: true,
+  });
   return through;
 }
 
@@ -130,7 +140,11 @@ function line(colour: number[], depth = true): THREE.LineBasicMaterial {
   const key = `${colour.join()} ${depth}`;
   let found = lines.get(key);
   if (!found) {
-    found = new THREE.LineBasicMaterial({ color: new THREE.Color(colour[0], colour[1], colour[2]), depthTest: depth, transparent: !depth });
+    found = new THREE.LineBasicMaterial({
+      color: new THREE.Color(colour[0], colour[1], colour[2]),
+      depthTest: depth,
+      transparent: !depth,
+    });
     lines.set(key, found);
   }
   return found;

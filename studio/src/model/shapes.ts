@@ -83,7 +83,11 @@ export class ShapeNode {
     this.add(found.geometry, found.scale, own);
   }
 
-  private add(geometry: THREE.BufferGeometry, scale: ArrayLike<number>, value: Surface | null): void {
+  private add(
+    geometry: THREE.BufferGeometry,
+    scale: ArrayLike<number>,
+    value: Surface | null,
+  ): void {
     const mesh = new THREE.Mesh(geometry, this.materialOf(value));
     mesh.castShadow = this.value.cast_shadows !== false && this.value.geometry.type !== 'plane';
     mesh.receiveShadow = true;

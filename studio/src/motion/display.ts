@@ -19,25 +19,47 @@ const GHOST_ALPHA = 0.55;
 export const MOTION_PLANNING: Drawing = {
   properties: [
     text('Move Group Namespace', '', 'Of the move_group that is spoken with.'),
-    text('Robot Description', 'robot_description', 'The parameter with the URDF; the SRDF is beside it.'),
+    text(
+      'Robot Description',
+      'robot_description',
+      'The parameter with the URDF; the SRDF is beside it.',
+    ),
     text('Planning Scene Topic', 'monitored_planning_scene', 'Where move_group tells its scene.'),
     flag('Scene Geometry/Show Scene Geometry', true, 'Whether objects are drawn.'),
     num('Scene Geometry/Scene Alpha', 0.9, 'How opaque objects are, 0 to 1.', { min: 0, max: 1 }),
-    colour('Scene Geometry/Scene Color', '50; 230; 50', 'Of objects without a colour of their own.'),
+    colour(
+      'Scene Geometry/Scene Color',
+      '50; 230; 50',
+      'Of objects without a colour of their own.',
+    ),
     flag('Scene Robot/Show Robot Visual', true, 'Whether the robot is drawn where it is.'),
     num('Scene Robot/Robot Alpha', 1, 'How opaque it is, 0 to 1.', { min: 0, max: 1 }),
     colour('Scene Robot/Attached Body Color', '150; 50; 150', 'Of what the robot holds.'),
-    text('Planning Request/Planning Group', '', 'The group that is planned for; the first one if empty.'),
+    text(
+      'Planning Request/Planning Group',
+      '',
+      'The group that is planned for; the first one if empty.',
+    ),
     flag('Planning Request/Query Start State', false, 'Whether the start is shown.'),
     flag('Planning Request/Query Goal State', true, 'Whether the goal is shown.'),
-    num('Planning Request/Interactive Marker Size', 0, 'Of the goal\'s handles, m; 0 for one that fits the robot.', { min: 0 }),
+    num(
+      'Planning Request/Interactive Marker Size',
+      0,
+      "Of the goal's handles, m; 0 for one that fits the robot.",
+      { min: 0 },
+    ),
     colour('Planning Request/Start State Color', '0; 255; 0', 'Of the start.'),
     colour('Planning Request/Goal State Color', '250; 128; 0', 'Of the goal.'),
     colour('Planning Request/Colliding Link Color', '255; 0; 0', 'Of links that collide.'),
     text('Planned Path/Trajectory Topic', 'display_planned_path', 'Where planned paths come from.'),
     flag('Planned Path/Show Robot Visual', true, 'Whether the robot of the path is drawn.'),
     num('Planned Path/Robot Alpha', 0.5, 'How opaque it is, 0 to 1.', { min: 0, max: 1 }),
-    choice('Planned Path/State Display Time', '3x', DISPLAY_TIMES, 'Speed, REALTIME, or seconds for each state.'),
+    choice(
+      'Planned Path/State Display Time',
+      '3x',
+      DISPLAY_TIMES,
+      'Speed, REALTIME, or seconds for each state.',
+    ),
     flag('Planned Path/Loop Animation', false, 'Whether it begins again at its end.'),
     flag('Planned Path/Show Trail', false, 'Whether all of its states are drawn.'),
   ],
@@ -74,20 +96,32 @@ class MotionDrawer implements Drawer {
   changed(path: string): void {
     const { props } = this.site;
     this.store.setNames({
-      namespace: props.text('Move Group Namespace'), description: props.text('Robot Description'),
-      scene_topic: props.text('Planning Scene Topic'), path_topic: props.text('Planned Path/Trajectory Topic'),
+      namespace: props.text('Move Group Namespace'),
+      description: props.text('Robot Description'),
+      scene_topic: props.text('Planning Scene Topic'),
+      path_topic: props.text('Planned Path/Trajectory Topic'),
     });
     const { player, start, goal } = this.store;
     const is = (name: string): boolean => path === '' || path === name;
-    if (is('Planning Request/Query Start State')) start.shown = props.flag('Planning Request/Query Start State');
-    if (is('Planning Request/Query Goal State')) goal.shown = props.flag('Planning Request/Query Goal State');
+    if (is('Planning Request/Query Start State'))
+      start.shown = props.flag('Planning Request/Query Start State');
+    if (is('Planning Request/Query Goal State'))
+      goal.shown = props.flag('Planning Request/Query Goal State');
     if (is('Planned Path/Loop Animation')) player.loop = props.flag('Planned Path/Loop Animation');
     if (is('Planned Path/Show Trail')) player.trail = props.flag('Planned Path/Show Trail');
-    if (is('Planned Path/State Display Time') && !player.setDisplayTime(props.text('Planned Path/State Display Time'))) {
-      this.site.status('State Display Time', 'error', `'${props.text('Planned Path/State Display Time')}' is neither a speed (3x), REALTIME nor a time (0.05 s)`);
+    if (
+      is('Planned Path/State Display Time') &&
+      !player.setDisplayTime(props.text('Planned Path/State Display Time'))
+    ) {
+      this.site.status(
+        'State Display Time',
+        'error',
+        `'${props.text('Planned Path/State Display Time')}' is neither a speed (3x), REALTIME nor a time (0.05 s)`,
+      );
     }
     const group = props.text('Planning Request/Planning Group');
-    if (is('Planning Request/Planning Group') && group && group !== this.store.group) this.store.setGroup(group);
+    if (is('Planning Request/Planning Group') && group && group !== this.store.group)
+      this.store.setGroup(group);
     if (is('Planning Request/Interactive Marker Size')) this.dropMarker();
     this.store.tell('play');
     this.store.tell('look');
@@ -111,11 +145,21 @@ class MotionDrawer implements Drawer {
 
   counts(): Record<string, number> {
     const { ghosts, store } = this;
-    const links = (ghost?: Ghost): number => (ghost?.root.visible ? ghost.bodies.filter((body) => body.root.visible).length : 0);
-    const red = ghosts ? ghosts.goal.bodies.filter((body) => store.goal.colliding.has(body.entity.link)).length : 0;
+    const links = (ghost?: Ghost): number =>
+      ghost?.root.visible ? ghost.bodies.filter((body) => body.root.visible).length : 0;
+    const red = ghosts
+      ? ghosts.goal.bodies.filter((body) => store.goal.colliding.has(body.entity.link)).length
+      : 0;
     return {
-      links: links(ghosts?.robot), start: links(ghosts?.start), goal: links(ghosts?.goal), path: links(ghosts?.path), trail: this.trail.length,
-      red, marker: this.marker?.root.visible ? 1 : 0, objects: this.objects.count, attached: this.objects.attachedCount,
+      links: links(ghosts?.robot),
+      start: links(ghosts?.start),
+      goal: links(ghosts?.goal),
+      path: links(ghosts?.path),
+      trail: this.trail.length,
+      red,
+      marker: this.marker?.root.visible ? 1 : 0,
+      objects: this.objects.count,
+      attached: this.objects.attachedCount,
     };
   }
 
@@ -135,13 +179,23 @@ class MotionDrawer implements Drawer {
     this.trail = [];
     this.ghosts = null;
     if (!robot) return this.objects.dispose();
-    if (!problem) this.site.status('Move Group', 'ok', `${robot.node} plans for ${robot.groups.map((group) => group.name).join(', ')}`);
+    if (!problem)
+      this.site.status(
+        'Move Group',
+        'ok',
+        `${robot.node} plans for ${robot.groups.map((group) => group.name).join(', ')}`,
+      );
     const make = (name: string): Ghost => {
       const ghost = new Ghost(robot.scene, name, () => this.site.view.moved());
       this.base.add(ghost.root);
       return ghost;
     };
-    this.ghosts = { robot: make('scene robot'), start: make('query start'), goal: make('query goal'), path: make('planned path') };
+    this.ghosts = {
+      robot: make('scene robot'),
+      start: make('query start'),
+      goal: make('query goal'),
+      path: make('planned path'),
+    };
     this.site.frames.setRobotRoot(robot.root);
     this.follow();
     this.draw('robot');
@@ -154,7 +208,11 @@ class MotionDrawer implements Drawer {
     const { robot } = this.store;
     if (!robot) return;
     const pose = standing(frames, this.store);
-    status('Transform', pose ? 'ok' : 'error', pose ? 'Transform OK' : `No transform from [${robot.root}] to [${frames.fixed}]`);
+    status(
+      'Transform',
+      pose ? 'ok' : 'error',
+      pose ? 'Transform OK' : `No transform from [${robot.root}] to [${frames.fixed}]`,
+    );
     this.base.visible = pose !== null;
     if (!pose) return;
     pose.decompose(this.base.position, this.base.quaternion, this.base.scale);
@@ -185,7 +243,10 @@ class MotionDrawer implements Drawer {
     if (!ghosts || !group) return;
     const links = new Set(group.links);
     const red = paint(site.props.colour('Planning Request/Colliding Link Color') ?? RED, 0.8);
-    const names: [Query, string][] = [['start', 'Planning Request/Start State Color'], ['goal', 'Planning Request/Goal State Color']];
+    const names: [Query, string][] = [
+      ['start', 'Planning Request/Start State Color'],
+      ['goal', 'Planning Request/Goal State Color'],
+    ];
     for (const [query, property] of names) {
       const ghost = ghosts[query];
       ghost.root.visible = store[query].shown;
@@ -225,7 +286,8 @@ class MotionDrawer implements Drawer {
     const given = this.site.props.num('Planning Request/Interactive Marker Size');
     if (given > 0) return given;
     const box = new THREE.Box3();
-    for (const pose of this.store.kinematics?.poses(this.store.current) ?? []) box.expandByPoint(new THREE.Vector3().setFromMatrixPosition(pose));
+    for (const pose of this.store.kinematics?.poses(this.store.current) ?? [])
+      box.expandByPoint(new THREE.Vector3().setFromMatrixPosition(pose));
     return Math.max(0.12, Math.min(0.6, box.getSize(new THREE.Vector3()).length() * 0.3));
   }
 
@@ -236,7 +298,11 @@ class MotionDrawer implements Drawer {
 
   private tellInverse(): void {
     const { ikProblem } = this.store;
-    this.site.status('Inverse Kinematics', ikProblem ? 'warn' : 'ok', ikProblem || 'A solution was found');
+    this.site.status(
+      'Inverse Kinematics',
+      ikProblem ? 'warn' : 'ok',
+      ikProblem || 'A solution was found',
+    );
     this.store.tell('look');
   }
 
@@ -244,7 +310,8 @@ class MotionDrawer implements Drawer {
     const { ghosts, store, site } = this;
     if (!ghosts || !store.robot) return;
     const positions = store.player.positions();
-    ghosts.path.root.visible = positions !== null && site.props.flag('Planned Path/Show Robot Visual');
+    ghosts.path.root.visible =
+      positions !== null && site.props.flag('Planned Path/Show Robot Visual');
     if (!positions) return;
     this.place(ghosts.path, positions);
     const own = paint([0.75, 0.78, 0.85], site.props.num('Planned Path/Robot Alpha'));

@@ -13,7 +13,12 @@ export function paint(colour: Colour, opacity: number): THREE.MeshPhongMaterial 
   let found = paints.get(key);
   if (!found) {
     found = new THREE.MeshPhongMaterial({
-      color: new THREE.Color(...colour), opacity, transparent: opacity < 0.999, depthWrite: opacity > 0.6, shininess: 20, side: THREE.DoubleSide,
+      color: new THREE.Color(...colour),
+      opacity,
+      transparent: opacity < 0.999,
+      depthWrite: opacity > 0.6,
+      shininess: 20,
+      side: THREE.DoubleSide,
     });
     paints.set(key, found);
   }
@@ -28,7 +33,16 @@ export class Ghost {
   /** @param changed is called when a mesh came. */
   constructor(scene: PageScene, name: string, changed: () => void) {
     this.root.name = name;
-    this.bodies = scene.bodies.map((body) => new BodyNode(body, { model: scene.name, link: body.link, body: body.name }, [], false, changed));
+    this.bodies = scene.bodies.map(
+      (body) =>
+        new BodyNode(
+          body,
+          { model: scene.name, link: body.link, body: body.name },
+          [],
+          false,
+          changed,
+        ),
+    );
     for (const body of this.bodies) {
       body.root.matrixAutoUpdate = false;
       this.root.add(body.root);
@@ -48,7 +62,9 @@ export class Ghost {
     for (const body of this.bodies) {
       const { link } = body.entity;
       body.root.visible = links === null || links.has(link);
-      body.shapes.forEach((shape) => shape.setLook({ wireframe: false, transparent: false }, material(link)));
+      body.shapes.forEach((shape) =>
+        shape.setLook({ wireframe: false, transparent: false }, material(link)),
+      );
     }
   }
 }

@@ -19,7 +19,10 @@ export class Inverse {
   private asking = false;
 
   /** @param told is called after every answer. */
-  constructor(private readonly store: MotionStore, private readonly told: () => void) {}
+  constructor(
+    private readonly store: MotionStore,
+    private readonly told: () => void,
+  ) {}
 
   /** The tip shall be at a pose, of the frame of `Kinematics.poses`. */
   ask(link: string, pose: THREE.Matrix4): void {
@@ -48,8 +51,14 @@ export class Inverse {
     if (!robot || !kinematics) return;
     const answer = await store.service('compute_ik', 'GetPositionIK', {
       ik_request: {
-        group_name: store.group, robot_state: robotState(robot, store.positions(QUERY)), avoid_collisions: store.collisionAware, ik_link_name: link,
-        pose_stamped: { header: { frame_id: kinematics.isMobile ? robot.frame : robot.root }, pose: poseMessage(pose) },
+        group_name: store.group,
+        robot_state: robotState(robot, store.positions(QUERY)),
+        avoid_collisions: store.collisionAware,
+        ik_link_name: link,
+        pose_stamped: {
+          header: { frame_id: kinematics.isMobile ? robot.frame : robot.root },
+          pose: poseMessage(pose),
+        },
       },
     });
     const outcome = outcomeOf(answer);
@@ -62,10 +71,18 @@ export class Inverse {
 }
 
 /** Positions that bring a link as near to a pose as damped least squares gets from where the goal is. */
-function nearest(store: MotionStore, robot: MotionRobot, kinematics: Kinematics, link: string, pose: THREE.Matrix4): Positions {
+function nearest(
+  store: MotionStore,
+  robot: MotionRobot,
+  kinematics: Kinematics,
+  link: string,
+  pose: THREE.Matrix4,
+): Positions {
   const followers = new Set(robot.mimics.map((mimic) => mimic.variable));
   const active = new Set(groupOf(robot, store.group)?.active);
-  const free = variablesOf(robot, store.group).filter((one) => active.has(one.name) && !followers.has(one.name));
+  const free = variablesOf(robot, store.group).filter(
+    (one) => active.has(one.name) && !followers.has(one.name),
+  );
   const q = store.positions(QUERY);
   for (let round = 0; round < ROUNDS; round++) {
     const now = kinematics.pose(link, q);
@@ -87,8 +104,12 @@ function nearest(store: MotionStore, robot: MotionRobot, kinematics: Kinematics,
 
 /** From one pose to another: metres and a rotation vector. */
 function difference(from: THREE.Matrix4, to: THREE.Matrix4): number[] {
-  const shift = new THREE.Vector3().setFromMatrixPosition(to).sub(new THREE.Vector3().setFromMatrixPosition(from));
-  const turn = new THREE.Quaternion().setFromRotationMatrix(to).multiply(new THREE.Quaternion().setFromRotationMatrix(from).invert());
+  const shift = new THREE.Vector3()
+    .setFromMatrixPosition(to)
+    .sub(new THREE.Vector3().setFromMatrixPosition(from));
+  const turn = new THREE.Quaternion()
+    .setFromRotationMatrix(to)
+    .multiply(new THREE.Quaternion().setFromRotationMatrix(from).invert());
   if (turn.w < 0) turn.set(-turn.x, -turn.y, -turn.z, -turn.w);
   const axis = new THREE.Vector3(turn.x, turn.y, turn.z);
   const size = axis.length();
@@ -99,17 +120,28 @@ function difference(from: THREE.Matrix4, to: THREE.Matrix4): number[] {
 /** `Jᵀ (J Jᵀ + λ² I)⁻¹ e` of a Jacobian's columns. */
 function damped(columns: number[][], error: number[]): number[] {
   const size = error.length;
-  const matrix = Array.from({ length: size }, (_, row) => Array.from({ length: size + 1 }, (_, column) => {
-    if (column === size) return error[row];
-    return columns.reduce((sum, one) => sum + one[row] * one[column], row === column ? DAMPING ** 2 : 0);
-  }));
+  const matrix = Array.from({ length: size }, (_, row) =>
+    Array.from({ length: size + 1 }, (_, column) => {
+      if (column === size) return error[row];
+      return columns.reduce(
+        (sum, one) => sum + one[row] * one[column],
+        row === column ? DAMPING ** 2 : 0,
+      );
+    }),
+  );
   for (let at = 0; at < size; at++) {
-    const pivot = matrix.slice(at).reduce((best, row, index) => (Math.abs(row[at]) > Math.abs(matrix[best][at]) ? at + index : best), at);
+    const pivot = matrix
+      .slice(at)
+      .reduce(
+        (best, row, index) => (Math.abs(row[at]) > Math.abs(matrix[best][at]) ? at + index : best),
+        at,
+      );
     [matrix[at], matrix[pivot]] = [matrix[pivot], matrix[at]];
     for (let row = 0; row < size; row++) {
       if (row === at) continue;
       const factor = matrix[row][at] / matrix[at][at];
-      for (let column = at; column <= size; column++) matrix[row][column] -= factor * matrix[at][column];
+      for (let column = at; column <= size; column++)
+        matrix[row][column] -= factor * matrix[at][column];
     }
   }
   const solved = matrix.map((row, at) => row[size] / row[at]);

@@ -12,7 +12,11 @@ import type { MotionStore } from './store';
 
 const SEND_MS = 80;
 
-interface Shown { frame: string; node: THREE.Group; attached: boolean }
+interface Shown {
+  frame: string;
+  node: THREE.Group;
+  attached: boolean;
+}
 
 /** Draws what the store has. */
 export class SceneObjects {
@@ -22,7 +26,10 @@ export class SceneObjects {
   private last = 0;
   private readonly geometries: THREE.BufferGeometry[] = [];
 
-  constructor(private readonly site: Site, private readonly store: MotionStore) {
+  constructor(
+    private readonly site: Site,
+    private readonly store: MotionStore,
+  ) {
     this.root.name = 'planning scene';
   }
 
@@ -44,7 +51,8 @@ export class SceneObjects {
     const free = paint(props.colour('Scene Geometry/Scene Color'), alpha);
     const carried = paint(props.colour('Scene Robot/Attached Body Color'), alpha);
     for (const item of this.store.objects) this.add(item, free, false);
-    for (const body of this.store.attached) this.add(part(body, 'object'), carried, true, String(body['link_name']));
+    for (const body of this.store.attached)
+      this.add(part(body, 'object'), carried, true, String(body['link_name']));
     this.follow();
     // Handles can be grasped before they are drawn.
     this.root.updateMatrixWorld(true);
@@ -59,7 +67,9 @@ export class SceneObjects {
       // The planning frame is often the root of tf's tree, of which tf does not speak.
       const own = one.attached ? null : poseOfFrame(this.site.frames, one.frame);
       const link = kinematics?.pose(one.frame, current);
-      const pose = own ?? (base && (link ? base.clone().multiply(link) : one.frame === robot?.frame ? base : null));
+      const pose =
+        own ??
+        (base && (link ? base.clone().multiply(link) : one.frame === robot?.frame ? base : null));
       one.node.visible = pose !== null;
       pose?.decompose(one.node.position, one.node.quaternion, one.node.scale);
     }
@@ -90,7 +100,9 @@ export class SceneObjects {
     const send = (): void => {
       this.last = performance.now();
       body.updateMatrix();
-      changeObjects(this.store, [moveOf(item, body.matrix)]).catch((problem: Error) => this.site.status('Planning Scene', 'error', problem.message));
+      changeObjects(this.store, [moveOf(item, body.matrix)]).catch((problem: Error) =>
+        this.site.status('Planning Scene', 'error', problem.message),
+      );
     };
     this.marker = new SixDof(String(item['id']), Math.max(0.15, size * 1.3), {
       moved: (pose) => {
@@ -119,7 +131,9 @@ export class SceneObjects {
       if (geometry) add(geometry, scale, poses[at]);
     });
     const places = list<JsonObject>(item, 'mesh_poses');
-    list<JsonObject>(item, 'meshes').forEach((mesh, at) => add(this.keep(triangles(mesh)), [1, 1, 1], places[at]));
+    list<JsonObject>(item, 'meshes').forEach((mesh, at) =>
+      add(this.keep(triangles(mesh)), [1, 1, 1], places[at]),
+    );
     return found;
   }
 
@@ -133,19 +147,32 @@ export class SceneObjects {
 function primitive(solid: JsonObject): [THREE.BufferGeometry | null, number[]] {
   const sizes = list<number>(solid, 'dimensions');
   switch (Number(solid['type'])) {
-    case 1: return [unit.box(), sizes];
-    case 2: return [unit.sphere(), [sizes[0], sizes[0], sizes[0]]];
-    case 3: return [unit.cylinder(), [sizes[1], sizes[1], sizes[0]]];
-    case 4: return [unit.cone(), [sizes[1], sizes[1], sizes[0]]];
-    default: return [null, []];
+    case 1:
+      return [unit.box(), sizes];
+    case 2:
+      return [unit.sphere(), [sizes[0], sizes[0], sizes[0]]];
+    case 3:
+      return [unit.cylinder(), [sizes[1], sizes[1], sizes[0]]];
+    case 4:
+      return [unit.cone(), [sizes[1], sizes[1], sizes[0]]];
+    default:
+      return [null, []];
   }
 }
 
 function triangles(mesh: JsonObject): THREE.BufferGeometry {
   const corners = list<{ x: number; y: number; z: number }>(mesh, 'vertices');
-  const index = list<JsonObject>(mesh, 'triangles').flatMap((one) => list<number>(one, 'vertex_indices'));
+  const index = list<JsonObject>(mesh, 'triangles').flatMap((one) =>
+    list<number>(one, 'vertex_indices'),
+  );
   const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.Float32BufferAttribute(corners.flatMap(({ x, y, z }) => [x, y, z]), 3));
+  geometry.setAttribute(
+    'position',
+    new THREE.Float32BufferAttribute(
+      corners.flatMap(({ x, y, z }) => [x, y, z]),
+      3,
+    ),
+  );
   geometry.setIndex(index);
   const flat = geometry.toNonIndexed();
   flat.computeVertexNormals();

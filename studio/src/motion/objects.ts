@@ -10,22 +10,38 @@ import type { MotionStore } from './store';
 export const SHAPES = ['Box', 'Sphere', 'Cylinder', 'Cone'] as const;
 export type ShapeName = (typeof SHAPES)[number];
 
-const ADD = 0, REMOVE = 1, MOVE = 3;
+const ADD = 0,
+  REMOVE = 1,
+  MOVE = 3;
 const TYPES: Record<ShapeName, number> = { Box: 1, Sphere: 2, Cylinder: 3, Cone: 4 };
 
 const AT_ORIGIN = { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
 
 /** A solid of sizes in metres: x y z of a box, radius of a sphere, radius and length of the others. */
-export function solid(id: string, frame: string, shape: ShapeName, sizes: number[], pose: THREE.Matrix4): JsonObject {
+export function solid(
+  id: string,
+  frame: string,
+  shape: ShapeName,
+  sizes: number[],
+  pose: THREE.Matrix4,
+): JsonObject {
   const [a, b] = sizes;
   const dimensions = shape === 'Box' ? sizes.slice(0, 3) : shape === 'Sphere' ? [a] : [b, a];
   return {
-    ...head(id, frame, pose), primitives: [{ type: TYPES[shape], dimensions }], primitive_poses: [AT_ORIGIN],
+    ...head(id, frame, pose),
+    primitives: [{ type: TYPES[shape], dimensions }],
+    primitive_poses: [AT_ORIGIN],
   };
 }
 
 /** An object of a mesh. */
-export function meshObject(id: string, frame: string, mesh: MotionMesh, scale: number, pose: THREE.Matrix4): JsonObject {
+export function meshObject(
+  id: string,
+  frame: string,
+  mesh: MotionMesh,
+  scale: number,
+  pose: THREE.Matrix4,
+): JsonObject {
   const vertices = mesh.vertices.map(([x, y, z]) => ({ x: x * scale, y: y * scale, z: z * scale }));
   const triangles = mesh.triangles.map((corners) => ({ vertex_indices: corners }));
   return { ...head(id, frame, pose), meshes: [{ vertices, triangles }], mesh_poses: [AT_ORIGIN] };
@@ -37,7 +53,12 @@ function head(id: string, frame: string, pose: THREE.Matrix4): JsonObject {
 
 /** Moves an object to a pose of its frame. */
 export function moveOf(item: JsonObject, pose: THREE.Matrix4): JsonObject {
-  return { id: item['id'], header: { frame_id: part(item, 'header')['frame_id'] ?? '' }, pose: poseMessage(pose), operation: MOVE };
+  return {
+    id: item['id'],
+    header: { frame_id: part(item, 'header')['frame_id'] ?? '' },
+    pose: poseMessage(pose),
+    operation: MOVE,
+  };
 }
 
 /** Removes an object. */
@@ -56,18 +77,28 @@ export async function attach(store: MotionStore, id: string, on: boolean): Promi
   const held = store.attached.find((body) => part(body, 'object')['id'] === id);
   const link = held ? String(held['link_name']) : tipOf(group ?? undefined);
   const fingers = group?.effectors.find((one) => one.link === link)?.links ?? [];
-  const body = { link_name: link, object: { id, operation: on ? ADD : REMOVE }, touch_links: on ? [link, ...fingers] : [] };
+  const body = {
+    link_name: link,
+    object: { id, operation: on ? ADD : REMOVE },
+    touch_links: on ? [link, ...fingers] : [],
+  };
   await apply(store, { robot_state: { is_diff: true, attached_collision_objects: [body] } });
 }
 
 async function apply(store: MotionStore, scene: JsonObject): Promise<void> {
-  const answer = await store.service('apply_planning_scene', 'ApplyPlanningScene', { scene: { is_diff: true, ...scene } });
-  if (answer['success'] !== true) throw new Error("move_group did not take the change of its scene; its log says why");
+  const answer = await store.service('apply_planning_scene', 'ApplyPlanningScene', {
+    scene: { is_diff: true, ...scene },
+  });
+  if (answer['success'] !== true)
+    throw new Error('move_group did not take the change of its scene; its log says why');
 }
 
 /** All names that are taken. */
 export function objectNames(store: MotionStore): string[] {
-  return [...store.objects.map((item) => String(item['id'])), ...store.attached.map((body) => String(part(body, 'object')['id']))];
+  return [
+    ...store.objects.map((item) => String(item['id'])),
+    ...store.attached.map((body) => String(part(body, 'object')['id'])),
+  ];
 }
 
 /** A name that nothing has. */
@@ -80,7 +111,9 @@ export function freeName(store: MotionStore, base: string): string {
 
 /** What an object is made of, in a word. */
 export function kindOf(item: JsonObject): string {
-  const solids = list<JsonObject>(item, 'primitives').map((one) => SHAPES[Number(one['type']) - 1] ?? 'shape');
+  const solids = list<JsonObject>(item, 'primitives').map(
+    (one) => SHAPES[Number(one['type']) - 1] ?? 'shape',
+  );
   const meshes = list<JsonObject>(item, 'meshes').map(() => 'Mesh');
   return [...solids, ...meshes].join(', ');
 }

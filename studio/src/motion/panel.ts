@@ -21,10 +21,33 @@ export class MotionPlanningPanel extends BasePanel {
   private readonly joints: JointsTab;
   private readonly objects: ObjectsTab;
   private readonly tabs: Tabs;
-  private readonly result = h('div', { class: 'motion-result', role: 'status', 'aria-live': 'polite', 'data-level': 'ok' });
-  private readonly inverse = h('div', { class: 'motion-result', role: 'status', 'aria-live': 'polite', 'aria-label': 'Inverse kinematics', 'data-level': 'warn', hidden: true });
-  private readonly collisions = h('div', { class: 'motion-result', role: 'status', 'aria-live': 'polite', 'aria-label': 'Collisions', 'data-level': 'error', hidden: true });
-  private readonly view = h('div', { class: 'motion-result', hidden: true }, 'What is planned is seen in RViz\'s view. ');
+  private readonly result = h('div', {
+    class: 'motion-result',
+    role: 'status',
+    'aria-live': 'polite',
+    'data-level': 'ok',
+  });
+  private readonly inverse = h('div', {
+    class: 'motion-result',
+    role: 'status',
+    'aria-live': 'polite',
+    'aria-label': 'Inverse kinematics',
+    'data-level': 'warn',
+    hidden: true,
+  });
+  private readonly collisions = h('div', {
+    class: 'motion-result',
+    role: 'status',
+    'aria-live': 'polite',
+    'aria-label': 'Collisions',
+    'data-level': 'error',
+    hidden: true,
+  });
+  private readonly view = h(
+    'div',
+    { class: 'motion-result', hidden: true },
+    "What is planned is seen in RViz's view. ",
+  );
   private leave: (() => void) | null = null;
   /** Whether RViz's view shall get the display as soon as there is one. */
   private unseen = false;
@@ -34,17 +57,34 @@ export class MotionPlanningPanel extends BasePanel {
     const { connection, host } = this;
     this.store = motionStore(connection);
     const report = (said: Report): void => this.say(said);
-    this.planning = new PlanningTab(this.store, { connection, graph: host.graph, touched: () => host.touched(), report });
+    this.planning = new PlanningTab(this.store, {
+      connection,
+      graph: host.graph,
+      touched: () => host.touched(),
+      report,
+    });
     this.joints = new JointsTab(this.store);
     this.objects = new ObjectsTab(this.store, connection, report);
-    this.tabs = new Tabs('Motion planning', [
-      { name: 'Planning', element: this.planning.element },
-      { name: 'Joints', element: this.joints.element },
-      { name: 'Scene Objects', element: this.objects.element, shown: (visible) => this.objects.shown(visible) },
-    ], () => host.touched());
+    this.tabs = new Tabs(
+      'Motion planning',
+      [
+        { name: 'Planning', element: this.planning.element },
+        { name: 'Joints', element: this.joints.element },
+        {
+          name: 'Scene Objects',
+          element: this.objects.element,
+          shown: (visible) => this.objects.shown(visible),
+        },
+      ],
+      () => host.touched(),
+    );
     this.element.classList.add('motion');
     this.result.setAttribute('aria-label', 'Result');
-    this.view.append(button('Open RViz', () => host.show('rviz', {}, 'motion_planning'), { title: 'Open RViz below this panel' }));
+    this.view.append(
+      button('Open RViz', () => host.show('rviz', {}, 'motion_planning'), {
+        title: 'Open RViz below this panel',
+      }),
+    );
     this.element.append(this.tabs.element, this.view, this.inverse, this.collisions, this.result);
     this.atEnd(this.store.watch((what) => this.heard(what)));
     this.atEnd(host.graph.watch((graph) => this.store.follow(graph)));
@@ -81,7 +121,12 @@ export class MotionPlanningPanel extends BasePanel {
     this.view.hidden = scene !== null;
     if (!scene || !this.unseen) return;
     this.unseen = false;
-    if (scene.displays.displays.some((display) => display.kind.name === DISPLAY_ROWS.MotionPlanning.name)) return;
+    if (
+      scene.displays.displays.some(
+        (display) => display.kind.name === DISPLAY_ROWS.MotionPlanning.name,
+      )
+    )
+      return;
     scene.displays.add('moveit_rviz_plugin/MotionPlanning');
     scene.choose('Interact');
   }
@@ -95,7 +140,11 @@ export class MotionPlanningPanel extends BasePanel {
     const { problem, ikProblem } = this.store;
     if (what === 'robot') {
       this.planning.refresh();
-      this.say(problem ? { level: 'error', text: problem } : { level: 'ok', text: this.store.robot ? '' : 'Looking for move_group …' });
+      this.say(
+        problem
+          ? { level: 'error', text: problem }
+          : { level: 'ok', text: this.store.robot ? '' : 'Looking for move_group …' },
+      );
     }
     if (what === 'query' || what === 'look') this.planning.refreshQuery();
     if (what === 'query' || what === 'robot' || what === 'current') this.joints.refresh();
@@ -107,8 +156,12 @@ export class MotionPlanningPanel extends BasePanel {
 
   private collisionText(): string {
     const { store } = this;
-    const found = (['start', 'goal'] as const).filter((query) => store.robot && store[query].shown && store[query].collisions);
-    return found.map((query) => `${query === 'goal' ? 'Goal' : 'Start'}: ${store[query].collisions}`).join('; ');
+    const found = (['start', 'goal'] as const).filter(
+      (query) => store.robot && store[query].shown && store[query].collisions,
+    );
+    return found
+      .map((query) => `${query === 'goal' ? 'Goal' : 'Start'}: ${store[query].collisions}`)
+      .join('; ');
   }
 }
 

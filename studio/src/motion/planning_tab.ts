@@ -10,15 +10,31 @@ import type { MotionRobot } from '../generated/messages';
 import { groupOf, randomPositions, type Positions } from './robot';
 import type { MotionStore, Query } from './store';
 
-const CURRENT = '<current>', RANDOM = '<random>', VALID = '<random valid>', SAME_START = '<same as start>',
-  SAME_GOAL = '<same as goal>', PREVIOUS = '<previous>', OTHER = '';
+const CURRENT = '<current>',
+  RANDOM = '<random>',
+  VALID = '<random valid>',
+  SAME_START = '<same as start>',
+  SAME_GOAL = '<same as goal>',
+  PREVIOUS = '<previous>',
+  OTHER = '';
 const MOST_TRIES = 100;
 const DEFAULTS: PlanOptions = {
-  pipeline: '', planner: '', time_s: 5, attempts: 10, velocity: 0.1, acceleration: 0.1, cartesian: false,
+  pipeline: '',
+  planner: '',
+  time_s: 5,
+  attempts: 10,
+  velocity: 0.1,
+  acceleration: 0.1,
+  cartesian: false,
 };
 
 /** What the tab tells its panel. */
-export interface PlanningHost { connection: Connection; graph: GraphStore; touched(): void; report(report: Report): void }
+export interface PlanningHost {
+  connection: Connection;
+  graph: GraphStore;
+  touched(): void;
+  report(report: Report): void;
+}
 
 /** RViz's tabs Context and Planning. */
 export class PlanningTab {
@@ -28,7 +44,10 @@ export class PlanningTab {
   private readonly group: HTMLSelectElement;
   private readonly states: Record<Query, HTMLSelectElement>;
   private readonly planner: HTMLSelectElement;
-  private readonly commands: Record<'plan' | 'execute' | 'both' | 'stop' | 'clear', HTMLButtonElement>;
+  private readonly commands: Record<
+    'plan' | 'execute' | 'both' | 'stop' | 'clear',
+    HTMLButtonElement
+  >;
   private readonly path: PathBar;
   private readonly shown: Record<Query, HTMLLabelElement>;
   /** Where the last plan began. */
@@ -37,31 +56,59 @@ export class PlanningTab {
   private scaled = false;
   private plannersFor = '';
 
-  constructor(private readonly store: MotionStore, private readonly host: PlanningHost) {
+  constructor(
+    private readonly store: MotionStore,
+    private readonly host: PlanningHost,
+  ) {
     this.planning = new Planning(store, host.graph, this.options, (report) => {
       this.refreshCommands();
       host.report(report);
     });
-    this.group = select('Planning group', [], '', (name) => { this.planning.drop(); store.setGroup(name); host.touched(); });
+    this.group = select('Planning group', [], '', (name) => {
+      this.planning.drop();
+      store.setGroup(name);
+      host.touched();
+    });
     this.states = {
       start: select('Start state', [], CURRENT, (name) => void this.choose('start', name)),
       goal: select('Goal state', [], CURRENT, (name) => void this.choose('goal', name)),
     };
     const shown = (query: Query): HTMLLabelElement =>
-      checkbox('shown', store[query].shown, (on) => store.show(query, on), `Show the ${query} as a ghost`);
+      checkbox(
+        'shown',
+        store[query].shown,
+        (on) => store.show(query, on),
+        `Show the ${query} as a ghost`,
+      );
     this.shown = { start: shown('start'), goal: shown('goal') };
     this.planner = select('Planner', [['', '<default>']], '', (value) => this.choosePlanner(value));
     this.commands = {
-      plan: button('Plan', () => this.run(false), { class: 'primary', title: 'Plan a path from start to goal' }),
-      execute: button('Execute', () => void this.planning.execute(), { title: 'Execute the planned path' }),
-      both: button('Plan & Execute', () => this.run(true), { title: 'Plan from where the robot is, and execute at once' }),
+      plan: button('Plan', () => this.run(false), {
+        class: 'primary',
+        title: 'Plan a path from start to goal',
+      }),
+      execute: button('Execute', () => void this.planning.execute(), {
+        title: 'Execute the planned path',
+      }),
+      both: button('Plan & Execute', () => this.run(true), {
+        title: 'Plan from where the robot is, and execute at once',
+      }),
       stop: button('Stop', () => this.planning.stop(), { icon: 'stop', title: 'Stop the robot' }),
-      clear: button('Clear', () => this.planning.clear(), { icon: 'clear', title: 'Forget the planned path' }),
+      clear: button('Clear', () => this.planning.clear(), {
+        icon: 'clear',
+        title: 'Forget the planned path',
+      }),
     };
     this.path = new PathBar(store);
     this.element.append(
-      h('div', { class: 'motion-commands', role: 'group', 'aria-label': 'Commands' }, ...Object.values(this.commands)),
-      this.path.element, this.fields);
+      h(
+        'div',
+        { class: 'motion-commands', role: 'group', 'aria-label': 'Commands' },
+        ...Object.values(this.commands),
+      ),
+      this.path.element,
+      this.fields,
+    );
     this.fill();
     this.refresh();
   }
@@ -70,7 +117,8 @@ export class PlanningTab {
   open(params: JsonObject): void {
     const { options } = this;
     const kept = isObject(params['options']) ? params['options'] : {};
-    for (const name of ['time_s', 'attempts', 'velocity', 'acceleration'] as const) options[name] = numberOf(kept, name, options[name]);
+    for (const name of ['time_s', 'attempts', 'velocity', 'acceleration'] as const)
+      options[name] = numberOf(kept, name, options[name]);
     options.pipeline = textOf(kept, 'pipeline');
     options.planner = textOf(kept, 'planner');
     options.cartesian = kept['cartesian'] === true;
@@ -110,10 +158,17 @@ export class PlanningTab {
   /** A state was changed, shown or hidden by other means. */
   refreshQuery(): void {
     for (const query of ['start', 'goal'] as const) {
-      (this.shown[query].querySelector('input') as HTMLInputElement).checked = this.store[query].shown;
+      (this.shown[query].querySelector('input') as HTMLInputElement).checked =
+        this.store[query].shown;
       const chosen = this.states[query];
       const named = this.robotStates()[chosen.value];
-      if (named && Object.entries(named).every(([name, value]) => Math.abs(this.store.positions(query)[name] - value) < 1e-6)) continue;
+      if (
+        named &&
+        Object.entries(named).every(
+          ([name, value]) => Math.abs(this.store.positions(query)[name] - value) < 1e-6,
+        )
+      )
+        continue;
       chosen.value = this.store[query].positions === null ? CURRENT : OTHER;
     }
   }
@@ -140,8 +195,14 @@ export class PlanningTab {
   private fillStates(): void {
     const named = Object.keys(this.robotStates());
     const common = [CURRENT, VALID, RANDOM];
-    for (const [query, same] of [['start', SAME_GOAL], ['goal', SAME_START]] as const) {
-      const options = [[OTHER, '(as shown)'] as const, ...[...common, same, PREVIOUS, ...named].map((name) => [name, name] as const)];
+    for (const [query, same] of [
+      ['start', SAME_GOAL],
+      ['goal', SAME_START],
+    ] as const) {
+      const options = [
+        [OTHER, '(as shown)'] as const,
+        ...[...common, same, PREVIOUS, ...named].map((name) => [name, name] as const),
+      ];
       fillSelect(this.states[query], options, this.states[query].value || CURRENT);
     }
     this.refreshQuery();
@@ -154,7 +215,8 @@ export class PlanningTab {
     if (name === CURRENT) store.setQuery(query, query === 'start' ? null : { ...store.current });
     else if (name === RANDOM) store.setQuery(query, randomPositions(store.robot, store.group));
     else if (name === VALID) await this.randomValid(query, store.robot);
-    else if (name === SAME_START || name === SAME_GOAL) store.setQuery(query, store.positions(other));
+    else if (name === SAME_START || name === SAME_GOAL)
+      store.setQuery(query, store.positions(other));
     else if (name === PREVIOUS) store.setQuery(query, this.previous);
     else store.setQuery(query, { ...store.positions(query), ...this.robotStates()[name] });
     if (name in this.robotStates()) this.states[query].value = name;
@@ -170,7 +232,10 @@ export class PlanningTab {
         store.setQuery(query, drawn);
         return;
       }
-      this.host.report({ level: 'error', text: `None of ${MOST_TRIES} random states is free of collisions.` });
+      this.host.report({
+        level: 'error',
+        text: `None of ${MOST_TRIES} random states is free of collisions.`,
+      });
     } catch (problem) {
       this.host.report({ level: 'error', text: inOneLine(problem) });
     }
@@ -179,9 +244,13 @@ export class PlanningTab {
   private async fillPlanners(): Promise<void> {
     try {
       const rows = await plannersOf(this.store);
-      const named = rows.map(({ pipeline, planner }) => [`${pipeline}/${planner}`, `${planner} (${pipeline})`] as const);
+      const named = rows.map(
+        ({ pipeline, planner }) => [`${pipeline}/${planner}`, `${planner} (${pipeline})`] as const,
+      );
       fillSelect(this.planner, [['', '<default>'], ...named], '');
-      this.planner.value = this.options.planner ? `${this.options.pipeline}/${this.options.planner}` : '';
+      this.planner.value = this.options.planner
+        ? `${this.options.pipeline}/${this.options.planner}`
+        : '';
     } catch (problem) {
       this.host.report({ level: 'error', text: inOneLine(problem) });
     }
@@ -196,8 +265,10 @@ export class PlanningTab {
 
   private fill(): void {
     const { store, options, host } = this;
-    const row = (name: string, ...controls: HTMLElement[]): HTMLElement[] =>
-      [h('span', { class: 'dim' }, name), h('span', { class: 'motion-row' }, ...controls)];
+    const row = (name: string, ...controls: HTMLElement[]): HTMLElement[] => [
+      h('span', { class: 'dim' }, name),
+      h('span', { class: 'motion-row' }, ...controls),
+    ];
     this.fields.replaceChildren(
       ...row('Planning group', this.group),
       ...row('Start state', this.states.start, this.shown.start),
@@ -207,20 +278,65 @@ export class PlanningTab {
       ...row('Planning attempts', this.number('Planning attempts', 'attempts', 1, 1000)),
       ...row('Velocity scaling', this.number('Velocity scaling', 'velocity', 0.01, 1)),
       ...row('Acceleration scaling', this.number('Acceleration scaling', 'acceleration', 0.01, 1)),
-      h('span'), h('span', { class: 'motion-checks' },
-        checkbox('Use Cartesian Path', options.cartesian, (on) => { options.cartesian = on; host.touched(); }, 'The tip goes straight'),
-        checkbox('Collision-aware IK', store.collisionAware, (on) => { store.collisionAware = on; }, 'Solutions that collide do not count'),
-        checkbox('Approx IK Solutions', store.approximate, (on) => { store.approximate = on; }, 'Come as near as possible where no solution is')));
+      h('span'),
+      h(
+        'span',
+        { class: 'motion-checks' },
+        checkbox(
+          'Use Cartesian Path',
+          options.cartesian,
+          (on) => {
+            options.cartesian = on;
+            host.touched();
+          },
+          'The tip goes straight',
+        ),
+        checkbox(
+          'Collision-aware IK',
+          store.collisionAware,
+          (on) => {
+            store.collisionAware = on;
+          },
+          'Solutions that collide do not count',
+        ),
+        checkbox(
+          'Approx IK Solutions',
+          store.approximate,
+          (on) => {
+            store.approximate = on;
+          },
+          'Come as near as possible where no solution is',
+        ),
+      ),
+    );
   }
 
-  private number(label: string, name: 'time_s' | 'attempts' | 'velocity' | 'acceleration', min: number, max: number): HTMLInputElement {
+  private number(
+    label: string,
+    name: 'time_s' | 'attempts' | 'velocity' | 'acceleration',
+    min: number,
+    max: number,
+  ): HTMLInputElement {
     const step = name === 'attempts' ? 1 : 'any';
-    const input = h('input', { type: 'number', class: 'small', 'aria-label': label, min, max, step, on: { change: () => {
-      const value = Number(input.value);
-      this.options[name] = Math.min(max, Math.max(min, Number.isFinite(value) && value ? value : DEFAULTS[name]));
-      input.value = String(this.options[name]);
-      this.host.touched();
-    } } });
+    const input = h('input', {
+      type: 'number',
+      class: 'small',
+      'aria-label': label,
+      min,
+      max,
+      step,
+      on: {
+        change: () => {
+          const value = Number(input.value);
+          this.options[name] = Math.min(
+            max,
+            Math.max(min, Number.isFinite(value) && value ? value : DEFAULTS[name]),
+          );
+          input.value = String(this.options[name]);
+          this.host.touched();
+        },
+      },
+    });
     input.value = String(this.options[name]);
     return input;
   }

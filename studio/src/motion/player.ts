@@ -86,7 +86,9 @@ export class Player {
     if (after <= 0) return points[after === 0 ? 0 : points.length - 1];
     const share = (this.place_s - times[after - 1]) / (times[after] - times[after - 1] || 1);
     const [a, b] = [points[after - 1], points[after]];
-    return Object.fromEntries(Object.keys(b).map((name) => [name, a[name] + (b[name] - a[name]) * share]));
+    return Object.fromEntries(
+      Object.keys(b).map((name) => [name, a[name] + (b[name] - a[name]) * share]),
+    );
   }
 
   private get speed(): number {

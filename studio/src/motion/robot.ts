@@ -1,7 +1,13 @@
 /** The robot as move_group knows it, and where its links are at positions of its joints. */
 import * as THREE from 'three';
 import { matrixOf } from '../model/assembly';
-import type { JointValue, MotionGroup, MotionJoint, MotionRobot, MotionVariable } from '../generated/messages';
+import type {
+  JointValue,
+  MotionGroup,
+  MotionJoint,
+  MotionRobot,
+  MotionVariable,
+} from '../generated/messages';
 
 /** Values by variable, rad or m. */
 export type Positions = Record<string, number>;
@@ -21,13 +27,16 @@ export class Kinematics {
     this.zero = scene.bodies.map((body) => matrixOf(body.pose));
     this.index = new Map(scene.bodies.map((body, at) => [body.link, at]));
     for (const joint of scene.joints) if (joint.parent >= 0) this.above.set(joint.child, joint);
-    this.base = robot.joints.find((joint) => joint.child === robot.root && joint.variables.length > 1);
+    this.base = robot.joints.find(
+      (joint) => joint.child === robot.root && joint.variables.length > 1,
+    );
   }
 
   /** Positions with what followers of joints take. */
   completed(positions: Positions): Positions {
     const all = { ...this.robot.defaults, ...positions };
-    for (const mimic of this.robot.mimics) all[mimic.variable] = (all[mimic.leader] ?? 0) * mimic.factor + mimic.offset;
+    for (const mimic of this.robot.mimics)
+      all[mimic.variable] = (all[mimic.leader] ?? 0) * mimic.factor + mimic.offset;
     return all;
   }
 
@@ -40,7 +49,10 @@ export class Kinematics {
       if (known) return known;
       const joint = this.above.get(at);
       const made = joint
-        ? place(joint.parent).clone().multiply(this.offset(joint)).multiply(motion(joint, all[joint.name] ?? 0))
+        ? place(joint.parent)
+            .clone()
+            .multiply(this.offset(joint))
+            .multiply(motion(joint, all[joint.name] ?? 0))
         : this.basePose(all).multiply(this.zero[at]);
       found[at] = made;
       return made;
@@ -66,11 +78,16 @@ export class Kinematics {
   private basePose(positions: Positions): THREE.Matrix4 {
     if (!this.base) return new THREE.Matrix4();
     const values = this.base.variables.map((variable) => positions[variable.name] ?? 0);
-    if (values.length === 3) return new THREE.Matrix4().makeRotationZ(values[2]).setPosition(values[0], values[1], 0);
+    if (values.length === 3)
+      return new THREE.Matrix4().makeRotationZ(values[2]).setPosition(values[0], values[1], 0);
     const [x, y, z, qx, qy, qz, qw] = values;
     const turn = new THREE.Quaternion(qx, qy, qz, qw);
     if (turn.lengthSq() < 1e-9) turn.identity();
-    return new THREE.Matrix4().compose(new THREE.Vector3(x, y, z), turn.normalize(), new THREE.Vector3(1, 1, 1));
+    return new THREE.Matrix4().compose(
+      new THREE.Vector3(x, y, z),
+      turn.normalize(),
+      new THREE.Vector3(1, 1, 1),
+    );
   }
 }
 
@@ -79,7 +96,8 @@ function motion(joint: JointValue, value: number): THREE.Matrix4 {
   const axis = new THREE.Vector3(...joint.axis);
   const moved = new THREE.Matrix4();
   if (TURNING.has(joint.type)) moved.makeRotationAxis(axis.normalize(), value);
-  else if (joint.type === 'prismatic') moved.makeTranslation(axis.normalize().multiplyScalar(value));
+  else if (joint.type === 'prismatic')
+    moved.makeTranslation(axis.normalize().multiplyScalar(value));
   else return moved;
   const at = matrixOf(joint.pose);
   return at.clone().multiply(moved).multiply(at.invert());
@@ -93,7 +111,9 @@ export function groupOf(robot: MotionRobot, name: string): MotionGroup | undefin
 /** The variables of a group with their limits. */
 export function variablesOf(robot: MotionRobot, group: string): MotionVariable[] {
   const names = new Set(groupOf(robot, group)?.variables);
-  return robot.joints.flatMap((joint) => joint.variables).filter((variable) => names.has(variable.name));
+  return robot.joints
+    .flatMap((joint) => joint.variables)
+    .filter((variable) => names.has(variable.name));
 }
 
 /** Positions of a group's variables anywhere within their limits. */

@@ -14,8 +14,20 @@ export function writeScene(name: string, objects: readonly JsonObject[]): string
     const solids = list<JsonObject>(item, 'primitives');
     const meshes = list<JsonObject>(item, 'meshes');
     lines.push(String(solids.length + meshes.length));
-    solids.forEach((one, at) => lines.push(...solidLines(one), ...poseLines(list<JsonObject>(item, 'primitive_poses')[at] ?? {}), NONE));
-    meshes.forEach((one, at) => lines.push(...meshLines(one), ...poseLines(list<JsonObject>(item, 'mesh_poses')[at] ?? {}), NONE));
+    solids.forEach((one, at) =>
+      lines.push(
+        ...solidLines(one),
+        ...poseLines(list<JsonObject>(item, 'primitive_poses')[at] ?? {}),
+        NONE,
+      ),
+    );
+    meshes.forEach((one, at) =>
+      lines.push(
+        ...meshLines(one),
+        ...poseLines(list<JsonObject>(item, 'mesh_poses')[at] ?? {}),
+        NONE,
+      ),
+    );
     lines.push('0');
   }
   return `${[...lines, '.'].join('\n')}\n`;
@@ -35,8 +47,12 @@ function solidLines(one: JsonObject): string[] {
 }
 
 function meshLines(one: JsonObject): string[] {
-  const corners = list<Record<string, number>>(one, 'vertices').map(({ x, y, z }) => `${x} ${y} ${z}`);
-  const triangles = list<JsonObject>(one, 'triangles').map((each) => list<number>(each, 'vertex_indices').join(' '));
+  const corners = list<Record<string, number>>(one, 'vertices').map(
+    ({ x, y, z }) => `${x} ${y} ${z}`,
+  );
+  const triangles = list<JsonObject>(one, 'triangles').map((each) =>
+    list<number>(each, 'vertex_indices').join(' '),
+  );
   return ['mesh', `${corners.length} ${triangles.length}`, ...corners, ...triangles];
 }
 
@@ -45,8 +61,17 @@ class Words {
   private at = 0;
   private readonly words: { text: string; line: number }[];
 
-  constructor(text: string, private readonly file: string) {
-    this.words = text.split('\n').flatMap((row, line) => row.trim().split(/\s+/).filter(Boolean).map((word) => ({ text: word, line: line + 1 })));
+  constructor(
+    text: string,
+    private readonly file: string,
+  ) {
+    this.words = text.split('\n').flatMap((row, line) =>
+      row
+        .trim()
+        .split(/\s+/)
+        .filter(Boolean)
+        .map((word) => ({ text: word, line: line + 1 })),
+    );
   }
 
   next(what: string): string {
@@ -91,7 +116,8 @@ export function readScene(text: string, frame: string, file: string): JsonObject
   for (;;) {
     const mark = words.next("'*' or '.'");
     if (mark === '.') return found;
-    if (mark !== '*') throw words.wrong(`'${mark}' where '*' before an object or '.' at the end should be`);
+    if (mark !== '*')
+      throw words.wrong(`'${mark}' where '*' before an object or '.' at the end should be`);
     found.push(object(words, frame, isNew));
   }
 }
@@ -107,8 +133,14 @@ function object(words: Words, frame: string, isNew: boolean): JsonObject {
   const id = words.line('the name of an object');
   const none = { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
   const made: JsonObject = {
-    id, header: { frame_id: frame }, pose: isNew ? pose(words) : none, operation: 0,
-    primitives: [], primitive_poses: [], meshes: [], mesh_poses: [],
+    id,
+    header: { frame_id: frame },
+    pose: isNew ? pose(words) : none,
+    operation: 0,
+    primitives: [],
+    primitive_poses: [],
+    meshes: [],
+    mesh_poses: [],
   };
   const count = words.number('the number of shapes');
   for (let at = 0; at < count; at++) shape(words, made);
@@ -127,12 +159,17 @@ function shape(words: Words, made: JsonObject): void {
   if (kind === 'mesh') {
     const [corners, triangles] = words.numbers(2, 'the size of a mesh');
     const vertices = Array.from({ length: corners }, () => point(words));
-    const faces = Array.from({ length: triangles }, () => ({ vertex_indices: words.numbers(3, 'a triangle') }));
+    const faces = Array.from({ length: triangles }, () => ({
+      vertex_indices: words.numbers(3, 'a triangle'),
+    }));
     list<JsonObject>(made, 'meshes').push({ vertices, triangles: faces });
     list<JsonObject>(made, 'mesh_poses').push(pose(words));
   } else {
     const count = COUNTS[kind];
-    if (!count) throw words.wrong(`there is no shape '${kind}'; there are ${[...Object.keys(COUNTS), 'mesh'].join(', ')}`);
+    if (!count)
+      throw words.wrong(
+        `there is no shape '${kind}'; there are ${[...Object.keys(COUNTS), 'mesh'].join(', ')}`,
+      );
     const sizes = words.numbers(count, `a size of the ${kind}`);
     const dimensions = count === 2 ? [sizes[1], sizes[0]] : sizes;
     const type = Number(Object.keys(NAMES).find((key) => NAMES[Number(key)] === kind));

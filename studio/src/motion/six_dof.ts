@@ -1,13 +1,21 @@
 /** A marker of six degrees of freedom that the tool Interact drags: of a goal, of an object. */
 import * as THREE from 'three';
 import { FEEDBACK, type Handle } from '../displays/interactive';
-import { ControlDrag, controlAxis, defaultHandle, MOVE_AXIS, ROTATE_AXIS } from '../displays/interactive_controls';
+import {
+  ControlDrag,
+  controlAxis,
+  defaultHandle,
+  MOVE_AXIS,
+  ROTATE_AXIS,
+} from '../displays/interactive_controls';
 import type { InteractiveMarkerControl, Quaternion } from '../generated/messages';
 
 const HALF = Math.SQRT1_2;
 /** Orientations that turn x to x, z and y, as in the tutorials of interactive markers. */
 const AXES: readonly [string, Quaternion][] = [
-  ['x', { x: HALF, y: 0, z: 0, w: HALF }], ['z', { x: 0, y: HALF, z: 0, w: HALF }], ['y', { x: 0, y: 0, z: HALF, w: HALF }],
+  ['x', { x: HALF, y: 0, z: 0, w: HALF }],
+  ['z', { x: 0, y: HALF, z: 0, w: HALF }],
+  ['y', { x: 0, y: 0, z: HALF, w: HALF }],
 ];
 
 /** What a drag does. */
@@ -23,10 +31,15 @@ export class SixDof {
   readonly root = new THREE.Group();
   held = false;
 
-  constructor(readonly name: string, private readonly size: number, private readonly host: SixDofHost) {
+  constructor(
+    readonly name: string,
+    private readonly size: number,
+    private readonly host: SixDofHost,
+  ) {
     this.root.name = name;
     for (const [axis, orientation] of AXES) {
-      for (const mode of [MOVE_AXIS, ROTATE_AXIS]) this.root.add(this.control(axis, orientation, mode));
+      for (const mode of [MOVE_AXIS, ROTATE_AXIS])
+        this.root.add(this.control(axis, orientation, mode));
     }
   }
 
@@ -38,8 +51,14 @@ export class SixDof {
   private control(axis: string, orientation: Quaternion, mode: number): THREE.Object3D {
     const name = `${mode === MOVE_AXIS ? 'move' : 'rotate'}_${axis}`;
     const control: InteractiveMarkerControl = {
-      name, orientation, orientation_mode: 0, interaction_mode: mode, always_visible: false, markers: [],
-      independent_marker_orientation: false, description: '',
+      name,
+      orientation,
+      orientation_mode: 0,
+      interaction_mode: mode,
+      always_visible: false,
+      markers: [],
+      independent_marker_orientation: false,
+      description: '',
     };
     const group = new THREE.Group();
     group.name = name;
@@ -51,15 +70,20 @@ export class SixDof {
 
   private handle(control: InteractiveMarkerControl): Handle {
     return {
-      marker: { name: this.name, menu_entries: [] }, control,
+      marker: { name: this.name, menu_entries: [] },
+      control,
       begin: (ray) => {
         this.held = true;
         this.root.updateWorldMatrix(true, false);
-        const axis = controlAxis(control).applyQuaternion(new THREE.Quaternion().setFromRotationMatrix(this.root.matrixWorld));
+        const axis = controlAxis(control).applyQuaternion(
+          new THREE.Quaternion().setFromRotationMatrix(this.root.matrixWorld),
+        );
         return new ControlDrag(control.interaction_mode, this.root.matrixWorld.clone(), axis, ray);
       },
       moveTo: (pose) => {
-        const local = (this.root.parent?.matrixWorld.clone().invert() ?? new THREE.Matrix4()).multiply(pose);
+        const local = (
+          this.root.parent?.matrixWorld.clone().invert() ?? new THREE.Matrix4()
+        ).multiply(pose);
         local.decompose(this.root.position, this.root.quaternion, this.root.scale);
         this.host.moved(local);
         this.host.redraw();

@@ -37,7 +37,10 @@ export interface MotionNames {
 }
 
 const NAMES: MotionNames = {
-  namespace: '', description: 'robot_description', scene_topic: 'monitored_planning_scene', path_topic: 'display_planned_path',
+  namespace: '',
+  description: 'robot_description',
+  scene_topic: 'monitored_planning_scene',
+  path_topic: 'display_planned_path',
 };
 
 /** The motion planning of one connection. */
@@ -48,8 +51,18 @@ export class MotionStore {
   problem = '';
   group = '';
   current: Positions = {};
-  readonly start: QueryState = { positions: null, colliding: new Set(), collisions: '', shown: false };
-  readonly goal: QueryState = { positions: null, colliding: new Set(), collisions: '', shown: true };
+  readonly start: QueryState = {
+    positions: null,
+    colliding: new Set(),
+    collisions: '',
+    shown: false,
+  };
+  readonly goal: QueryState = {
+    positions: null,
+    colliding: new Set(),
+    collisions: '',
+    shown: true,
+  };
   objects: JsonObject[] = [];
   attached: JsonObject[] = [];
   readonly player = new Player();
@@ -109,9 +122,17 @@ export class MotionStore {
   }
 
   /** Call a service of this move_group. */
-  async service(name: string, kind: string, request: JsonObject, timeout_s = 10): Promise<JsonObject> {
+  async service(
+    name: string,
+    kind: string,
+    request: JsonObject,
+    timeout_s = 10,
+  ): Promise<JsonObject> {
     const answer = await this.connection.call('service.call', {
-      service: this.name(name), type: `moveit_msgs/srv/${kind}`, request, timeout_s,
+      service: this.name(name),
+      type: `moveit_msgs/srv/${kind}`,
+      request,
+      timeout_s,
     });
     return isObject(answer) ? answer : {};
   }
@@ -133,7 +154,8 @@ export class MotionStore {
   /** Change a state that is asked about; null for a start where the robot is. */
   setQuery(query: Query, positions: Positions | null): void {
     const own = new Set(this.robot && groupOf(this.robot, this.group)?.variables);
-    this[query].positions = positions && Object.fromEntries(Object.entries(positions).filter(([name]) => own.has(name)));
+    this[query].positions =
+      positions && Object.fromEntries(Object.entries(positions).filter(([name]) => own.has(name)));
     this.ikProblem = '';
     this.changedQuery();
   }
@@ -151,11 +173,18 @@ export class MotionStore {
   }
 
   /** Whether a state is valid, and the pairs that collide there. */
-  async validity(robot: MotionRobot, positions: Positions): Promise<{ valid: boolean; pairs: [string, string][] }> {
+  async validity(
+    robot: MotionRobot,
+    positions: Positions,
+  ): Promise<{ valid: boolean; pairs: [string, string][] }> {
     const answer = await this.service('check_state_validity', 'GetStateValidity', {
-      group_name: this.group, robot_state: robotState(robot, positions),
+      group_name: this.group,
+      robot_state: robotState(robot, positions),
     });
-    const pairs = list<JsonObject>(answer, 'contacts').map((one): [string, string] => [String(one['contact_body_1']), String(one['contact_body_2'])]);
+    const pairs = list<JsonObject>(answer, 'contacts').map((one): [string, string] => [
+      String(one['contact_body_1']),
+      String(one['contact_body_2']),
+    ]);
     return { valid: answer['valid'] === true, pairs };
   }
 
@@ -196,15 +225,27 @@ export class MotionStore {
     if (!groupOf(robot, this.group)) this.group = robot.groups[0]?.name ?? '';
     const lost = (problem: unknown): void => this.lose(problem);
     this.channels = [
-      this.connection.open('motion.scene', { topic: this.name(this.names.scene_topic), service: this.name('get_planning_scene') }, {
-        onData: (value) => this.takeScene(value), onFailed: lost, onEnded: (problem) => problem && lost(problem),
-      }),
-      this.connection.open('motion.path', { topic: this.name(this.names.path_topic) }, {
-        onData: (value) => {
-          if (isObject(value)) this.setPath(pathOf(list<Json>(value, 'trajectory'), value['trajectory_start']));
+      this.connection.open(
+        'motion.scene',
+        { topic: this.name(this.names.scene_topic), service: this.name('get_planning_scene') },
+        {
+          onData: (value) => this.takeScene(value),
+          onFailed: lost,
+          onEnded: (problem) => problem && lost(problem),
         },
-        onFailed: lost, onEnded: (problem) => problem && lost(problem),
-      }),
+      ),
+      this.connection.open(
+        'motion.path',
+        { topic: this.name(this.names.path_topic) },
+        {
+          onData: (value) => {
+            if (isObject(value))
+              this.setPath(pathOf(list<Json>(value, 'trajectory'), value['trajectory_start']));
+          },
+          onFailed: lost,
+          onEnded: (problem) => problem && lost(problem),
+        },
+      ),
     ];
     this.tell('robot');
   }
@@ -239,7 +280,8 @@ export class MotionStore {
   private lookSoon(): void {
     clearTimeout(this.looking);
     this.looking = window.setTimeout(() => {
-      for (const query of ['start', 'goal'] as const) if (this[query].shown && this.robot) void this.look(query, this.robot);
+      for (const query of ['start', 'goal'] as const)
+        if (this[query].shown && this.robot) void this.look(query, this.robot);
     }, LOOK_MS);
   }
 
@@ -250,7 +292,11 @@ export class MotionStore {
       const { pairs } = await this.validity(robot, positions);
       const more = pairs.length > MOST_PAIRS ? ` and ${pairs.length - MOST_PAIRS} more` : '';
       state.colliding = new Set(pairs.flat());
-      state.collisions = pairs.slice(0, MOST_PAIRS).map(([one, other]) => `${one} collides with ${other}`).join(', ') + more;
+      state.collisions =
+        pairs
+          .slice(0, MOST_PAIRS)
+          .map(([one, other]) => `${one} collides with ${other}`)
+          .join(', ') + more;
     } catch (problem) {
       state.colliding = new Set();
       state.collisions = `nobody says what collides: ${inOneLine(problem)}`;
@@ -276,4 +322,3 @@ export function motionStore(connection: Connection): MotionStore {
   }
   return found;
 }
-

@@ -2,7 +2,11 @@
 import { h } from '../widgets/dom';
 
 /** What stands behind one tab. */
-export interface TabPage { name: string; element: HTMLElement; shown?: (visible: boolean) => void }
+export interface TabPage {
+  name: string;
+  element: HTMLElement;
+  shown?: (visible: boolean) => void;
+}
 
 /** The row and the pages below it. */
 export class Tabs {
@@ -10,11 +14,28 @@ export class Tabs {
   private readonly buttons: HTMLButtonElement[];
   private chosen = 0;
 
-  constructor(label: string, private readonly pages: readonly TabPage[], private readonly changed: () => void) {
-    this.buttons = pages.map((page, at) => h('button', {
-      type: 'button', class: 'button', role: 'tab', on: { click: () => this.choose(at), keydown: (event) => this.key(event) },
-    }, page.name));
-    const row = h('div', { class: 'add-tabs motion-tab-row', role: 'tablist', 'aria-label': label }, ...this.buttons);
+  constructor(
+    label: string,
+    private readonly pages: readonly TabPage[],
+    private readonly changed: () => void,
+  ) {
+    this.buttons = pages.map((page, at) =>
+      h(
+        'button',
+        {
+          type: 'button',
+          class: 'button',
+          role: 'tab',
+          on: { click: () => this.choose(at), keydown: (event) => this.key(event) },
+        },
+        page.name,
+      ),
+    );
+    const row = h(
+      'div',
+      { class: 'add-tabs motion-tab-row', role: 'tablist', 'aria-label': label },
+      ...this.buttons,
+    );
     for (const page of pages) {
       page.element.setAttribute('role', 'tabpanel');
       page.element.setAttribute('aria-label', page.name);

@@ -34,17 +34,32 @@ const TYPES: Record<Mode, readonly string[]> = {
 
 /** The namespaces of the robots that can be sent somewhere, the servers' names without `navigate_to_pose` or `move_base`. */
 export function robots(graph: GraphStore): string[] {
-  const served = graph.value.actions.filter((each) => each.servers.length > 0 && TYPES.goal.includes(shortType(each.type)));
+  const served = graph.value.actions.filter(
+    (each) => each.servers.length > 0 && TYPES.goal.includes(shortType(each.type)),
+  );
   return [...new Set(served.map((each) => each.name.replace(/\/[^/]*$/, '')))].sort();
 }
 
 /** Is there a server for a mode? */
-export function server(graph: GraphStore, robot: string, mode: Mode): { name: string; type: string } | undefined {
-  return graph.value.actions.find((each) => each.servers.length > 0 && TYPES[mode].includes(shortType(each.type)) && each.name.replace(/\/[^/]*$/, '') === robot);
+export function server(
+  graph: GraphStore,
+  robot: string,
+  mode: Mode,
+): { name: string; type: string } | undefined {
+  return graph.value.actions.find(
+    (each) =>
+      each.servers.length > 0 &&
+      TYPES[mode].includes(shortType(each.type)) &&
+      each.name.replace(/\/[^/]*$/, '') === robot,
+  );
 }
 
 /** The goal of a mode for some poses (`geometry_msgs/PoseStamped`). */
-export function order(found: { name: string; type: string }, poses: readonly JsonObject[], loops: number): Order {
+export function order(
+  found: { name: string; type: string },
+  poses: readonly JsonObject[],
+  loops: number,
+): Order {
   const goals: Record<string, JsonObject> = {
     'nav2_msgs/NavigateToPose': { pose: poses[0] },
     'move_base_msgs/MoveBase': { target_pose: poses[0] },
@@ -64,7 +79,8 @@ export function progress(feedback: JsonObject): Progress {
   copy('number_of_recoveries', 'recoveries');
   copy('number_of_poses_remaining', 'remaining');
   copy('current_waypoint', 'current');
-  if ('estimated_time_remaining' in feedback) found.eta_s = seconds(feedback['estimated_time_remaining']);
+  if ('estimated_time_remaining' in feedback)
+    found.eta_s = seconds(feedback['estimated_time_remaining']);
   if ('navigation_time' in feedback) found.taken_s = seconds(feedback['navigation_time']);
   const base = 'base_position' in feedback ? 'base_position' : 'current_pose';
   if (base in feedback) found.position = vector(part(feedback, base, 'pose')['position']);
@@ -73,5 +89,7 @@ export function progress(feedback: JsonObject): Progress {
 
 /** The numbers of the waypoints that a result says were missed. */
 export function missed(result: JsonObject): number[] {
-  return list<{ index: number } | number>(result, 'missed_waypoints').map((each) => (typeof each === 'number' ? each : each.index));
+  return list<{ index: number } | number>(result, 'missed_waypoints').map((each) =>
+    typeof each === 'number' ? each : each.index,
+  );
 }

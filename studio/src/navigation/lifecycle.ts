@@ -9,7 +9,13 @@ const TIMEOUT_S = 30;
 const MANAGE = /\/manage_nodes$/;
 
 /** `nav2_msgs/srv/ManageLifecycleNodes`. */
-const COMMANDS = [['Startup', 0], ['Pause', 1], ['Resume', 2], ['Reset', 3], ['Shutdown', 4]] as const;
+const COMMANDS = [
+  ['Startup', 0],
+  ['Pause', 1],
+  ['Resume', 2],
+  ['Reset', 3],
+  ['Shutdown', 4],
+] as const;
 
 /** A service without a request: button, its name below the robot's namespace, type. */
 const SERVICES = [
@@ -30,8 +36,13 @@ export class Lifecycle {
   private readonly timer: number;
 
   constructor(
-    private readonly connection: Connection, private readonly graph: GraphStore,
-    private readonly host: { visible(): boolean; fail(problem: unknown): void; told(text: string): void },
+    private readonly connection: Connection,
+    private readonly graph: GraphStore,
+    private readonly host: {
+      visible(): boolean;
+      fail(problem: unknown): void;
+      told(text: string): void;
+    },
   ) {
     this.timer = window.setInterval(() => void this.ask(), ASK_MS);
   }
@@ -44,7 +55,10 @@ export class Lifecycle {
   use(robot: string): void {
     this.robot = robot;
     const names = this.graph.value.services.map((each) => each.name);
-    this.managers = names.filter((name) => MANAGE.test(name) && name.startsWith(`${robot}/`)).map((name) => name.replace(MANAGE, '')).sort();
+    this.managers = names
+      .filter((name) => MANAGE.test(name) && name.startsWith(`${robot}/`))
+      .map((name) => name.replace(MANAGE, ''))
+      .sort();
     const services = SERVICES.filter(([, name]) => names.includes(`${robot}/${name}`));
     const now = JSON.stringify([robot, this.managers, services]);
     if (now === this.shown) return;
@@ -52,23 +66,51 @@ export class Lifecycle {
     this.states.clear();
     this.element.replaceChildren(
       ...this.managers.map((name) => this.row(name)),
-      h('div', { class: 'button-row' }, ...services.map(([text, name]) => button(text, () => void this.call(`${this.robot}/${name}`, {}, text)))));
+      h(
+        'div',
+        { class: 'button-row' },
+        ...services.map(([text, name]) =>
+          button(text, () => void this.call(`${this.robot}/${name}`, {}, text)),
+        ),
+      ),
+    );
     void this.ask();
   }
 
   private row(manager: string): HTMLElement {
-    const state = h('output', { class: 'lifecycle-state', 'aria-label': `State of ${manager}` }, 'asking…');
+    const state = h(
+      'output',
+      { class: 'lifecycle-state', 'aria-label': `State of ${manager}` },
+      'asking…',
+    );
     this.states.set(manager, state);
     const title = manager.split('/').pop()?.replace('lifecycle_manager_', '') ?? manager;
-    return h('div', { class: 'button-row', role: 'group', 'aria-label': manager }, h('b', { title: manager }, title), state,
-      ...COMMANDS.map(([text, command]) => button(text, () => void this.call(`${manager}/manage_nodes`, { command }, `${text} ${title}`))));
+    return h(
+      'div',
+      { class: 'button-row', role: 'group', 'aria-label': manager },
+      h('b', { title: manager }, title),
+      state,
+      ...COMMANDS.map(([text, command]) =>
+        button(
+          text,
+          () => void this.call(`${manager}/manage_nodes`, { command }, `${text} ${title}`),
+        ),
+      ),
+    );
   }
 
   private async call(service: string, request: JsonObject, about: string): Promise<void> {
     try {
-      const answer = await this.connection.call('service.call', { service, request, timeout_s: TIMEOUT_S });
+      const answer = await this.connection.call('service.call', {
+        service,
+        request,
+        timeout_s: TIMEOUT_S,
+      });
       const refused = isObject(answer) && answer['success'] === false;
-      if (refused) this.host.fail(new Error(`${about}: ${service} says no. The console tells which node did not follow.`));
+      if (refused)
+        this.host.fail(
+          new Error(`${about}: ${service} says no. The console tells which node did not follow.`),
+        );
       else this.host.told(`${about}: done`);
     } catch (problem) {
       this.host.fail(problem);
@@ -80,9 +122,18 @@ export class Lifecycle {
     if (!this.host.visible()) return;
     for (const [manager, element] of this.states) {
       const service = `${manager}/is_active`;
-      const answer = await this.connection.call('service.call', { service, request: {}, timeout_s: ASK_MS / 1000 }).catch(() => null);
+      const answer = await this.connection
+        .call('service.call', { service, request: {}, timeout_s: ASK_MS / 1000 })
+        .catch(() => null);
       const active = isObject(answer) ? answer['success'] === true : null;
-      setText(element, active === null ? 'no answer' : active ? 'active' : textOf(answer as JsonObject, 'message') || 'inactive');
+      setText(
+        element,
+        active === null
+          ? 'no answer'
+          : active
+            ? 'active'
+            : textOf(answer as JsonObject, 'message') || 'inactive',
+      );
       element.dataset['state'] = active ? 'active' : 'inactive';
     }
   }

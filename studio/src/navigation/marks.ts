@@ -50,7 +50,12 @@ function mark({ x, y, yaw }: Waypoint, index: number): THREE.Object3D[] {
   const arrow = new THREE.Mesh(ARROW, PAINT);
   arrow.position.set(x, y, ABOVE_M);
   arrow.rotation.z = yaw;
-  const text = label(String(index + 1), { height: 20, pixels: true, onTop: true, colour: [1, 0.75, 0.95] });
+  const text = label(String(index + 1), {
+    height: 20,
+    pixels: true,
+    onTop: true,
+    colour: [1, 0.75, 0.95],
+  });
   text.position.set(x, y, ABOVE_M);
   return [arrow, text];
 }

@@ -32,20 +32,51 @@ export class NavigationPanel extends BasePanel {
   private readonly list = new WaypointList(() => this.listChanged());
   private readonly lifecycle: Lifecycle;
   private readonly robotChoice = select('Robot', [], '', (robot) => this.use(robot));
-  private readonly modeButton = toggle('Waypoint mode', false, () => this.modeChanged(), { title: 'Goals of RViz go into the list of waypoints' });
-  private readonly values = new Map<Value, HTMLElement>(COUNT.map((name) => [name, h('output', { 'aria-label': name }, '–')]));
-  private readonly text = h('p', { class: 'dim', role: 'status', 'aria-label': 'What the robot says' });
+  private readonly modeButton = toggle('Waypoint mode', false, () => this.modeChanged(), {
+    title: 'Goals of RViz go into the list of waypoints',
+  });
+  private readonly values = new Map<Value, HTMLElement>(
+    COUNT.map((name) => [name, h('output', { 'aria-label': name }, '–')]),
+  );
+  private readonly text = h('p', {
+    class: 'dim',
+    role: 'status',
+    'aria-label': 'What the robot says',
+  });
   private readonly none = notice('No move_base and no Nav2 runs on this graph.');
   private readonly body = h('div', { class: 'navigation-body' });
-  private readonly loops = h('input', { type: 'number', class: 'small', min: 0, max: 1000, value: 0, 'aria-label': 'Repetitions', title: 'How often the waypoints are driven to again' });
-  private readonly cancelButton = button('Cancel', () => this.trip?.cancel(), { icon: 'stop', class: 'danger', title: 'Cancel what is driven to' });
-  private readonly followButton = button('Follow waypoints', () => this.start('follow'), { icon: 'play', class: 'primary', title: 'One after the other, stopping at each' });
-  private readonly throughButton = button('Navigate through poses', () => this.start('through'), { icon: 'send', title: 'One way through all of them, without a stop' });
+  private readonly loops = h('input', {
+    type: 'number',
+    class: 'small',
+    min: 0,
+    max: 1000,
+    value: 0,
+    'aria-label': 'Repetitions',
+    title: 'How often the waypoints are driven to again',
+  });
+  private readonly cancelButton = button('Cancel', () => this.trip?.cancel(), {
+    icon: 'stop',
+    class: 'danger',
+    title: 'Cancel what is driven to',
+  });
+  private readonly followButton = button('Follow waypoints', () => this.start('follow'), {
+    icon: 'play',
+    class: 'primary',
+    title: 'One after the other, stopping at each',
+  });
+  private readonly throughButton = button('Navigate through poses', () => this.start('through'), {
+    icon: 'send',
+    title: 'One way through all of them, without a stop',
+  });
 
   constructor(connection: Connection, host: PanelHost) {
     super(connection, host);
     const told = (text: string): void => host.tell(text);
-    this.lifecycle = new Lifecycle(connection, host.graph, { visible: () => this.visible, fail: (problem) => host.fail(problem), told });
+    this.lifecycle = new Lifecycle(connection, host.graph, {
+      visible: () => this.visible,
+      fail: (problem) => host.fail(problem),
+      told,
+    });
     this.build();
     this.list.hint = HINT;
     this.atEnd(host.graph.watch(() => this.look()));
@@ -59,7 +90,9 @@ export class NavigationPanel extends BasePanel {
 
   override open(params: JsonObject): void {
     this.robot = textOf(params, 'robot') || this.robot;
-    const kept = Array.isArray(params['waypoints']) ? (params['waypoints'] as unknown as Waypoint[]) : null;
+    const kept = Array.isArray(params['waypoints'])
+      ? (params['waypoints'] as unknown as Waypoint[])
+      : null;
     if (kept) this.list.replace(kept);
     this.loops.value = String(numberOf(params, 'loops', Number(this.loops.value)));
     if (params['mode'] === true) this.modeButton.setAttribute('aria-pressed', 'true');
@@ -67,7 +100,12 @@ export class NavigationPanel extends BasePanel {
   }
 
   override state(): JsonObject {
-    return { robot: this.robot, waypoints: this.list.items as unknown as Json, loops: Number(this.loops.value), mode: this.collecting };
+    return {
+      robot: this.robot,
+      waypoints: this.list.items as unknown as Json,
+      loops: Number(this.loops.value),
+      mode: this.collecting,
+    };
   }
 
   private get collecting(): boolean {
@@ -75,26 +113,61 @@ export class NavigationPanel extends BasePanel {
   }
 
   private build(): void {
-    const file = button('Save', () => download('waypoints.yaml', asYaml(this.list.items)), { icon: 'save', title: "Save the waypoints as Nav2's file" });
+    const file = button('Save', () => download('waypoints.yaml', asYaml(this.list.items)), {
+      icon: 'save',
+      title: "Save the waypoints as Nav2's file",
+    });
     this.element.classList.add('navigation');
     this.body.append(
       this.lifecycle.element,
-      h('section', { 'aria-label': 'Way' }, h('dl', { class: 'navigation-values' },
-        ...COUNT.flatMap((name) => [h('dt', {}, name), h('dd', {}, this.values.get(name))])), this.text, h('div', { class: 'button-row' }, this.cancelButton)),
-      h('section', { 'aria-label': 'Waypoints' },
+      h(
+        'section',
+        { 'aria-label': 'Way' },
+        h(
+          'dl',
+          { class: 'navigation-values' },
+          ...COUNT.flatMap((name) => [h('dt', {}, name), h('dd', {}, this.values.get(name))]),
+        ),
+        this.text,
+        h('div', { class: 'button-row' }, this.cancelButton),
+      ),
+      h(
+        'section',
+        { 'aria-label': 'Waypoints' },
         h('div', { class: 'button-row' }, this.modeButton, this.followButton, this.throughButton),
         this.list.element,
-        h('div', { class: 'button-row' }, h('label', {}, h('span', { class: 'dim' }, 'Repeat '), this.loops), file,
-          button('Clear', () => this.list.replace([]), { icon: 'clear', title: 'Delete all waypoints' }))));
+        h(
+          'div',
+          { class: 'button-row' },
+          h('label', {}, h('span', { class: 'dim' }, 'Repeat '), this.loops),
+          file,
+          button('Clear', () => this.list.replace([]), {
+            icon: 'clear',
+            title: 'Delete all waypoints',
+          }),
+        ),
+      ),
+    );
     this.loops.addEventListener('change', () => this.host.touched());
-    this.element.append(toolbar('Navigation', h('label', {}, h('span', { class: 'dim' }, 'Robot '), this.robotChoice)), this.none, this.body);
+    this.element.append(
+      toolbar(
+        'Navigation',
+        h('label', {}, h('span', { class: 'dim' }, 'Robot '), this.robotChoice),
+      ),
+      this.none,
+      this.body,
+    );
     this.cancelButton.disabled = true;
   }
 
   private look(): void {
     const found = robots(this.host.graph);
     const now = found.includes(this.robot) ? this.robot : (found[0] ?? this.robot);
-    fillSelect(this.robotChoice, found.map((name) => [name, name || '/'] as const), now);
+    fillSelect(
+      this.robotChoice,
+      found.map((name) => [name, name || '/'] as const),
+      now,
+    );
     this.none.hidden = found.length > 0;
     this.body.hidden = found.length === 0 && this.trip === null;
     this.use(now);
@@ -112,13 +185,19 @@ export class NavigationPanel extends BasePanel {
   private watchRecoveries(): void {
     const topic = `${this.robot}/move_base/recovery_status`;
     if (this.recovery || this.host.graph.typeOf(topic) === undefined) return;
-    this.recovery = this.stream('topic.echo', { topic, rate_hz: 5 }, {
-      onData: (value) => {
-        const number = isObject(value) ? numberOf(part(value, 'message'), 'current_recovery_number', 0) : 0;
-        this.recoveries = number + 1;
-        if (this.trip) this.say('Recoveries', String(this.recoveries));
+    this.recovery = this.stream(
+      'topic.echo',
+      { topic, rate_hz: 5 },
+      {
+        onData: (value) => {
+          const number = isObject(value)
+            ? numberOf(part(value, 'message'), 'current_recovery_number', 0)
+            : 0;
+          this.recoveries = number + 1;
+          if (this.trip) this.say('Recoveries', String(this.recoveries));
+        },
       },
-    });
+    );
   }
 
   private takeGoal(pose: JsonObject): string {
@@ -149,7 +228,9 @@ export class NavigationPanel extends BasePanel {
     const loops = mode === 'follow' ? Number(this.loops.value) : 0;
     const inList = mode !== 'goal';
     if (!inList) this.marks.show([...this.list.items, ...waypoints]);
-    this.trip = new Trip(this.connection, found, waypoints, { atOnce, loops }, (standing) => this.show(standing, inList));
+    this.trip = new Trip(this.connection, found, waypoints, { atOnce, loops }, (standing) =>
+      this.show(standing, inList),
+    );
   }
 
   private show(standing: Standing, inList: boolean): void {
@@ -158,14 +239,28 @@ export class NavigationPanel extends BasePanel {
     setText(this.text, standing.text);
     const driving = marks.indexOf('driving');
     const target = (inList && driving >= 0 ? this.list.items[driving] : null) ?? this.goal;
-    const straight = progress.position && target ? vector(progress.position as never).setZ(0).distanceTo(vector({ x: target.x, y: target.y, z: 0 })) : undefined;
-    if (progress.distance_m !== undefined) this.say('Distance', `${progress.distance_m.toFixed(2)} m`);
+    const straight =
+      progress.position && target
+        ? vector(progress.position as never)
+            .setZ(0)
+            .distanceTo(vector({ x: target.x, y: target.y, z: 0 }))
+        : undefined;
+    if (progress.distance_m !== undefined)
+      this.say('Distance', `${progress.distance_m.toFixed(2)} m`);
     else if (straight !== undefined) this.say('Distance', `${straight.toFixed(2)} m straight`);
     if (progress.eta_s !== undefined) this.say('ETA', `${progress.eta_s.toFixed(0)} s`);
-    this.say('Time taken', `${(progress.taken_s ?? (performance.now() - this.began_ms) / 1000).toFixed(0)} s`);
+    this.say(
+      'Time taken',
+      `${(progress.taken_s ?? (performance.now() - this.began_ms) / 1000).toFixed(0)} s`,
+    );
     this.say('Recoveries', String(progress.recoveries ?? this.recoveries));
     if (inList) {
-      this.say('Waypoint', driving >= 0 ? `${driving + 1} of ${marks.length}` : `${marks.filter((mark) => mark === 'reached').length} of ${marks.length} reached`);
+      this.say(
+        'Waypoint',
+        driving >= 0
+          ? `${driving + 1} of ${marks.length}`
+          : `${marks.filter((mark) => mark === 'reached').length} of ${marks.length} reached`,
+      );
       this.list.mark(marks);
     }
     if (standing.over) this.trip = null;
@@ -183,7 +278,8 @@ export class NavigationPanel extends BasePanel {
     this.cancelButton.disabled = !drives;
     const empty = this.list.items.length === 0;
     this.followButton.disabled = empty || drives || !server(this.host.graph, this.robot, 'goal');
-    this.throughButton.disabled = empty || drives || !server(this.host.graph, this.robot, 'through');
+    this.throughButton.disabled =
+      empty || drives || !server(this.host.graph, this.robot, 'through');
     this.throughButton.hidden = !server(this.host.graph, this.robot, 'through');
   }
 

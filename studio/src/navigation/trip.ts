@@ -36,10 +36,19 @@ export class Trip {
    * the trip, as with Nav2's waypoint follower.
    */
   constructor(
-    private readonly connection: Connection, private readonly server: Server, private readonly waypoints: readonly Waypoint[],
-    private readonly options: { atOnce: boolean; loops: number }, private readonly tell: (standing: Standing) => void,
+    private readonly connection: Connection,
+    private readonly server: Server,
+    private readonly waypoints: readonly Waypoint[],
+    private readonly options: { atOnce: boolean; loops: number },
+    private readonly tell: (standing: Standing) => void,
   ) {
-    this.standing = { state: 'sent', text: '', progress: {}, marks: waypoints.map(() => ''), over: false };
+    this.standing = {
+      state: 'sent',
+      text: '',
+      progress: {},
+      marks: waypoints.map(() => ''),
+      over: false,
+    };
     this.send();
   }
 
@@ -57,11 +66,15 @@ export class Trip {
   }
 
   private open({ action, type, goal }: Order): void {
-    this.channel = this.connection.open('action', { action, type, goal }, {
-      onData: (value) => this.take(value as unknown as GoalState),
-      onFailed: (problem) => this.fail(problem.message),
-      onEnded: (problem) => problem && this.fail(problem.message),
-    });
+    this.channel = this.connection.open(
+      'action',
+      { action, type, goal },
+      {
+        onData: (value) => this.take(value as unknown as GoalState),
+        onFailed: (problem) => this.fail(problem.message),
+        onEnded: (problem) => problem && this.fail(problem.message),
+      },
+    );
   }
 
   private take({ state, text, feedback, result }: GoalState): void {
@@ -75,7 +88,9 @@ export class Trip {
 
   /** The waypoint of a number is driven to now. */
   private passed(current: number): void {
-    this.standing.marks = this.waypoints.map((_, index) => (index < current ? 'reached' : index === current ? 'driving' : ''));
+    this.standing.marks = this.waypoints.map((_, index) =>
+      index < current ? 'reached' : index === current ? 'driving' : '',
+    );
     this.change({});
   }
 
@@ -84,7 +99,15 @@ export class Trip {
     this.close();
     if (this.options.atOnce) {
       const misses = missed(result);
-      this.standing.marks = this.standing.marks.map((mark, index) => (misses.includes(index) ? 'missed' : reached ? 'reached' : mark === 'driving' ? 'missed' : mark));
+      this.standing.marks = this.standing.marks.map((mark, index) =>
+        misses.includes(index)
+          ? 'missed'
+          : reached
+            ? 'reached'
+            : mark === 'driving'
+              ? 'missed'
+              : mark,
+      );
       return this.change({ over: true, text: textOf(result, 'error_msg') || this.standing.text });
     }
     this.mark(this.at, reached ? 'reached' : 'missed');
@@ -97,7 +120,12 @@ export class Trip {
     if (this.at < this.waypoints.length) return this.send();
     const misses = this.standing.marks.filter((mark) => mark === 'missed').length;
     if (this.waypoints.length === 1) this.change({ over: true });
-    else this.change({ over: true, state: misses ? 'finished' : 'succeeded', text: misses ? `${misses} of ${this.waypoints.length} waypoints were missed` : '' });
+    else
+      this.change({
+        over: true,
+        state: misses ? 'finished' : 'succeeded',
+        text: misses ? `${misses} of ${this.waypoints.length} waypoints were missed` : '',
+      });
   }
 
   private fail(text: string): void {

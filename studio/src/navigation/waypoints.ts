@@ -26,14 +26,21 @@ export function poseOf({ frame, x, y, yaw }: Waypoint): JsonObject {
 
 /** The file that Nav2's panel saves; orientations are w, x, y, z there. */
 export function asYaml(waypoints: readonly Waypoint[]): string {
-  const rows = waypoints.map(({ x, y, yaw }, index) =>
-    `  waypoint${index}:\n    pose: [${x}, ${y}, 0]\n    orientation: [${Math.cos(yaw / 2)}, 0, 0, ${Math.sin(yaw / 2)}]\n`);
+  const rows = waypoints.map(
+    ({ x, y, yaw }, index) =>
+      `  waypoint${index}:\n    pose: [${x}, ${y}, 0]\n    orientation: [${Math.cos(yaw / 2)}, 0, 0, ${Math.sin(yaw / 2)}]\n`,
+  );
   return `waypoints:\n${rows.join('')}`;
 }
 
 /** The list in the panel. */
 export class WaypointList {
-  readonly element = h('ol', { class: 'waypoints', role: 'listbox', tabindex: 0, 'aria-label': 'Waypoints' });
+  readonly element = h('ol', {
+    class: 'waypoints',
+    role: 'listbox',
+    tabindex: 0,
+    'aria-label': 'Waypoints',
+  });
   readonly items: Waypoint[] = [];
   /** What the list says where it is empty. */
   hint = '';
@@ -72,15 +79,35 @@ export class WaypointList {
   private row(item: Waypoint, index: number): HTMLElement {
     const state = this.states[index] ?? '';
     const text = `${item.x.toFixed(2)}, ${item.y.toFixed(2)} m · ${((item.yaw * 180) / Math.PI).toFixed(0)}°`;
-    const away = button('', (event) => {
-      event.stopPropagation();
-      this.remove(index);
-    }, { icon: 'trash', class: 'ghost', title: `Delete waypoint ${index + 1}` });
+    const away = button(
+      '',
+      (event) => {
+        event.stopPropagation();
+        this.remove(index);
+      },
+      { icon: 'trash', class: 'ghost', title: `Delete waypoint ${index + 1}` },
+    );
     away.tabIndex = -1;
-    return h('li', {
-      id: rowId(index), role: 'option', class: 'waypoint', 'aria-selected': String(index === this.chosen), 'data-state': state,
-      on: { click: () => { this.chosen = index; this.draw(); } },
-    }, h('b', {}, String(index + 1)), h('span', { class: 'mono' }, text), h('span', { class: 'dim' }, state), away);
+    return h(
+      'li',
+      {
+        id: rowId(index),
+        role: 'option',
+        class: 'waypoint',
+        'aria-selected': String(index === this.chosen),
+        'data-state': state,
+        on: {
+          click: () => {
+            this.chosen = index;
+            this.draw();
+          },
+        },
+      },
+      h('b', {}, String(index + 1)),
+      h('span', { class: 'mono' }, text),
+      h('span', { class: 'dim' }, state),
+      away,
+    );
   }
 
   private key(event: KeyboardEvent): void {

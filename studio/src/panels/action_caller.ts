@@ -21,21 +21,56 @@ export class ActionCaller extends BasePanel {
   private channel: Channel | null = null;
   private readonly input: HTMLInputElement;
   private readonly typeText = h('span', { class: 'dim ellipsis' });
-  private readonly goal = h('div', { class: 'half scroll', role: 'region', 'aria-label': 'Goal' }, notice('Choose an action.'));
+  private readonly goal = h(
+    'div',
+    { class: 'half scroll', role: 'region', 'aria-label': 'Goal' },
+    notice('Choose an action.'),
+  );
   private readonly status = h('strong', { class: 'action-state', role: 'status' });
   private readonly feedback = h('pre', { class: 'mono', 'aria-label': 'Feedback' });
   private readonly result = h('pre', { class: 'mono', 'aria-label': 'Result' });
-  private readonly sendButton = button('Send goal', () => this.send(), { icon: 'send', class: 'primary' });
-  private readonly cancelButton = button('Cancel', () => this.cancel(), { icon: 'stop', title: 'Cancel the goal' });
+  private readonly sendButton = button('Send goal', () => this.send(), {
+    icon: 'send',
+    class: 'primary',
+  });
+  private readonly cancelButton = button('Cancel', () => this.cancel(), {
+    icon: 'stop',
+    title: 'Cancel the goal',
+  });
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
-    this.input = nameInput({ label: 'Action', names: () => this.host.graph.value.actions.map((each) => each.name), chosen: (name) => void this.choose(name) });
+    this.input = nameInput({
+      label: 'Action',
+      names: () => this.host.graph.value.actions.map((each) => each.name),
+      chosen: (name) => void this.choose(name),
+    });
     this.sendButton.disabled = true;
     this.cancelButton.disabled = true;
-    this.element.append(toolbar('Action caller', h('span', {}, this.input), this.typeText, spacer(), this.sendButton, this.cancelButton),
-      h('div', { class: 'halves' }, this.goal,
-        h('div', { class: 'half scroll' }, this.status, h('h3', {}, 'Feedback'), this.feedback, h('h3', {}, 'Result'), this.result)));
+    this.element.append(
+      toolbar(
+        'Action caller',
+        h('span', {}, this.input),
+        this.typeText,
+        spacer(),
+        this.sendButton,
+        this.cancelButton,
+      ),
+      h(
+        'div',
+        { class: 'halves' },
+        this.goal,
+        h(
+          'div',
+          { class: 'half scroll' },
+          this.status,
+          h('h3', {}, 'Feedback'),
+          this.feedback,
+          h('h3', {}, 'Result'),
+          this.result,
+        ),
+      ),
+    );
   }
 
   override open(params: JsonObject): void {
@@ -58,7 +93,9 @@ export class ActionCaller extends BasePanel {
     setText(this.typeText, this.type);
     this.sendButton.disabled = true;
     if (!this.type) {
-      this.goal.replaceChildren(notice(action ? `Nobody serves the action ${action} now.` : 'Choose an action.'));
+      this.goal.replaceChildren(
+        notice(action ? `Nobody serves the action ${action} now.` : 'Choose an action.'),
+      );
       return;
     }
     const type = await this.ask('type.get', { type: this.type, kind: 'action' });
@@ -75,11 +112,21 @@ export class ActionCaller extends BasePanel {
     for (const output of [this.feedback, this.result]) setText(output, '');
     setText(this.status, 'sent');
     this.cancelButton.disabled = false;
-    this.channel = this.stream('action', { action: this.action, type: this.type, goal: this.form.message() }, {
-      onData: (value) => this.take(value as unknown as GoalState),
-      onFailed: (problem) => { this.host.fail(problem); this.finish('failed'); },
-      onEnded: (problem) => { if (problem) this.host.fail(problem); this.cancelButton.disabled = true; },
-    });
+    this.channel = this.stream(
+      'action',
+      { action: this.action, type: this.type, goal: this.form.message() },
+      {
+        onData: (value) => this.take(value as unknown as GoalState),
+        onFailed: (problem) => {
+          this.host.fail(problem);
+          this.finish('failed');
+        },
+        onEnded: (problem) => {
+          if (problem) this.host.fail(problem);
+          this.cancelButton.disabled = true;
+        },
+      },
+    );
   }
 
   private take({ state, feedback, result }: GoalState): void {
@@ -102,5 +149,8 @@ export class ActionCaller extends BasePanel {
 }
 
 function goalFields(type: Json): TypeField[] {
-  return (type as unknown as TypeValue | null)?.fields.find((field) => field.name === 'goal')?.fields ?? [];
+  return (
+    (type as unknown as TypeValue | null)?.fields.find((field) => field.name === 'goal')?.fields ??
+    []
+  );
 }

@@ -15,7 +15,10 @@ export abstract class BasePanel implements Panel {
   private readonly channels = new Set<Channel>();
   private readonly ends: (() => void)[] = [];
 
-  constructor(protected readonly connection: Connection, protected readonly host: PanelHost) {
+  constructor(
+    protected readonly connection: Connection,
+    protected readonly host: PanelHost,
+  ) {
     this.id = host.id;
   }
 
@@ -37,8 +40,14 @@ export abstract class BasePanel implements Panel {
 
   /** Opens a stream that ends with the panel. Failures are shown unless the handlers take them. */
   protected stream(name: string, params: JsonObject, handlers: ChannelHandlers): Channel {
-    const tell = (problem: unknown) => { if (problem) this.host.fail(problem, this.title); };
-    const channel = this.connection.open(name, params, { onFailed: tell, onEnded: tell, ...handlers });
+    const tell = (problem: unknown) => {
+      if (problem) this.host.fail(problem, this.title);
+    };
+    const channel = this.connection.open(name, params, {
+      onFailed: tell,
+      onEnded: tell,
+      ...handlers,
+    });
     this.channels.add(channel);
     if (!this.visible) channel.hold(true);
     return channel;

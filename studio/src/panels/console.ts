@@ -8,10 +8,23 @@ import { csvField } from '../widgets/format';
 import { cellRow, headings, VirtualList } from '../widgets/virtual_list';
 import { BasePanel } from './base';
 
-interface Line { number: number; stamp_s: number; level: string; name: string; message: string; place: string }
+interface Line {
+  number: number;
+  stamp_s: number;
+  level: string;
+  name: string;
+  message: string;
+  place: string;
+}
 
 const LEVELS = ['debug', 'info', 'warn', 'error', 'fatal'] as const;
-const TITLES: Record<string, string> = { debug: 'Debug', info: 'Info', warn: 'Warn', error: 'Error', fatal: 'Fatal' };
+const TITLES: Record<string, string> = {
+  debug: 'Debug',
+  info: 'Info',
+  warn: 'Warn',
+  error: 'Error',
+  fatal: 'Fatal',
+};
 const MOST = 20_000;
 const LIVE_MS = 100;
 
@@ -30,7 +43,12 @@ export class Console extends BasePanel {
   private selected: Line | null = null;
   private readonly list: VirtualList<Line>;
   private readonly summary = h('span', { class: 'dim' });
-  private readonly details = h('pre', { class: 'details mono', hidden: true, tabindex: 0, 'aria-label': 'Message' });
+  private readonly details = h('pre', {
+    class: 'details mono',
+    hidden: true,
+    tabindex: 0,
+    'aria-label': 'Message',
+  });
   private readonly controls = h('div', {});
   private readonly refreshSoon = perFrame(() => this.refresh(), LIVE_MS);
 
@@ -38,10 +56,20 @@ export class Console extends BasePanel {
     super(...args);
     this.element.classList.add('console');
     this.list = new VirtualList<Line>({
-      height: 22, label: 'Messages', make: () => cellRow(5), fill: (element, line) => this.fill(element, line),
+      height: 22,
+      label: 'Messages',
+      make: () => cellRow(5),
+      fill: (element, line) => this.fill(element, line),
     });
-    this.list.element.addEventListener('click', (event) => this.select(this.list.rowAt(event.target) ?? null));
-    this.element.append(this.controls, headings(['Severity', 'Stamp', 'Node', 'Message', 'Location']), this.list.element, this.details);
+    this.list.element.addEventListener('click', (event) =>
+      this.select(this.list.rowAt(event.target) ?? null),
+    );
+    this.element.append(
+      this.controls,
+      headings(['Severity', 'Stamp', 'Node', 'Message', 'Location']),
+      this.list.element,
+      this.details,
+    );
     this.showControls();
     this.list.follow(true);
     this.stream('rosout', { level: 'debug' }, { onData: (value) => this.take(value) });
@@ -60,7 +88,12 @@ export class Console extends BasePanel {
   }
 
   override state(): JsonObject {
-    return { hidden: [...this.hiddenLevels], text: this.text, node: this.node, highlight: this.highlight };
+    return {
+      hidden: [...this.hiddenLevels],
+      text: this.text,
+      node: this.node,
+      highlight: this.highlight,
+    };
   }
 
   override shown(visible: boolean): void {
@@ -69,23 +102,58 @@ export class Console extends BasePanel {
   }
 
   private showControls(): void {
-    const levels = LEVELS.map((level) => toggle(TITLES[level], !this.hiddenLevels.has(level), (on) => {
-      if (on) this.hiddenLevels.delete(level);
-      else this.hiddenLevels.add(level);
-      this.refilter();
-    }, { title: `Show messages of level ${TITLES[level]}`, class: `level level-${level}` }));
-    const follow = () => { this.list.follow(true); this.refresh(); };
-    this.controls.replaceChildren(toolbar('Console', h('span', { class: 'joined-row', role: 'group', 'aria-label': 'Levels' }, ...levels),
-      this.field('text', 'Filter messages'), this.field('node', 'Filter nodes'), this.field('highlight', 'Highlight'), spacer(), this.summary,
-      toggle('Pause', this.paused, (on) => { this.paused = on; this.refresh(); }, { icon: 'pause', title: 'Pause' }),
-      button('', follow, { icon: 'down', title: 'Go to the newest message' }),
-      button('', () => this.clear(), { icon: 'clear', title: 'Clear the messages' }),
-      button('CSV', () => this.save(), { icon: 'save', title: 'Save the messages shown as CSV' })));
+    const levels = LEVELS.map((level) =>
+      toggle(
+        TITLES[level],
+        !this.hiddenLevels.has(level),
+        (on) => {
+          if (on) this.hiddenLevels.delete(level);
+          else this.hiddenLevels.add(level);
+          this.refilter();
+        },
+        { title: `Show messages of level ${TITLES[level]}`, class: `level level-${level}` },
+      ),
+    );
+    const follow = () => {
+      this.list.follow(true);
+      this.refresh();
+    };
+    this.controls.replaceChildren(
+      toolbar(
+        'Console',
+        h('span', { class: 'joined-row', role: 'group', 'aria-label': 'Levels' }, ...levels),
+        this.field('text', 'Filter messages'),
+        this.field('node', 'Filter nodes'),
+        this.field('highlight', 'Highlight'),
+        spacer(),
+        this.summary,
+        toggle(
+          'Pause',
+          this.paused,
+          (on) => {
+            this.paused = on;
+            this.refresh();
+          },
+          { icon: 'pause', title: 'Pause' },
+        ),
+        button('', follow, { icon: 'down', title: 'Go to the newest message' }),
+        button('', () => this.clear(), { icon: 'clear', title: 'Clear the messages' }),
+        button('CSV', () => this.save(), { icon: 'save', title: 'Save the messages shown as CSV' }),
+      ),
+    );
   }
 
   private field(name: 'text' | 'node' | 'highlight', label: string): HTMLInputElement {
-    const input = h('input', { type: 'search', value: this[name], placeholder: label, 'aria-label': label });
-    input.addEventListener('input', () => { this[name] = input.value; this.refilter(); });
+    const input = h('input', {
+      type: 'search',
+      value: this[name],
+      placeholder: label,
+      'aria-label': label,
+    });
+    input.addEventListener('input', () => {
+      this[name] = input.value;
+      this.refilter();
+    });
     return input;
   }
 
@@ -109,9 +177,11 @@ export class Console extends BasePanel {
   }
 
   private passes(line: Line): boolean {
-    return !this.hiddenLevels.has(line.level)
-      && line.message.toLowerCase().includes(this.text.toLowerCase())
-      && line.name.toLowerCase().includes(this.node.toLowerCase());
+    return (
+      !this.hiddenLevels.has(line.level) &&
+      line.message.toLowerCase().includes(this.text.toLowerCase()) &&
+      line.name.toLowerCase().includes(this.node.toLowerCase())
+    );
   }
 
   private refilter(): void {
@@ -136,7 +206,8 @@ export class Console extends BasePanel {
     setText(message, line.message.replaceAll('\n', ' ⏎ '));
     setText(place, line.place);
     element.dataset['level'] = line.level;
-    const found = this.highlight !== '' && line.message.toLowerCase().includes(this.highlight.toLowerCase());
+    const found =
+      this.highlight !== '' && line.message.toLowerCase().includes(this.highlight.toLowerCase());
     element.classList.toggle('marked', found);
     element.classList.toggle('chosen', line === this.selected);
   }
@@ -144,7 +215,11 @@ export class Console extends BasePanel {
   private select(line: Line | null): void {
     this.selected = line === this.selected ? null : line;
     this.details.hidden = this.selected === null;
-    if (this.selected) setText(this.details, `${this.selected.name}  ${this.selected.place}\n${this.selected.message}`);
+    if (this.selected)
+      setText(
+        this.details,
+        `${this.selected.name}  ${this.selected.place}\n${this.selected.message}`,
+      );
     this.list.refresh();
   }
 
@@ -155,7 +230,15 @@ export class Console extends BasePanel {
   }
 
   private save(): void {
-    const rows = this.shownLines.map((line) => [line.message, line.level, line.name, line.stamp_s.toFixed(9), line.place].map(csvField).join(','));
-    download('console.csv', ['message,severity,node,stamp,location', ...rows, ''].join('\n'), 'text/csv');
+    const rows = this.shownLines.map((line) =>
+      [line.message, line.level, line.name, line.stamp_s.toFixed(9), line.place]
+        .map(csvField)
+        .join(','),
+    );
+    download(
+      'console.csv',
+      ['message,severity,node,stamp,location', ...rows, ''].join('\n'),
+      'text/csv',
+    );
   }
 }

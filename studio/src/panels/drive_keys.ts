@@ -1,19 +1,48 @@
 /** The keys that drive: WASD, arrows, and those of teleop_twist_keyboard. */
 
 /** A direction in parts of the largest velocities: forward, left, up, and turning left. */
-export interface Direction { x: number; y: number; z: number; turn: number }
+export interface Direction {
+  x: number;
+  y: number;
+  z: number;
+  turn: number;
+}
 
 const KEYS: Readonly<Record<string, Partial<Direction>>> = {
-  w: { x: 1 }, s: { x: -1 }, a: { turn: 1 }, d: { turn: -1 },
-  arrowup: { x: 1 }, arrowdown: { x: -1 }, arrowleft: { turn: 1 }, arrowright: { turn: -1 },
-  i: { x: 1 }, ',': { x: -1 }, j: { turn: 1 }, l: { turn: -1 },
-  u: { x: 1, turn: 1 }, o: { x: 1, turn: -1 }, m: { x: -1, turn: -1 }, '.': { x: -1, turn: 1 },
-  t: { z: 1 }, b: { z: -1 },
+  w: { x: 1 },
+  s: { x: -1 },
+  a: { turn: 1 },
+  d: { turn: -1 },
+  arrowup: { x: 1 },
+  arrowdown: { x: -1 },
+  arrowleft: { turn: 1 },
+  arrowright: { turn: -1 },
+  i: { x: 1 },
+  ',': { x: -1 },
+  j: { turn: 1 },
+  l: { turn: -1 },
+  u: { x: 1, turn: 1 },
+  o: { x: 1, turn: -1 },
+  m: { x: -1, turn: -1 },
+  '.': { x: -1, turn: 1 },
+  t: { z: 1 },
+  b: { z: -1 },
 };
 const SIDEWAYS: Readonly<Record<string, Partial<Direction>>> = {
-  i: { x: 1 }, '<': { x: -1 }, ',': { x: -1 }, j: { y: 1 }, l: { y: -1 }, a: { y: 1 }, d: { y: -1 },
-  u: { x: 1, y: 1 }, o: { x: 1, y: -1 }, m: { x: -1, y: 1 }, '>': { x: -1, y: -1 }, '.': { x: -1, y: -1 },
-  arrowleft: { y: 1 }, arrowright: { y: -1 },
+  i: { x: 1 },
+  '<': { x: -1 },
+  ',': { x: -1 },
+  j: { y: 1 },
+  l: { y: -1 },
+  a: { y: 1 },
+  d: { y: -1 },
+  u: { x: 1, y: 1 },
+  o: { x: 1, y: -1 },
+  m: { x: -1, y: 1 },
+  '>': { x: -1, y: -1 },
+  '.': { x: -1, y: -1 },
+  arrowleft: { y: 1 },
+  arrowright: { y: -1 },
 };
 const STEP = 1.1;
 
@@ -24,7 +53,8 @@ export function directionOf(pressed: ReadonlyMap<string, boolean>): Direction {
     const part = (shifted ? SIDEWAYS[key] : undefined) ?? KEYS[key] ?? {};
     for (const axis of ['x', 'y', 'z', 'turn'] as const) sum[axis] += part[axis] ?? 0;
   }
-  for (const axis of ['x', 'y', 'z', 'turn'] as const) sum[axis] = Math.max(-1, Math.min(1, sum[axis]));
+  for (const axis of ['x', 'y', 'z', 'turn'] as const)
+    sum[axis] = Math.max(-1, Math.min(1, sum[axis]));
   return sum;
 }
 
@@ -33,7 +63,8 @@ export class DriveKeys {
   private readonly pressed = new Map<string, boolean>();
 
   constructor(
-    element: HTMLElement, private readonly changed: (pressed: ReadonlyMap<string, boolean>) => void,
+    element: HTMLElement,
+    private readonly changed: (pressed: ReadonlyMap<string, boolean>) => void,
     private readonly faster: (factor: number) => void,
   ) {
     element.addEventListener('keydown', (event) => this.down(event));

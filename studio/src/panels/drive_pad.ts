@@ -5,14 +5,22 @@ import { h } from '../widgets/dom';
 /** The pad of the drive panels. */
 export class DrivePad {
   private readonly knob = h('span', { class: 'pad-knob' });
-  readonly element = h('div', { class: 'pad', role: 'img', 'aria-label': 'Joystick: drag to drive' }, this.knob);
+  readonly element = h(
+    'div',
+    { class: 'pad', role: 'img', 'aria-label': 'Joystick: drag to drive' },
+    this.knob,
+  );
   private pointer: number | null = null;
 
   constructor(private readonly moved: (forward: number, turn: number) => void) {
     this.element.addEventListener('pointerdown', (event) => this.begin(event));
-    this.element.addEventListener('pointermove', (event) => { if (event.pointerId === this.pointer) this.follow(event); });
+    this.element.addEventListener('pointermove', (event) => {
+      if (event.pointerId === this.pointer) this.follow(event);
+    });
     for (const name of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
-      this.element.addEventListener(name, () => { if (this.pointer !== null) this.end(); });
+      this.element.addEventListener(name, () => {
+        if (this.pointer !== null) this.end();
+      });
     }
   }
 

@@ -23,10 +23,20 @@ export interface GraphChoice {
 
 /** What rqt_graph begins with. */
 export const FIRST_CHOICE: GraphChoice = {
-  mode: 'nodes', nodes: '', topics: '', deadSinks: true, leafTopics: true, debug: true, tf: true, images: false, params: true, unreachable: false,
+  mode: 'nodes',
+  nodes: '',
+  topics: '',
+  deadSinks: true,
+  leafTopics: true,
+  debug: true,
+  tf: true,
+  images: false,
+  params: true,
+  unreachable: false,
 };
 
-const QUIET = /^\/(rosout(_agg)?|diagnostics(_agg)?|diag_agg|runtime_logger|statistics|clock|cpu_monitor|monitor|hd_monitor|rxloggerlevel)$|\/(rqt|rviz|rosbag|record)[^/]*$/;
+const QUIET =
+  /^\/(rosout(_agg)?|diagnostics(_agg)?|diag_agg|runtime_logger|statistics|clock|cpu_monitor|monitor|hd_monitor|rxloggerlevel)$|\/(rqt|rviz|rosbag|record)[^/]*$/;
 const PARAMS = /\/(parameter_events|parameter_descriptions|parameter_updates)$/;
 
 /** The graph as it is drawn. */
@@ -37,30 +47,41 @@ export function drawingOf(graph: GraphValue, choice: GraphChoice): Drawing {
   const nodes = graph.nodes.map((node) => node.name).filter(nodeOk);
   const known = new Set(nodes);
   const trimmed = topics.map((topic) => ({
-    ...topic, publishers: topic.publishers.filter((name) => known.has(name)), subscribers: topic.subscribers.filter((name) => known.has(name)),
+    ...topic,
+    publishers: topic.publishers.filter((name) => known.has(name)),
+    subscribers: topic.subscribers.filter((name) => known.has(name)),
   }));
-  return choice.mode === 'nodes' ? nodesOnly(nodes, trimmed, choice) : nodesAndTopics(nodes, trimmed, choice);
+  return choice.mode === 'nodes'
+    ? nodesOnly(nodes, trimmed, choice)
+    : nodesAndTopics(nodes, trimmed, choice);
 }
 
 function topicShown(topic: TopicRow, choice: GraphChoice): boolean {
   if (topic.hidden) return false;
   if (choice.tf && /\/tf(_static)?$/.test(topic.name)) return false;
   if (choice.params && PARAMS.test(topic.name)) return false;
-  if (choice.images && /^sensor_msgs\/(Compressed)?Image$/.test(shortType(topic.type))) return false;
+  if (choice.images && /^sensor_msgs\/(Compressed)?Image$/.test(shortType(topic.type)))
+    return false;
   return true;
 }
 
 function nodesOnly(nodes: string[], topics: TopicRow[], choice: GraphChoice): Drawing {
   const edges = new Map<string, { from: string; to: string; labels: string[] }>();
   for (const topic of topics) {
-    for (const from of topic.publishers) for (const to of topic.subscribers) {
-      const key = `${from}\n${to}`;
-      const edge = edges.get(key) ?? { from, to, labels: [] };
-      edge.labels.push(topic.name);
-      edges.set(key, edge);
-    }
+    for (const from of topic.publishers)
+      for (const to of topic.subscribers) {
+        const key = `${from}\n${to}`;
+        const edge = edges.get(key) ?? { from, to, labels: [] };
+        edge.labels.push(topic.name);
+        edges.set(key, edge);
+      }
   }
-  const list = [...edges.values()].map((edge) => ({ from: `n:${edge.from}`, to: `n:${edge.to}`, label: edge.labels.length > 3 ? `${edge.labels.length} topics` : edge.labels.join('\n'), title: edge.labels.join('\n') }));
+  const list = [...edges.values()].map((edge) => ({
+    from: `n:${edge.from}`,
+    to: `n:${edge.to}`,
+    label: edge.labels.length > 3 ? `${edge.labels.length} topics` : edge.labels.join('\n'),
+    title: edge.labels.join('\n'),
+  }));
   const tied = new Set(list.flatMap((edge) => [edge.from, edge.to]));
   const shown = nodes.filter((name) => !choice.unreachable || tied.has(`n:${name}`));
   return { nodes: shown.map(nodeBox), edges: list };
@@ -80,18 +101,23 @@ function nodesAndTopics(nodes: string[], topics: TopicRow[], choice: GraphChoice
 /** Active topics have both ends; dead sinks nobody hears; leaf topics have one tie alone. */
 function topicKept(topic: TopicRow, choice: GraphChoice): boolean {
   const { publishers, subscribers } = topic;
-  if (choice.mode === 'active' && (publishers.length === 0 || subscribers.length === 0)) return false;
+  if (choice.mode === 'active' && (publishers.length === 0 || subscribers.length === 0))
+    return false;
   if (choice.deadSinks && subscribers.length === 0) return false;
   return !(choice.leafTopics && publishers.length + subscribers.length < 2);
 }
 
 function matcher(text: string, quiet: boolean): (name: string) => boolean {
-  const parts = text.split(',').map((part) => part.trim()).filter((part) => part && part !== '/');
+  const parts = text
+    .split(',')
+    .map((part) => part.trim())
+    .filter((part) => part && part !== '/');
   const away = parts.filter((part) => part.startsWith('-')).map((part) => part.slice(1));
   const wanted = parts.filter((part) => !part.startsWith('-'));
-  return (name) => !(quiet && QUIET.test(name))
-    && !away.some((part) => name.includes(part))
-    && (wanted.length === 0 || wanted.some((part) => name.includes(part)));
+  return (name) =>
+    !(quiet && QUIET.test(name)) &&
+    !away.some((part) => name.includes(part)) &&
+    (wanted.length === 0 || wanted.some((part) => name.includes(part)));
 }
 
 function nodeBox(name: string): DrawnNode {
@@ -99,5 +125,10 @@ function nodeBox(name: string): DrawnNode {
 }
 
 function topicBox(topic: TopicRow): DrawnNode {
-  return { id: `t:${topic.name}`, label: topic.name, shape: 'topic', title: `${topic.name}\n${topic.type}` };
+  return {
+    id: `t:${topic.name}`,
+    label: topic.name,
+    shape: 'topic',
+    title: `${topic.name}\n${topic.type}`,
+  };
 }

@@ -9,8 +9,19 @@ import { nameInput } from '../widgets/name_input';
 import { BasePanel } from './base';
 
 const TYPES = ['sensor_msgs/Image', 'sensor_msgs/CompressedImage'];
-const ZOOMS = [['fit', 'Fit'], ['0.5', '50 %'], ['1', '100 %'], ['2', '200 %'], ['4', '400 %']] as const;
-const COLORMAPS = [['gray', 'Gray'], ['hot', 'Hot'], ['jet', 'Jet'], ['rainbow', 'Rainbow']] as const;
+const ZOOMS = [
+  ['fit', 'Fit'],
+  ['0.5', '50 %'],
+  ['1', '100 %'],
+  ['2', '200 %'],
+  ['4', '400 %'],
+] as const;
+const COLORMAPS = [
+  ['gray', 'Gray'],
+  ['hot', 'Hot'],
+  ['jet', 'Jet'],
+  ['rainbow', 'Rainbow'],
+] as const;
 
 /** rqt_image_view. */
 export class ImageView extends BasePanel {
@@ -21,7 +32,11 @@ export class ImageView extends BasePanel {
   private channel: Channel | null = null;
   private source: [number, number] = [0, 0];
   private readonly canvas = h('canvas', { class: 'picture', role: 'img', 'aria-label': 'Image' });
-  private readonly stage = h('div', { class: 'stage', tabindex: 0, 'aria-label': 'Image area: the wheel zooms' }, this.canvas);
+  private readonly stage = h(
+    'div',
+    { class: 'stage', tabindex: 0, 'aria-label': 'Image area: the wheel zooms' },
+    this.canvas,
+  );
   private readonly info = h('span', { class: 'dim' });
   private readonly pixel = h('output', { class: 'mono', 'aria-label': 'Pixel' });
   private readonly empty = notice('Choose an image topic.');
@@ -32,7 +47,11 @@ export class ImageView extends BasePanel {
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
     this.element.classList.add('image');
-    this.input = nameInput({ label: 'Image topic', names: () => this.topics(), chosen: (name) => this.watch(name) });
+    this.input = nameInput({
+      label: 'Image topic',
+      names: () => this.topics(),
+      chosen: (name) => this.watch(name),
+    });
     this.zoomChoice = select('Zoom', ZOOMS, this.zoom, (value) => this.setZoom(value));
     this.mapChoice = select('Colors of depth', COLORMAPS, this.colormap, (value) => {
       this.colormap = value;
@@ -40,10 +59,17 @@ export class ImageView extends BasePanel {
       this.host.touched();
     });
     this.element.append(
-      toolbar('Image view', h('span', {}, this.input), this.zoomChoice, this.mapChoice, spacer(),
-        button('', () => this.save(), { icon: 'save', title: 'Save the image as PNG' })),
+      toolbar(
+        'Image view',
+        h('span', {}, this.input),
+        this.zoomChoice,
+        this.mapChoice,
+        spacer(),
+        button('', () => this.save(), { icon: 'save', title: 'Save the image as PNG' }),
+      ),
       h('div', { class: 'stage-box' }, this.stage, this.empty),
-      h('div', { class: 'status-line' }, this.info, spacer(), this.pixel));
+      h('div', { class: 'status-line' }, this.info, spacer(), this.pixel),
+    );
     this.stage.addEventListener('pointermove', (event) => this.showPixel(event));
     this.stage.addEventListener('pointerleave', () => setText(this.pixel, ''));
     this.stage.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
@@ -54,7 +80,8 @@ export class ImageView extends BasePanel {
     this.colormap = textOf(params, 'colormap', this.colormap);
     this.mapChoice.value = this.colormap;
     this.setZoom(textOf(params, 'zoom', this.zoom));
-    const topic = textOf(params, 'topic') || textsOf(params, 'args')[0] || textsOf(params, 'topics')[0];
+    const topic =
+      textOf(params, 'topic') || textsOf(params, 'args')[0] || textsOf(params, 'topics')[0];
     if (topic) this.watch(topic);
     else if (!this.topic) this.watchFirst();
   }
@@ -64,7 +91,10 @@ export class ImageView extends BasePanel {
   }
 
   private topics(): string[] {
-    return this.host.graph.topicsOf(TYPES).filter((topic) => topic.publishers.length > 0).map((topic) => topic.name);
+    return this.host.graph
+      .topicsOf(TYPES)
+      .filter((topic) => topic.publishers.length > 0)
+      .map((topic) => topic.name);
   }
 
   /** Takes the first image topic that there is or will be. */
@@ -86,7 +116,9 @@ export class ImageView extends BasePanel {
     setText(this.info, 'waiting for an image');
     this.channel = this.stream('image', this.params(), {
       onFrame: (frame) => this.draw(frame),
-      onStatus: (level, text) => { if (level !== 'ok') setText(this.info, text); },
+      onStatus: (level, text) => {
+        if (level !== 'ok') setText(this.info, text);
+      },
     });
   }
 
@@ -114,7 +146,8 @@ export class ImageView extends BasePanel {
     this.zoomChoice.value = ZOOMS.some(([value]) => value === zoom) ? zoom : '';
     const fit = zoom === 'fit';
     this.stage.classList.toggle('fit', fit);
-    this.canvas.style.width = fit || this.source[0] === 0 ? '' : `${this.source[0] * Number(zoom)}px`;
+    this.canvas.style.width =
+      fit || this.source[0] === 0 ? '' : `${this.source[0] * Number(zoom)}px`;
     this.host.touched();
   }
 
@@ -138,7 +171,9 @@ export class ImageView extends BasePanel {
       setText(this.pixel, '');
       return;
     }
-    const data = this.canvas.getContext('2d', { willReadFrequently: true })?.getImageData(x, y, 1, 1).data ?? [0, 0, 0];
+    const data = this.canvas
+      .getContext('2d', { willReadFrequently: true })
+      ?.getImageData(x, y, 1, 1).data ?? [0, 0, 0];
     const u = Math.floor((x * this.source[0]) / this.canvas.width);
     const v = Math.floor((y * this.source[1]) / this.canvas.height);
     setText(this.pixel, `x ${u}  y ${v}   rgb ${data[0]} ${data[1]} ${data[2]}`);
@@ -150,6 +185,8 @@ export class ImageView extends BasePanel {
       return;
     }
     const name = `${this.topic.replace(/^\//, '').replaceAll('/', '_')}.png`;
-    this.canvas.toBlob((blob) => { if (blob) download(name, blob); });
+    this.canvas.toBlob((blob) => {
+      if (blob) download(name, blob);
+    });
   }
 }

@@ -6,29 +6,60 @@ import { valueFromText } from '../widgets/value_text';
 import { headings, VirtualList } from '../widgets/virtual_list';
 import { BasePanel } from './base';
 
-interface Row { name: string; value: Json }
+interface Row {
+  name: string;
+  value: Json;
+}
 
 /** rosparam as a panel. */
 export class Parameters extends BasePanel {
   readonly title = 'Parameters';
   private rows: Row[] = [];
   private readonly list: VirtualList<Row>;
-  private readonly search = h('input', { type: 'search', placeholder: 'Filter parameters', 'aria-label': 'Filter parameters' });
-  private readonly newName = h('input', { type: 'text', placeholder: '/name', 'aria-label': 'Name of a parameter to set', class: 'name' });
-  private readonly newValue = h('input', { type: 'text', placeholder: 'value', 'aria-label': 'Value to set' });
+  private readonly search = h('input', {
+    type: 'search',
+    placeholder: 'Filter parameters',
+    'aria-label': 'Filter parameters',
+  });
+  private readonly newName = h('input', {
+    type: 'text',
+    placeholder: '/name',
+    'aria-label': 'Name of a parameter to set',
+    class: 'name',
+  });
+  private readonly newValue = h('input', {
+    type: 'text',
+    placeholder: 'value',
+    'aria-label': 'Value to set',
+  });
   private readonly count = h('span', { class: 'dim' });
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
     this.element.classList.add('parameters');
-    this.list = new VirtualList<Row>({ height: 26, label: 'Parameters', make: () => this.makeRow(), fill: (element, row) => fill(element, row) });
+    this.list = new VirtualList<Row>({
+      height: 26,
+      label: 'Parameters',
+      make: () => this.makeRow(),
+      fill: (element, row) => fill(element, row),
+    });
     this.list.element.addEventListener('change', (event) => void this.edit(event));
     this.list.element.addEventListener('click', (event) => void this.click(event));
     this.search.addEventListener('input', () => this.refresh());
     this.element.append(
-      toolbar('Parameters', this.search, this.count, spacer(), this.newName, this.newValue,
-        button('Set', () => void this.add(), { icon: 'plus' }), button('', () => void this.load(), { icon: 'refresh', title: 'Read again' })),
-      headings(['Name', 'Value', '']), this.list.element);
+      toolbar(
+        'Parameters',
+        this.search,
+        this.count,
+        spacer(),
+        this.newName,
+        this.newValue,
+        button('Set', () => void this.add(), { icon: 'plus' }),
+        button('', () => void this.load(), { icon: 'refresh', title: 'Read again' }),
+      ),
+      headings(['Name', 'Value', '']),
+      this.list.element,
+    );
   }
 
   override open(params: JsonObject): void {
@@ -43,7 +74,11 @@ export class Parameters extends BasePanel {
   private async load(): Promise<void> {
     const list = await this.ask('param.list');
     if (!Array.isArray(list)) return;
-    this.rows = list.map((each) => isObject(each) ? { name: textOf(each, 'name'), value: each['value'] ?? null } : { name: String(each), value: null });
+    this.rows = list.map((each) =>
+      isObject(each)
+        ? { name: textOf(each, 'name'), value: each['value'] ?? null }
+        : { name: String(each), value: null },
+    );
     this.refresh();
   }
 
@@ -55,9 +90,21 @@ export class Parameters extends BasePanel {
   }
 
   private makeRow(): HTMLElement {
-    return h('div', { class: 'cells' }, h('span', { role: 'cell', class: 'ellipsis' }),
-      h('span', { role: 'cell' }, h('input', { type: 'text', class: 'inline', spellcheck: 'false' })),
-      h('span', { role: 'cell' }, button('', () => undefined, { icon: 'trash', title: 'Delete', class: 'ghost' })));
+    return h(
+      'div',
+      { class: 'cells' },
+      h('span', { role: 'cell', class: 'ellipsis' }),
+      h(
+        'span',
+        { role: 'cell' },
+        h('input', { type: 'text', class: 'inline', spellcheck: 'false' }),
+      ),
+      h(
+        'span',
+        { role: 'cell' },
+        button('', () => undefined, { icon: 'trash', title: 'Delete', class: 'ghost' }),
+      ),
+    );
   }
 
   private async edit(event: Event): Promise<void> {
@@ -79,7 +126,10 @@ export class Parameters extends BasePanel {
       this.host.fail(new Error('No name of a parameter is given.'));
       return;
     }
-    const done = await this.ask('param.set', { name: this.newName.value.trim(), value: valueFromText(this.newValue.value) });
+    const done = await this.ask('param.set', {
+      name: this.newName.value.trim(),
+      value: valueFromText(this.newValue.value),
+    });
     if (done !== null) this.newName.value = this.newValue.value = '';
     await this.load();
   }
@@ -91,6 +141,7 @@ function fill(element: HTMLElement, row: Row): void {
   name.title = row.name;
   const input = value.firstElementChild as HTMLInputElement;
   input.setAttribute('aria-label', `Value of ${row.name}`);
-  if (document.activeElement !== input) input.value = typeof row.value === 'string' ? row.value : JSON.stringify(row.value);
+  if (document.activeElement !== input)
+    input.value = typeof row.value === 'string' ? row.value : JSON.stringify(row.value);
   (remove.firstElementChild as HTMLElement).setAttribute('aria-label', `Delete ${row.name}`);
 }

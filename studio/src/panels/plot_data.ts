@@ -73,7 +73,12 @@ function doubled(values: Float64Array<ArrayBuffer>): Float64Array<ArrayBuffer> {
  * The samples from one time to another in at most about `most` points: of every piece of time the
  * least and the greatest value stay, so that no peak is lost.
  */
-export function thin(samples: Samples, from: number, to: number, most: number): [number[], (number | null)[]] {
+export function thin(
+  samples: Samples,
+  from: number,
+  to: number,
+  most: number,
+): [number[], (number | null)[]] {
   const first = Math.max(0, samples.at(from) - 1);
   const last = Math.min(samples.length, samples.at(to) + 1);
   const step = Math.max(1, Math.ceil((2 * (last - first)) / most));

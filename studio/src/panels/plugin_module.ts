@@ -47,7 +47,8 @@ export class Drawing {
       // Another address each time: a browser runs a module of one address only once.
       const module: unknown = await import(/* @vite-ignore */ `${this.source}?at=${Date.now()}`);
       const mount = (module as { mount?: unknown }).mount;
-      if (typeof mount !== 'function') throw new Error('the module exports no function mount(element, api)');
+      if (typeof mount !== 'function')
+        throw new Error('the module exports no function mount(element, api)');
       if (turn !== this.turn) return;
       this.element.hidden = false;
       const end: unknown = mount(this.element, this.api());
@@ -82,10 +83,17 @@ export class Drawing {
     return {
       get: (widget) => this.host.values.get(widget) ?? null,
       set: (widget, value) => this.host.act(widget, value),
-      onChange: (listener) => { this.changes.push(listener); },
+      onChange: (listener) => {
+        this.changes.push(listener);
+      },
       send: (value) => this.host.act('', value),
-      onMessage: (listener) => { this.messages.push(listener); },
-      onTheme: (listener) => { listener(theme()); this.ends.push(onTheme(listener)); },
+      onMessage: (listener) => {
+        this.messages.push(listener);
+      },
+      onTheme: (listener) => {
+        listener(theme());
+        this.ends.push(onTheme(listener));
+      },
     };
   }
 
@@ -99,6 +107,9 @@ export class Drawing {
 
   private tell(problem: unknown): void {
     const error = problem instanceof Error ? problem : new Error(String(problem));
-    this.host.fail({ text: `${this.source}: ${error.name}: ${error.message}`, trace: error.stack ?? '' });
+    this.host.fail({
+      text: `${this.source}: ${error.name}: ${error.message}`,
+      trace: error.stack ?? '',
+    });
   }
 }

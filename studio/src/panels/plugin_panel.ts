@@ -12,7 +12,10 @@ import { viewFor, type ViewHost } from '../widgets/plugin_views';
 import { BasePanel } from './base';
 import { Drawing } from './plugin_module';
 
-interface Shown { spec: JsonObject; view: WidgetView }
+interface Shown {
+  spec: JsonObject;
+  view: WidgetView;
+}
 
 /** A panel of a Python class. */
 export class PluginPanel extends BasePanel implements ViewHost {
@@ -21,40 +24,68 @@ export class PluginPanel extends BasePanel implements ViewHost {
   private readonly values = new Map<string, Json>();
   private readonly widgets = new Map<string, Shown>();
   private readonly file = h('span', { class: 'dim ellipsis' });
-  private readonly again = button('Reload', () => void this.reload(), { icon: 'refresh', title: 'Read the file again and begin anew' });
+  private readonly again = button('Reload', () => void this.reload(), {
+    icon: 'refresh',
+    title: 'Read the file again and begin anew',
+  });
   private readonly problem = h('div', { class: 'own-problem', role: 'alert', hidden: true });
   private readonly body = h('div', { class: 'own-body' });
   private readonly drawing: Drawing;
   private begun = false;
 
-  constructor(private readonly name: string, ...args: ConstructorParameters<typeof BasePanel>) {
+  constructor(
+    private readonly name: string,
+    ...args: ConstructorParameters<typeof BasePanel>
+  ) {
     super(...args);
     this.title = name.split('.').pop() ?? name;
     this.base = `/plugin/${encodeURIComponent(name)}/`;
     this.drawing = new Drawing({
-      values: this.values, act: (widget, value) => this.act(widget, value), fail: (problem) => this.showProblem(problem),
+      values: this.values,
+      act: (widget, value) => this.act(widget, value),
+      fail: (problem) => this.showProblem(problem),
     });
     this.element.classList.add('own-panel');
-    this.element.append(toolbar(this.title, this.file, spacer(), this.again), this.problem,
-      h('div', { class: 'scroll own-scroll' }, this.body, this.drawing.element));
-    this.atEnd(() => { this.clear(); this.drawing.close(); });
+    this.element.append(
+      toolbar(this.title, this.file, spacer(), this.again),
+      this.problem,
+      h('div', { class: 'scroll own-scroll' }, this.body, this.drawing.element),
+    );
+    this.atEnd(() => {
+      this.clear();
+      this.drawing.close();
+    });
   }
 
   override open(_params: JsonObject): void {
     if (this.begun) return;
     this.begun = true;
-    this.stream('plugin', { name: this.name }, {
-      onOpened: (info) => this.opened(info as unknown as PanelInfo),
-      onData: (events) => this.take(events),
-      onFailed: (problem) => this.failed(inOneLine(problem)),
-    });
+    this.stream(
+      'plugin',
+      { name: this.name },
+      {
+        onOpened: (info) => this.opened(info as unknown as PanelInfo),
+        onData: (events) => this.take(events),
+        onFailed: (problem) => this.failed(inOneLine(problem)),
+      },
+    );
   }
 
   /** Pictures of a topic, for the widget `Image`. */
-  pictures(topic: string, draw: (frame: Frame) => Promise<void>, tell: (text: string) => void): () => void {
-    const channel: Channel = this.stream('image', { topic }, {
-      onFrame: draw, onStatus: (_level, text) => tell(text), onFailed: (problem) => tell(inOneLine(problem)),
-    });
+  pictures(
+    topic: string,
+    draw: (frame: Frame) => Promise<void>,
+    tell: (text: string) => void,
+  ): () => void {
+    const channel: Channel = this.stream(
+      'image',
+      { topic },
+      {
+        onFrame: draw,
+        onStatus: (_level, text) => tell(text),
+        onFailed: (problem) => tell(inOneLine(problem)),
+      },
+    );
     return () => this.endStream(channel);
   }
 
@@ -71,18 +102,26 @@ export class PluginPanel extends BasePanel implements ViewHost {
   }
 
   private take(events: Json): void {
-    for (const { what, name, value } of events as unknown as PanelEvent[]) this.happen(what, name, value);
+    for (const { what, name, value } of events as unknown as PanelEvent[])
+      this.happen(what, name, value);
   }
 
   private happen(what: string, name: string, value: Json): void {
     switch (what) {
-      case 'state': return this.rebuild(value as unknown as PanelState);
-      case 'set': return this.set(name, value);
-      case 'add': return this.widgets.get(name)?.view.add?.([value]);
-      case 'widget': return isObject(value) ? this.replace(name, value) : undefined;
-      case 'error': return this.showProblem(value);
-      case 'message': return this.drawing.message(value);
-      case 'changed': return this.markChanged(true);
+      case 'state':
+        return this.rebuild(value as unknown as PanelState);
+      case 'set':
+        return this.set(name, value);
+      case 'add':
+        return this.widgets.get(name)?.view.add?.([value]);
+      case 'widget':
+        return isObject(value) ? this.replace(name, value) : undefined;
+      case 'error':
+        return this.showProblem(value);
+      case 'message':
+        return this.drawing.message(value);
+      case 'changed':
+        return this.markChanged(true);
     }
   }
 
@@ -140,7 +179,8 @@ export class PluginPanel extends BasePanel implements ViewHost {
   /** Never keeps an act for later: a button that was pressed without a connection does nothing. */
   private async act(widget: string, value: Json): Promise<void> {
     try {
-      if (this.connection.state !== 'open') throw new Error('There is no connection to the server.');
+      if (this.connection.state !== 'open')
+        throw new Error('There is no connection to the server.');
       await this.connection.call('plugin.event', { name: this.name, widget, value });
     } catch (problem) {
       this.host.fail(problem, this.title);
@@ -156,7 +196,10 @@ export class PluginPanel extends BasePanel implements ViewHost {
 
   private markChanged(changed: boolean): void {
     this.again.classList.toggle('primary', changed);
-    setText(this.again.querySelector('span') ?? this.again, changed ? 'File changed: reload' : 'Reload');
+    setText(
+      this.again.querySelector('span') ?? this.again,
+      changed ? 'File changed: reload' : 'Reload',
+    );
   }
 
   private showProblem(problem: Json): void {
@@ -165,9 +208,22 @@ export class PluginPanel extends BasePanel implements ViewHost {
     const count = numberOf(problem, 'count', 1);
     const trace = textOf(problem, 'trace');
     this.problem.replaceChildren(
-      h('div', { class: 'own-problem-text' }, textOf(problem, 'text') + (count > 1 ? ` (${count} times)` : '')),
-      button('', () => { this.problem.hidden = true; }, { icon: 'close', title: 'Dismiss', class: 'ghost' }),
-      ...(trace ? [h('details', {}, h('summary', {}, 'Traceback'), h('pre', { class: 'mono' }, trace))] : []));
+      h(
+        'div',
+        { class: 'own-problem-text' },
+        textOf(problem, 'text') + (count > 1 ? ` (${count} times)` : ''),
+      ),
+      button(
+        '',
+        () => {
+          this.problem.hidden = true;
+        },
+        { icon: 'close', title: 'Dismiss', class: 'ghost' },
+      ),
+      ...(trace
+        ? [h('details', {}, h('summary', {}, 'Traceback'), h('pre', { class: 'mono' }, trace))]
+        : []),
+    );
   }
 
   private clear(): void {
@@ -180,7 +236,9 @@ export class PluginPanel extends BasePanel implements ViewHost {
 
 function enable(element: HTMLElement, spec: JsonObject): void {
   element.hidden = spec['hidden'] === true;
-  const controls = element.querySelectorAll<HTMLInputElement | HTMLButtonElement | HTMLSelectElement>('input, button, select');
+  const controls = element.querySelectorAll<
+    HTMLInputElement | HTMLButtonElement | HTMLSelectElement
+  >('input, button, select');
   for (const control of controls) control.disabled = spec['enabled'] === false;
 }
 

@@ -2,14 +2,24 @@
 
 import type { Connection } from '../connection';
 import type { PanelEntry } from '../generated/messages';
-import { forgetPanel, PANEL_GROUPS, panelsChanged, registerFamily, registerPanel, type PanelGroup, type PanelKind } from '../panel';
+import {
+  forgetPanel,
+  PANEL_GROUPS,
+  panelsChanged,
+  registerFamily,
+  registerPanel,
+  type PanelGroup,
+  type PanelKind,
+} from '../panel';
 
 const OWN = 'plugin:';
 const FOREIGN = 'rqt-plugin:';
 
 /** Registers what the server lists, now, at every connection and when the person comes back to the page. */
 export function watchPlugins(connection: Connection): void {
-  registerFamily(OWN, (kind) => ownKind(kind, { title: kind.slice(OWN.length).split('.').pop() ?? kind }));
+  registerFamily(OWN, (kind) =>
+    ownKind(kind, { title: kind.slice(OWN.length).split('.').pop() ?? kind }),
+  );
   registerFamily(FOREIGN, (kind) => foreignKind(kind, { title: kind.slice(FOREIGN.length) }));
   let known: string[] = [];
   let listed = '[]';
@@ -41,17 +51,30 @@ function ownKind(kind: string, entry: Known): PanelKind {
   const name = kind.slice(OWN.length);
   const problem = entry.problem ?? '';
   return {
-    kind, title: entry.title, group: groupOf(entry), single: true, note: name,
-    about: problem || (entry.about ?? ''), faded: problem !== '',
-    make: async (connection, host) => new (await import('./plugin_panel')).PluginPanel(name, connection, host),
+    kind,
+    title: entry.title,
+    group: groupOf(entry),
+    single: true,
+    note: name,
+    about: problem || (entry.about ?? ''),
+    faded: problem !== '',
+    make: async (connection, host) =>
+      new (await import('./plugin_panel')).PluginPanel(name, connection, host),
   };
 }
 
 function foreignKind(kind: string, entry: Known): PanelKind {
   const name = kind.slice(FOREIGN.length);
   return {
-    kind, title: entry.title, group: 'Plugins', single: true, note: 'rqt', about: entry.about ?? '', faded: true,
-    make: async (connection, host) => new (await import('./port_panel')).PortPanel(name, connection, host),
+    kind,
+    title: entry.title,
+    group: 'Plugins',
+    single: true,
+    note: 'rqt',
+    about: entry.about ?? '',
+    faded: true,
+    make: async (connection, host) =>
+      new (await import('./port_panel')).PortPanel(name, connection, host),
   };
 }
 

@@ -12,11 +12,24 @@ export class PortPanel extends BasePanel {
   private readonly body = h('div', { class: 'scroll own-port' });
   private code = '';
 
-  constructor(private readonly name: string, ...args: ConstructorParameters<typeof BasePanel>) {
+  constructor(
+    private readonly name: string,
+    ...args: ConstructorParameters<typeof BasePanel>
+  ) {
     super(...args);
     this.title = name.split('/').pop() ?? name;
-    this.element.append(toolbar(this.title, h('span', { class: 'dim' }, 'A plug-in of rqt'), spacer(),
-      button('Copy the panel', () => void this.copy(), { icon: 'save', title: 'Copy the Python code' })), this.body);
+    this.element.append(
+      toolbar(
+        this.title,
+        h('span', { class: 'dim' }, 'A plug-in of rqt'),
+        spacer(),
+        button('Copy the panel', () => void this.copy(), {
+          icon: 'save',
+          title: 'Copy the Python code',
+        }),
+      ),
+      this.body,
+    );
   }
 
   override open(_params: JsonObject): void {
@@ -28,7 +41,9 @@ export class PortPanel extends BasePanel {
       const answer = await this.connection.call('plugin.port', { name: this.name });
       this.fill(answer as unknown as PortedPlugin);
     } catch (problem) {
-      this.body.replaceChildren(notice(problem instanceof Error ? problem.message : String(problem)));
+      this.body.replaceChildren(
+        notice(problem instanceof Error ? problem.message : String(problem)),
+      );
     }
   }
 
@@ -40,7 +55,8 @@ export class PortPanel extends BasePanel {
       h('p', { class: 'dim' }, `Listed by ${manifest}${source ? `, written in ${source}` : ''}`),
       ...forms.flatMap((form) => formPart(form)),
       h('h3', {}, `A panel to begin with: ${target}`),
-      h('pre', { class: 'mono own-code', tabindex: 0, 'aria-label': 'Python code' }, this.code));
+      h('pre', { class: 'mono own-code', tabindex: 0, 'aria-label': 'Python code' }, this.code),
+    );
   }
 
   private async copy(): Promise<void> {
@@ -56,11 +72,18 @@ export class PortPanel extends BasePanel {
 const COLUMNS = ['line', 'qt', 'name', 'ours', 'note'] as const;
 
 function formPart({ file, widgets }: PortedForm): HTMLElement[] {
-  const heads = ['Line', 'Widget of Qt', 'Name', 'Ours', ''].map((text) => h('th', { scope: 'col' }, text));
+  const heads = ['Line', 'Widget of Qt', 'Name', 'Ours', ''].map((text) =>
+    h('th', { scope: 'col' }, text),
+  );
   const rows = widgets.map((widget) => h('tr', {}, ...COLUMNS.map((key) => cell(key, widget))));
   return [
     h('h3', {}, file),
-    h('table', { class: 'own-table', 'aria-label': 'Widgets' }, h('thead', {}, h('tr', {}, ...heads)), h('tbody', {}, ...rows)),
+    h(
+      'table',
+      { class: 'own-table', 'aria-label': 'Widgets' },
+      h('thead', {}, h('tr', {}, ...heads)),
+      h('tbody', {}, ...rows),
+    ),
   ];
 }
 

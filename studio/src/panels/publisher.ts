@@ -14,28 +14,71 @@ export class Publisher extends BasePanel {
   private readonly type: HTMLInputElement;
   private readonly empty = notice('Name a topic and its type to publish on it.');
 
-  constructor(readonly title: string, private readonly easy: boolean, ...args: ConstructorParameters<typeof BasePanel>) {
+  constructor(
+    readonly title: string,
+    private readonly easy: boolean,
+    ...args: ConstructorParameters<typeof BasePanel>
+  ) {
     super(...args);
     this.topic = nameInput({
-      label: 'Topic', value: '', names: () => this.host.graph.value.topics.filter((each) => !each.hidden).map((each) => each.name),
-      chosen: (name) => { this.type.value = this.host.graph.typeOf(name) ?? this.type.value; },
+      label: 'Topic',
+      value: '',
+      names: () =>
+        this.host.graph.value.topics.filter((each) => !each.hidden).map((each) => each.name),
+      chosen: (name) => {
+        this.type.value = this.host.graph.typeOf(name) ?? this.type.value;
+      },
     });
-    this.type = nameInput({ label: 'Type', names: () => this.typeNames(), chosen: () => undefined });
-    const rate = h('input', { type: 'number', min: 0, step: 'any', value: 1, 'aria-label': 'Rate in Hz', title: 'Rate in Hz', class: 'small' });
-    const add = () => this.add({ topic: this.topic.value.trim(), type: this.type.value.trim(), rate_hz: Number(rate.value) });
-    for (const input of [this.topic, this.type]) input.addEventListener('keydown', (event) => { if (event.key === 'Enter') add(); });
+    this.type = nameInput({
+      label: 'Type',
+      names: () => this.typeNames(),
+      chosen: () => undefined,
+    });
+    const rate = h('input', {
+      type: 'number',
+      min: 0,
+      step: 'any',
+      value: 1,
+      'aria-label': 'Rate in Hz',
+      title: 'Rate in Hz',
+      class: 'small',
+    });
+    const add = () =>
+      this.add({
+        topic: this.topic.value.trim(),
+        type: this.type.value.trim(),
+        rate_hz: Number(rate.value),
+      });
+    for (const input of [this.topic, this.type])
+      input.addEventListener('keydown', (event) => {
+        if (event.key === 'Enter') add();
+      });
     this.element.append(
-      toolbar(title, h('span', {}, this.topic), h('span', {}, this.type), rate, h('span', { class: 'dim' }, 'Hz'),
-        button('Add', add, { icon: 'plus', title: 'Add a publisher' }), spacer()),
-      this.list);
+      toolbar(
+        title,
+        h('span', {}, this.topic),
+        h('span', {}, this.type),
+        rate,
+        h('span', { class: 'dim' }, 'Hz'),
+        button('Add', add, { icon: 'plus', title: 'Add a publisher' }),
+        spacer(),
+      ),
+      this.list,
+    );
     this.list.append(this.empty);
   }
 
   override open(params: JsonObject): void {
     const saved = params['publishers'];
-    if (Array.isArray(saved)) for (const each of saved) if (isObject(each)) this.add(readState(each));
+    if (Array.isArray(saved))
+      for (const each of saved) if (isObject(each)) this.add(readState(each));
     const topic = textOf(params, 'topic');
-    if (topic) this.add({ topic, type: textOf(params, 'type') || (this.host.graph.typeOf(topic) ?? ''), rate_hz: numberOf(params, 'rate_hz', 1) });
+    if (topic)
+      this.add({
+        topic,
+        type: textOf(params, 'type') || (this.host.graph.typeOf(topic) ?? ''),
+        rate_hz: numberOf(params, 'rate_hz', 1),
+      });
   }
 
   override state(): JsonObject {
@@ -49,10 +92,18 @@ export class Publisher extends BasePanel {
 
   private add(state: PublisherState): void {
     if (!state.topic || !state.type) {
-      this.host.fail(new Error(state.topic ? `No type is given for ${state.topic}, and nobody else publishes on it.` : 'No topic is given.'));
+      this.host.fail(
+        new Error(
+          state.topic
+            ? `No type is given for ${state.topic}, and nobody else publishes on it.`
+            : 'No topic is given.',
+        ),
+      );
       return;
     }
-    const card = new PublisherCard(this.connection, this.host, state, this.easy, () => this.drop(card));
+    const card = new PublisherCard(this.connection, this.host, state, this.easy, () =>
+      this.drop(card),
+    );
     this.cards.push(card);
     this.empty.remove();
     this.list.append(card.element);
@@ -74,7 +125,11 @@ export class Publisher extends BasePanel {
 
 function readState(value: JsonObject): PublisherState {
   return {
-    id: textOf(value, 'id'), topic: textOf(value, 'topic'), type: textOf(value, 'type'), rate_hz: numberOf(value, 'rate_hz', 1),
-    texts: value['texts'] ?? {}, ranges: value['ranges'] ?? {},
+    id: textOf(value, 'id'),
+    topic: textOf(value, 'topic'),
+    type: textOf(value, 'type'),
+    rate_hz: numberOf(value, 'rate_hz', 1),
+    texts: value['texts'] ?? {},
+    ranges: value['ranges'] ?? {},
   };
 }

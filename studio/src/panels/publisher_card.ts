@@ -10,7 +10,14 @@ import { MessageForm } from '../widgets/message_form';
 import { SliderForm } from '../widgets/slider_form';
 
 /** What a layout keeps of a publisher. */
-export interface PublisherState { id?: string; topic: string; type: string; rate_hz: number; texts?: Json; ranges?: Json }
+export interface PublisherState {
+  id?: string;
+  topic: string;
+  type: string;
+  rate_hz: number;
+  texts?: Json;
+  ranges?: Json;
+}
 
 const SEND_AFTER_MS = 60;
 let count = 0;
@@ -31,23 +38,48 @@ export class PublisherCard {
   private readonly problem = h('div', { class: 'problem', role: 'alert' });
 
   constructor(
-    private readonly connection: Connection, private readonly host: PanelHost, private readonly start: PublisherState,
-    private readonly easy: boolean, removed: () => void,
+    private readonly connection: Connection,
+    private readonly host: PanelHost,
+    private readonly start: PublisherState,
+    private readonly easy: boolean,
+    removed: () => void,
   ) {
     this.id = start.id || `page-${Date.now().toString(36)}-${++count}`;
-    this.rate = h('input', { type: 'number', min: 0, step: 'any', value: start.rate_hz, class: 'small', 'aria-label': `Rate of ${start.topic} in Hz`, title: 'Rate in Hz' });
+    this.rate = h('input', {
+      type: 'number',
+      min: 0,
+      step: 'any',
+      value: start.rate_hz,
+      class: 'small',
+      'aria-label': `Rate of ${start.topic} in Hz`,
+      title: 'Rate in Hz',
+    });
     this.rate.addEventListener('change', () => this.changed());
     const body = h('div', { class: 'card-body' }, 'Loading the definition …');
-    this.element = h('section', { class: 'card', 'aria-label': `Publisher ${start.topic}` },
-      h('div', { class: 'card-head' },
+    this.element = h(
+      'section',
+      { class: 'card', 'aria-label': `Publisher ${start.topic}` },
+      h(
+        'div',
+        { class: 'card-head' },
         this.tick,
-        h('strong', {}, start.topic), h('span', { class: 'dim ellipsis' }, start.type), h('span', { class: 'spacer' }),
-        this.sent, this.rate, h('span', { class: 'dim' }, 'Hz'),
+        h('strong', {}, start.topic),
+        h('span', { class: 'dim ellipsis' }, start.type),
+        h('span', { class: 'spacer' }),
+        this.sent,
+        this.rate,
+        h('span', { class: 'dim' }, 'Hz'),
         button('Publish once', () => void this.once(), { icon: 'send' }),
-        button('', removed, { icon: 'close', title: `Remove ${start.topic}`, class: 'ghost' })),
-      this.problem, body);
+        button('', removed, { icon: 'close', title: `Remove ${start.topic}`, class: 'ghost' }),
+      ),
+      this.problem,
+      body,
+    );
     this.tick.setAttribute('aria-label', `Publish ${start.topic} repeatedly`);
-    this.tick.addEventListener('change', () => { this.enabled = this.tick.checked; void this.send(); });
+    this.tick.addEventListener('change', () => {
+      this.enabled = this.tick.checked;
+      void this.send();
+    });
     void this.load(body);
   }
 
@@ -55,8 +87,12 @@ export class PublisherCard {
   state(): PublisherState {
     const sliders = this.form instanceof SliderForm ? { ranges: this.form.ranges() } : {};
     return {
-      id: this.id, topic: this.start.topic, type: this.start.type, rate_hz: Number(this.rate.value),
-      texts: this.form ? this.form.texts() : this.start.texts ?? {}, ...sliders,
+      id: this.id,
+      topic: this.start.topic,
+      type: this.start.type,
+      rate_hz: Number(this.rate.value),
+      texts: this.form ? this.form.texts() : (this.start.texts ?? {}),
+      ...sliders,
     };
   }
 
@@ -65,7 +101,10 @@ export class PublisherCard {
     clearTimeout(this.pending);
     clearInterval(this.poll);
     this.element.remove();
-    if (this.made) this.connection.call('publisher.remove', { id: this.id }).catch((problem: unknown) => this.host.fail(problem));
+    if (this.made)
+      this.connection
+        .call('publisher.remove', { id: this.id })
+        .catch((problem: unknown) => this.host.fail(problem));
   }
 
   private async load(body: HTMLElement): Promise<void> {
@@ -73,7 +112,9 @@ export class PublisherCard {
       const type = await this.connection.call('type.get', { type: this.start.type, kind: 'msg' });
       const { fields } = type as unknown as TypeValue;
       const changed = () => this.changed();
-      this.form = this.easy ? new SliderForm(fields, this.start.ranges ?? {}, changed) : new MessageForm(fields, { expressions: true, changed });
+      this.form = this.easy
+        ? new SliderForm(fields, this.start.ranges ?? {}, changed)
+        : new MessageForm(fields, { expressions: true, changed });
       this.form.fill(this.start.texts);
       body.replaceChildren(this.form.element);
       if (this.start.id) await this.findAgain();
@@ -96,17 +137,26 @@ export class PublisherCard {
       setText(this.problem, 'An expression needs a rate: tick the publisher, or give numbers.');
       return;
     }
-    await this.attempt('topic.publish', { topic: this.start.topic, type: this.start.type, message: this.form.message() });
+    await this.attempt('topic.publish', {
+      topic: this.start.topic,
+      type: this.start.type,
+      message: this.form.message(),
+    });
   }
 
   private async send(): Promise<void> {
     if (!this.form) return;
     this.made = true;
     const params: JsonObject = {
-      id: this.id, topic: this.start.topic, type: this.start.type, rate_hz: Number(this.rate.value),
-      message: this.form.message(), expressions: this.form.expressions(), enabled: this.enabled,
+      id: this.id,
+      topic: this.start.topic,
+      type: this.start.type,
+      rate_hz: Number(this.rate.value),
+      message: this.form.message(),
+      expressions: this.form.expressions(),
+      enabled: this.enabled,
     };
-    const made = await this.attempt('publisher.set', params) as unknown as PublisherCount | null;
+    const made = (await this.attempt('publisher.set', params)) as unknown as PublisherCount | null;
     if (made) this.tellCount(made);
     this.watch();
   }
@@ -126,7 +176,9 @@ export class PublisherCard {
   }
 
   private async row(): Promise<PublisherRow | null> {
-    const list = await this.connection.call('publisher.list').catch(() => null) as unknown as PublisherRow[] | null;
+    const list = (await this.connection.call('publisher.list').catch(() => null)) as unknown as
+      | PublisherRow[]
+      | null;
     return list?.find((each) => each.id === this.id) ?? null;
   }
 

@@ -18,8 +18,16 @@ export class Reconfigure extends BasePanel {
   private controls = new Map<string, ValueControl>();
   private waiting = new Map<string, Json>();
   private timer = 0;
-  private readonly nodes = h('div', { class: 'choice-list', role: 'listbox', 'aria-label': 'Nodes' });
-  private readonly search = h('input', { type: 'search', placeholder: 'Filter nodes', 'aria-label': 'Filter nodes' });
+  private readonly nodes = h('div', {
+    class: 'choice-list',
+    role: 'listbox',
+    'aria-label': 'Nodes',
+  });
+  private readonly search = h('input', {
+    type: 'search',
+    placeholder: 'Filter nodes',
+    'aria-label': 'Filter nodes',
+  });
   private readonly body = h('div', { class: 'scroll params' }, notice('Choose a node.'));
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
@@ -27,11 +35,26 @@ export class Reconfigure extends BasePanel {
     this.element.classList.add('reconfigure');
     this.search.addEventListener('input', () => this.showNodes());
     this.element.append(
-      h('div', { class: 'side-by-side' },
-        h('div', { class: 'side' }, toolbar('Nodes', this.search, button('', () => void this.list(), { icon: 'refresh', title: 'Look for nodes again' })), this.nodes),
-        this.body));
+      h(
+        'div',
+        { class: 'side-by-side' },
+        h(
+          'div',
+          { class: 'side' },
+          toolbar(
+            'Nodes',
+            this.search,
+            button('', () => void this.list(), { icon: 'refresh', title: 'Look for nodes again' }),
+          ),
+          this.nodes,
+        ),
+        this.body,
+      ),
+    );
     this.atEnd(this.host.graph.watch(() => void this.list()));
-    const poll = setInterval(() => { if (this.visible && this.node) void this.read(); }, READ_EVERY_MS);
+    const poll = setInterval(() => {
+      if (this.visible && this.node) void this.read();
+    }, READ_EVERY_MS);
     this.atEnd(() => clearInterval(poll));
     this.atEnd(() => clearTimeout(this.timer));
   }
@@ -47,22 +70,43 @@ export class Reconfigure extends BasePanel {
 
   private async list(): Promise<void> {
     const names = await this.connection.call('reconfigure.list').catch(() => []);
-    this.dynamic = Array.isArray(names) ? names.map((each) => isObject(each) ? textOf(each, 'node') || textOf(each, 'name') : String(each)) : [];
+    this.dynamic = Array.isArray(names)
+      ? names.map((each) =>
+          isObject(each) ? textOf(each, 'node') || textOf(each, 'name') : String(each),
+        )
+      : [];
     this.showNodes();
   }
 
   private names(): string[] {
-    const withService = this.host.graph.value.nodes.filter((node) => node.serves.some((name) => name === node.name + LIST_SERVICE)).map((node) => node.name);
+    const withService = this.host.graph.value.nodes
+      .filter((node) => node.serves.some((name) => name === node.name + LIST_SERVICE))
+      .map((node) => node.name);
     const part = this.search.value.toLowerCase();
-    return [...new Set([...this.dynamic, ...withService])].sort().filter((name) => name.toLowerCase().includes(part));
+    return [...new Set([...this.dynamic, ...withService])]
+      .sort()
+      .filter((name) => name.toLowerCase().includes(part));
   }
 
   private showNodes(): void {
     const names = this.names();
-    this.nodes.replaceChildren(...names.map((name) => h('button', {
-      type: 'button', class: 'choice', role: 'option', 'aria-selected': String(name === this.node), on: { click: () => void this.choose(name) },
-    }, name)));
-    if (names.length === 0) this.nodes.append(notice('No node has parameters that can be set while it runs.'));
+    this.nodes.replaceChildren(
+      ...names.map((name) =>
+        h(
+          'button',
+          {
+            type: 'button',
+            class: 'choice',
+            role: 'option',
+            'aria-selected': String(name === this.node),
+            on: { click: () => void this.choose(name) },
+          },
+          name,
+        ),
+      ),
+    );
+    if (names.length === 0)
+      this.nodes.append(notice('No node has parameters that can be set while it runs.'));
     if (this.node && this.controls.size === 0 && names.includes(this.node)) void this.build();
   }
 
@@ -74,7 +118,8 @@ export class Reconfigure extends BasePanel {
   }
 
   private groups(): Promise<ParameterGroup[]> {
-    if (this.dynamic.includes(this.node)) return this.connection.call('reconfigure.get', { node: this.node }).then(readGroups);
+    if (this.dynamic.includes(this.node))
+      return this.connection.call('reconfigure.get', { node: this.node }).then(readGroups);
     return this.connection.call('node.params', { node: this.node }).then(readNodeParameters);
   }
 
@@ -84,7 +129,10 @@ export class Reconfigure extends BasePanel {
     try {
       const groups = await this.groups();
       if (node !== this.node) return;
-      this.body.replaceChildren(h('h3', { class: 'param-node' }, node), ...groups.map((group) => this.group(group)));
+      this.body.replaceChildren(
+        h('h3', { class: 'param-node' }, node),
+        ...groups.map((group) => this.group(group)),
+      );
     } catch (problem) {
       this.body.replaceChildren(notice(`${node} does not tell its parameters now.`));
       if (this.names().includes(node)) this.host.fail(problem, node);
@@ -98,7 +146,12 @@ export class Reconfigure extends BasePanel {
       return control.element;
     });
     if (!group.name || group.name === 'Default') return h('div', { class: 'param-group' }, ...rows);
-    return h('details', { class: 'param-group', open: true }, h('summary', {}, group.name), ...rows);
+    return h(
+      'details',
+      { class: 'param-group', open: true },
+      h('summary', {}, group.name),
+      ...rows,
+    );
   }
 
   /** Sliders move faster than nodes answer: the newest value of each goes at a steady pace. */
@@ -112,13 +165,15 @@ export class Reconfigure extends BasePanel {
     const values = Object.fromEntries(this.waiting);
     this.waiting = new Map();
     try {
-      if (this.dynamic.includes(this.node)) this.show(await this.connection.call('reconfigure.set', { node: this.node, values }));
+      if (this.dynamic.includes(this.node))
+        this.show(await this.connection.call('reconfigure.set', { node: this.node, values }));
       else await this.sendEach(values);
     } catch (problem) {
       this.host.fail(problem, this.node);
     }
     this.timer = 0;
-    if (this.waiting.size > 0) this.timer = window.setTimeout(() => void this.send(), SEND_EVERY_MS);
+    if (this.waiting.size > 0)
+      this.timer = window.setTimeout(() => void this.send(), SEND_EVERY_MS);
     else await this.read();
   }
 
@@ -126,7 +181,11 @@ export class Reconfigure extends BasePanel {
     for (const [name, value] of Object.entries(values)) {
       const answer = await this.connection.call('node.param_set', { node: this.node, name, value });
       if (isObject(answer) && answer['successful'] === false) {
-        this.host.fail(new Error(textOf(answer, 'reason') || `${this.node} refuses ${name} = ${JSON.stringify(value)}.`));
+        this.host.fail(
+          new Error(
+            textOf(answer, 'reason') || `${this.node} refuses ${name} = ${JSON.stringify(value)}.`,
+          ),
+        );
       }
     }
   }
@@ -134,7 +193,8 @@ export class Reconfigure extends BasePanel {
   private async read(): Promise<void> {
     const groups = await this.groups().catch(() => []);
     if (this.waiting.size > 0 || this.timer) return;
-    for (const group of groups) for (const spec of group.parameters) this.controls.get(spec.name)?.show(spec.value);
+    for (const group of groups)
+      for (const spec of group.parameters) this.controls.get(spec.name)?.show(spec.value);
   }
 
   private show(values: Json): void {

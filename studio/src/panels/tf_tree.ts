@@ -21,13 +21,24 @@ export class TfTree extends BasePanel {
     super(...args);
     this.element.classList.add('graph');
     this.element.append(
-      toolbar('TF Tree', this.summary, spacer(),
+      toolbar(
+        'TF Tree',
+        this.summary,
+        spacer(),
         button('', () => this.drawing.view.zoom(1.25), { icon: 'plus', title: 'Zoom in' }),
         button('', () => this.drawing.view.zoom(0.8), { icon: 'minus', title: 'Zoom out' }),
         button('', () => this.drawing.view.fit(), { icon: 'fit', title: 'Fit in view' }),
-        button('SVG', () => download('frames.svg', this.drawing.svgText(), 'image/svg+xml'), { icon: 'save', title: 'Save as SVG' }),
-        button('DOT', () => download('frames.gv', this.drawing.dotText(), 'text/vnd.graphviz'), { icon: 'save', title: 'Save as DOT' })),
-      h('div', { class: 'drawing-area' }, this.drawing.view.element, this.empty));
+        button('SVG', () => download('frames.svg', this.drawing.svgText(), 'image/svg+xml'), {
+          icon: 'save',
+          title: 'Save as SVG',
+        }),
+        button('DOT', () => download('frames.gv', this.drawing.dotText(), 'text/vnd.graphviz'), {
+          icon: 'save',
+          title: 'Save as DOT',
+        }),
+      ),
+      h('div', { class: 'drawing-area' }, this.drawing.view.element, this.empty),
+    );
     this.stream('tf.tree', {}, { onData: (value) => this.take(value) });
   }
 
@@ -43,19 +54,33 @@ export class TfTree extends BasePanel {
 }
 
 function summary(rows: FrameRow[], roots: string[]): string {
-  const trees = roots.length > 1 ? `; ${roots.length} trees that nothing connects: ${roots.join(', ')}` : '';
+  const trees =
+    roots.length > 1 ? `; ${roots.length} trees that nothing connects: ${roots.join(', ')}` : '';
   return rows.length > 0 ? `${rows.length + roots.length} frames${trees}` : '';
 }
 
 function drawing(rows: FrameRow[], roots: string[]): Drawing {
   return {
-    nodes: [...roots, ...rows.map((row) => row.frame)].map((name) => ({ id: name, label: name, shape: 'node' as const })),
-    edges: rows.map((row) => ({ from: row.parent, to: row.frame, label: `${row.broadcaster || '?'}\n${motion(row)}` })),
+    nodes: [...roots, ...rows.map((row) => row.frame)].map((name) => ({
+      id: name,
+      label: name,
+      shape: 'node' as const,
+    })),
+    edges: rows.map((row) => ({
+      from: row.parent,
+      to: row.frame,
+      label: `${row.broadcaster || '?'}\n${motion(row)}`,
+    })),
   };
 }
 
 function motion(row: FrameRow): string {
   if (row.static) return 'static';
-  const age = row.age_s === null ? '' : row.age_s > OLD_S ? ` · ${row.age_s.toFixed(1)} s old!` : ` · ${row.age_s.toFixed(2)} s old`;
+  const age =
+    row.age_s === null
+      ? ''
+      : row.age_s > OLD_S
+        ? ` · ${row.age_s.toFixed(1)} s old!`
+        : ` · ${row.age_s.toFixed(2)} s old`;
   return `${rate(row.rate_hz) || '?'} Hz${age}`;
 }

@@ -11,7 +11,11 @@ import { messageRows, type MessageRow } from '../widgets/message_rows';
 import { headings, VirtualList } from '../widgets/virtual_list';
 import { BasePanel } from './base';
 
-interface Row { topic: TopicRow | null; field: MessageRow | null; path: string }
+interface Row {
+  topic: TopicRow | null;
+  field: MessageRow | null;
+  path: string;
+}
 
 const LIVE_MS = 100;
 
@@ -26,19 +30,39 @@ export class TopicMonitor extends BasePanel {
   private statsChannel: Channel | null = null;
   private readonly list: VirtualList<Row>;
   private readonly rebuildSoon = perFrame(() => this.rebuild(), LIVE_MS);
-  private readonly rebuild = perFrame(() => { if (this.visible) this.list.set(this.rows(), true); });
-  private readonly search = h('input', { type: 'search', placeholder: 'Filter topics', 'aria-label': 'Filter topics' });
+  private readonly rebuild = perFrame(() => {
+    if (this.visible) this.list.set(this.rows(), true);
+  });
+  private readonly search = h('input', {
+    type: 'search',
+    placeholder: 'Filter topics',
+    'aria-label': 'Filter topics',
+  });
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
     this.element.classList.add('topics');
     this.list = new VirtualList<Row>({
-      height: 24, role: 'treegrid', label: 'Topics', make: () => this.makeRow(), fill: (element, row) => this.fillRow(element, row),
+      height: 24,
+      role: 'treegrid',
+      label: 'Topics',
+      make: () => this.makeRow(),
+      fill: (element, row) => this.fillRow(element, row),
     });
-    this.search.addEventListener('input', () => { this.filter = this.search.value.toLowerCase(); this.rebuild(); });
-    const hint = h('span', { class: 'dim' }, 'Tick a topic to see its values; drag a value onto a plot');
-    this.element.append(toolbar('Topic Monitor', this.search, spacer(), hint),
-      headings(['Topic', 'Type', 'Bandwidth', 'Hz', 'Value']), this.list.element);
+    this.search.addEventListener('input', () => {
+      this.filter = this.search.value.toLowerCase();
+      this.rebuild();
+    });
+    const hint = h(
+      'span',
+      { class: 'dim' },
+      'Tick a topic to see its values; drag a value onto a plot',
+    );
+    this.element.append(
+      toolbar('Topic Monitor', this.search, spacer(), hint),
+      headings(['Topic', 'Type', 'Bandwidth', 'Hz', 'Value']),
+      this.list.element,
+    );
     this.list.element.addEventListener('click', (event) => this.click(event));
     this.list.element.addEventListener('dragstart', (event) => this.drag(event));
     this.atEnd(this.host.graph.watch(() => this.rebuild()));
@@ -69,16 +93,23 @@ export class TopicMonitor extends BasePanel {
       rows.push({ topic, field: null, path: topic.name });
       const message = this.messages.get(topic.name);
       if (message === undefined || !this.expanded.has(topic.name)) continue;
-      for (const field of messageRows(message, topic.name, 1, this.expanded)) rows.push({ topic: null, field, path: field.path });
+      for (const field of messageRows(message, topic.name, 1, this.expanded))
+        rows.push({ topic: null, field, path: field.path });
     }
     return rows;
   }
 
   private makeRow(): HTMLElement {
-    const name = h('span', { role: 'gridcell', class: 'tree-cell' },
+    const name = h(
+      'span',
+      { role: 'gridcell', class: 'tree-cell' },
       h('button', { type: 'button', class: 'twist', 'aria-label': 'Expand' }),
-      h('input', { type: 'checkbox', 'aria-label': 'Subscribe' }), h('span', { class: 'label' }));
-    const cells = ['type', 'number', 'number', 'value'].map((kind) => h('span', { role: 'gridcell', class: kind }));
+      h('input', { type: 'checkbox', 'aria-label': 'Subscribe' }),
+      h('span', { class: 'label' }),
+    );
+    const cells = ['type', 'number', 'number', 'value'].map((kind) =>
+      h('span', { role: 'gridcell', class: kind }),
+    );
     return h('div', { class: 'cells' }, name, ...cells);
   }
 
@@ -89,7 +120,10 @@ export class TopicMonitor extends BasePanel {
     this.fillName(element, row, on);
     setText(bytes, on ? bandwidth(stats?.bytes_per_s) || '–' : '');
     setText(hz, on ? rate(stats?.hz) || '–' : '');
-    setText(value, row.field ? row.field.value : on && !this.messages.has(row.path) ? 'no message yet' : '');
+    setText(
+      value,
+      row.field ? row.field.value : on && !this.messages.has(row.path) ? 'no message yet' : '',
+    );
   }
 
   /** What seldom changes; a row that shows the same field as before is left alone. */
@@ -102,7 +136,11 @@ export class TopicMonitor extends BasePanel {
     element.dataset['key'] = key;
     element.dataset['path'] = row.path;
     const [name, type] = element.children as unknown as HTMLElement[];
-    const [twist, tick, label] = name.children as unknown as [HTMLElement, HTMLInputElement, HTMLElement];
+    const [twist, tick, label] = name.children as unknown as [
+      HTMLElement,
+      HTMLInputElement,
+      HTMLElement,
+    ];
     name.style.paddingLeft = `${4 + depth * 16}px`;
     twist.style.visibility = branch ? 'visible' : 'hidden';
     twist.setAttribute('aria-expanded', String(open));
@@ -135,10 +173,20 @@ export class TopicMonitor extends BasePanel {
   private tick(topic: string, on: boolean): void {
     if (on === this.ticked.has(topic)) return;
     if (on) {
-      this.ticked.set(topic, this.stream('topic.echo', { topic, rate_hz: 10 }, {
-        onData: (value) => this.takeMessage(topic, value),
-        onFailed: (problem) => { this.host.fail(problem); this.tick(topic, false); },
-      }));
+      this.ticked.set(
+        topic,
+        this.stream(
+          'topic.echo',
+          { topic, rate_hz: 10 },
+          {
+            onData: (value) => this.takeMessage(topic, value),
+            onFailed: (problem) => {
+              this.host.fail(problem);
+              this.tick(topic, false);
+            },
+          },
+        ),
+      );
     } else {
       this.endStream(this.ticked.get(topic));
       this.ticked.delete(topic);
@@ -157,7 +205,9 @@ export class TopicMonitor extends BasePanel {
     } else if (this.statsChannel) {
       this.statsChannel.change(params);
     } else {
-      this.statsChannel = this.stream('topic.stats', params, { onData: (value) => this.takeStats(value) });
+      this.statsChannel = this.stream('topic.stats', params, {
+        onData: (value) => this.takeStats(value),
+      });
     }
   }
 
@@ -179,5 +229,9 @@ export class TopicMonitor extends BasePanel {
 }
 
 function matches(topic: TopicRow, filter: string): boolean {
-  return filter === '' || topic.name.toLowerCase().includes(filter) || topic.type.toLowerCase().includes(filter);
+  return (
+    filter === '' ||
+    topic.name.toLowerCase().includes(filter) ||
+    topic.type.toLowerCase().includes(filter)
+  );
 }

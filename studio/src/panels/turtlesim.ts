@@ -9,7 +9,10 @@ import { BasePanel } from './base';
 const LINEAR = 2;
 const ANGULAR = 2;
 const KEYS: Readonly<Record<string, readonly [number, number]>> = {
-  ArrowUp: [LINEAR, 0], ArrowDown: [-LINEAR, 0], ArrowLeft: [0, ANGULAR], ArrowRight: [0, -ANGULAR],
+  ArrowUp: [LINEAR, 0],
+  ArrowDown: [-LINEAR, 0],
+  ArrowLeft: [0, ANGULAR],
+  ArrowRight: [0, -ANGULAR],
 };
 
 /** TurtleSim. */
@@ -19,7 +22,16 @@ export class Turtlesim extends BasePanel {
   private turtle = '/turtle1';
   private channel: Channel | null = null;
   private readonly canvas = h('canvas', { class: 'picture', width: 500, height: 500, role: 'img' });
-  private readonly stage = h('div', { class: 'stage fit', tabindex: 0, 'data-keys': 'turtle', 'aria-label': 'TurtleSim: drive with the arrow keys' }, this.canvas);
+  private readonly stage = h(
+    'div',
+    {
+      class: 'stage fit',
+      tabindex: 0,
+      'data-keys': 'turtle',
+      'aria-label': 'TurtleSim: drive with the arrow keys',
+    },
+    this.canvas,
+  );
   private readonly empty = notice('Waiting for turtlesim.');
   private readonly who = h('span', { class: 'dim' });
 
@@ -28,9 +40,15 @@ export class Turtlesim extends BasePanel {
     this.element.classList.add('image');
     this.canvas.setAttribute('aria-label', 'Turtles');
     this.element.append(
-      toolbar('TurtleSim', button('Clear', () => void this.call('/clear'), { icon: 'clear' }), button('Reset', () => void this.call('/reset'), { icon: 'reset' }),
-        spacer(), this.who),
-      h('div', { class: 'stage-box' }, this.stage, this.empty));
+      toolbar(
+        'TurtleSim',
+        button('Clear', () => void this.call('/clear'), { icon: 'clear' }),
+        button('Reset', () => void this.call('/reset'), { icon: 'reset' }),
+        spacer(),
+        this.who,
+      ),
+      h('div', { class: 'stage-box' }, this.stage, this.empty),
+    );
     this.stage.addEventListener('keydown', (event) => this.key(event));
     this.stage.addEventListener('pointerdown', () => this.stage.focus());
   }
@@ -40,7 +58,11 @@ export class Turtlesim extends BasePanel {
     this.turtle = textOf(params, 'turtle', this.turtle);
     setText(this.who, `Arrow keys drive ${this.turtle}`);
     if (this.channel) this.endStream(this.channel);
-    this.channel = this.stream('turtles', { node: this.node }, { onFrame: (frame) => this.draw(frame) });
+    this.channel = this.stream(
+      'turtles',
+      { node: this.node },
+      { onFrame: (frame) => this.draw(frame) },
+    );
   }
 
   override state(): JsonObject {
@@ -67,7 +89,14 @@ export class Turtlesim extends BasePanel {
     if (!command) return;
     event.preventDefault();
     event.stopPropagation();
-    const message = { linear: { x: command[0], y: 0, z: 0 }, angular: { x: 0, y: 0, z: command[1] } };
-    void this.ask('topic.publish', { topic: `${this.turtle}/cmd_vel`, type: 'geometry_msgs/Twist', message });
+    const message = {
+      linear: { x: command[0], y: 0, z: 0 },
+      angular: { x: 0, y: 0, z: command[1] },
+    };
+    void this.ask('topic.publish', {
+      topic: `${this.turtle}/cmd_vel`,
+      type: 'geometry_msgs/Twist',
+      message,
+    });
   }
 }

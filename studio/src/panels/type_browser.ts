@@ -11,22 +11,43 @@ type Kind = 'msg' | 'srv' | 'action';
 export class TypeBrowser extends BasePanel {
   private names: string[] = [];
   private chosen = '';
-  private readonly search = h('input', { type: 'search', placeholder: 'Filter types', 'aria-label': 'Filter types' });
+  private readonly search = h('input', {
+    type: 'search',
+    placeholder: 'Filter types',
+    'aria-label': 'Filter types',
+  });
   private readonly list: VirtualList<string>;
   private readonly fields = h('div', { class: 'scroll half type-tree' }, notice('Choose a type.'));
-  private readonly text = h('pre', { class: 'scroll half mono', tabindex: 0, 'aria-label': 'Definition' });
+  private readonly text = h('pre', {
+    class: 'scroll half mono',
+    tabindex: 0,
+    'aria-label': 'Definition',
+  });
 
-  constructor(readonly title: string, private readonly kind: Kind, ...args: ConstructorParameters<typeof BasePanel>) {
+  constructor(
+    readonly title: string,
+    private readonly kind: Kind,
+    ...args: ConstructorParameters<typeof BasePanel>
+  ) {
     super(...args);
     this.list = new VirtualList<string>({
-      height: 22, role: 'listbox', label: title,
-      make: () => h('div', { class: 'choice' }), fill: (element, name) => this.fill(element, name),
+      height: 22,
+      role: 'listbox',
+      label: title,
+      make: () => h('div', { class: 'choice' }),
+      fill: (element, name) => this.fill(element, name),
     });
     this.list.element.classList.add('type-list');
-    this.list.element.addEventListener('click', (event) => void this.choose(this.list.rowAt(event.target) ?? ''));
+    this.list.element.addEventListener(
+      'click',
+      (event) => void this.choose(this.list.rowAt(event.target) ?? ''),
+    );
     this.list.element.addEventListener('keydown', (event) => this.key(event));
     this.search.addEventListener('input', () => this.refresh());
-    this.element.append(toolbar(title, this.search), h('div', { class: 'halves' }, this.list.element, this.fields, this.text));
+    this.element.append(
+      toolbar(title, this.search),
+      h('div', { class: 'halves' }, this.list.element, this.fields, this.text),
+    );
     void this.load();
   }
 
@@ -84,9 +105,22 @@ export class TypeBrowser extends BasePanel {
 function rows(fields: Json): HTMLElement[] {
   if (!Array.isArray(fields)) return [];
   return fields.filter(isObject).map((field) => {
-    const array = field['array'] === null ? '' : typeof field['array'] === 'number' ? `[${field['array']}]` : '[]';
-    const line = [h('span', { class: 'form-name' }, textOf(field, 'name')), h('span', { class: 'form-type' }, `${textOf(field, 'type')}${array}`)];
+    const array =
+      field['array'] === null
+        ? ''
+        : typeof field['array'] === 'number'
+          ? `[${field['array']}]`
+          : '[]';
+    const line = [
+      h('span', { class: 'form-name' }, textOf(field, 'name')),
+      h('span', { class: 'form-type' }, `${textOf(field, 'type')}${array}`),
+    ];
     if (!Array.isArray(field['fields'])) return h('div', { class: 'type-row' }, ...line);
-    return h('details', { open: field['array'] === null }, h('summary', {}, ...line), h('div', { class: 'form-inside' }, ...rows(field['fields'])));
+    return h(
+      'details',
+      { open: field['array'] === null },
+      h('summary', {}, ...line),
+      h('div', { class: 'form-inside' }, ...rows(field['fields'])),
+    );
   });
 }

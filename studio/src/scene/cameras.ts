@@ -32,7 +32,13 @@ export class CameraRig {
   readonly perspective = new THREE.PerspectiveCamera(50, 1, 0.01, 1000);
   readonly ortho = new THREE.OrthographicCamera(-1, 1, 1, -1, -500, 1000);
   state: ViewState = {
-    kind: 'Orbit', distance: 8, yaw: -0.9, pitch: 0.5, focal: [0, 0, 0.3], scale: 60, angle: 0,
+    kind: 'Orbit',
+    distance: 8,
+    yaw: -0.9,
+    pitch: 0.5,
+    focal: [0, 0, 0.3],
+    scale: 60,
+    angle: 0,
   };
   /** Whether anybody has moved the camera. */
   touched = false;
@@ -56,7 +62,12 @@ export class CameraRig {
   set(change: Partial<ViewState>): void {
     this.glide = null;
     this.touched = true;
-    const kind = change.kind && change.kind in VIEW_KINDS ? change.kind : change.kind ? 'Orbit' : this.state.kind;
+    const kind =
+      change.kind && change.kind in VIEW_KINDS
+        ? change.kind
+        : change.kind
+          ? 'Orbit'
+          : this.state.kind;
     this.state = { ...this.state, ...change, kind };
     this.apply();
   }
@@ -67,10 +78,12 @@ export class CameraRig {
     if (kind === before.kind) return;
     const change: Partial<ViewState> = { kind };
     if (kind === 'TopDownOrtho') {
-      change.scale = this.height / (2 * before.distance * Math.tan((this.perspective.fov * Math.PI) / 360));
+      change.scale =
+        this.height / (2 * before.distance * Math.tan((this.perspective.fov * Math.PI) / 360));
       change.angle = before.yaw + Math.PI / 2;
     } else if (before.kind === 'TopDownOrtho') {
-      change.distance = this.height / (2 * before.scale * Math.tan((this.perspective.fov * Math.PI) / 360));
+      change.distance =
+        this.height / (2 * before.scale * Math.tan((this.perspective.fov * Math.PI) / 360));
     }
     this.set(change);
   }
@@ -136,12 +149,15 @@ export class CameraRig {
   /** Move along the picture by pixels. */
   pan(dx: number, dy: number): void {
     const { kind, distance, scale, focal } = this.state;
-    const perPixel = kind === 'TopDownOrtho'
-      ? 1 / scale
-      : (2 * distance * Math.tan((this.perspective.fov * Math.PI) / 360)) / this.height;
+    const perPixel =
+      kind === 'TopDownOrtho'
+        ? 1 / scale
+        : (2 * distance * Math.tan((this.perspective.fov * Math.PI) / 360)) / this.height;
     const right = new THREE.Vector3().setFromMatrixColumn(this.camera.matrix, 0);
     const up = new THREE.Vector3().setFromMatrixColumn(this.camera.matrix, 1);
-    const next = new THREE.Vector3(...focal).addScaledVector(right, -dx * perPixel).addScaledVector(up, dy * perPixel);
+    const next = new THREE.Vector3(...focal)
+      .addScaledVector(right, -dx * perPixel)
+      .addScaledVector(up, dy * perPixel);
     this.set({ focal: [next.x, next.y, next.z] });
   }
 
@@ -213,7 +229,11 @@ export class CameraRig {
 
 /** From what is looked at to the eye. */
 function direction(yaw: number, pitch: number): THREE.Vector3 {
-  return new THREE.Vector3(Math.cos(yaw) * Math.cos(pitch), Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch));
+  return new THREE.Vector3(
+    Math.cos(yaw) * Math.cos(pitch),
+    Math.sin(yaw) * Math.cos(pitch),
+    Math.sin(pitch),
+  );
 }
 
 /** The view of a camera at a pose (x, y, z, quaternion) that looks along +x, z up. */
@@ -225,16 +245,32 @@ export function stateAt(pose: readonly number[]): Partial<ViewState> {
   // Straight up or down, what is up in the picture says which way it is turned.
   const heading = Math.abs(ahead.z) > 0.999 ? up.multiplyScalar(-Math.sign(ahead.z)) : ahead;
   const distance = ahead.z < -0.05 && z > 0 ? Math.min(100, z / -ahead.z) : 5;
-  const pitch = Math.max(-MOST_PITCH, Math.min(MOST_PITCH, Math.asin(Math.max(-1, Math.min(1, -ahead.z)))));
-  const focal: [number, number, number] = [x + ahead.x * distance, y + ahead.y * distance, z + ahead.z * distance];
+  const pitch = Math.max(
+    -MOST_PITCH,
+    Math.min(MOST_PITCH, Math.asin(Math.max(-1, Math.min(1, -ahead.z)))),
+  );
+  const focal: [number, number, number] = [
+    x + ahead.x * distance,
+    y + ahead.y * distance,
+    z + ahead.z * distance,
+  ];
   return { kind: 'Orbit', distance, yaw: Math.atan2(-heading.y, -heading.x), pitch, focal };
 }
 
 function mixed(from: ViewState, to: ViewState, part: number): ViewState {
   const mix = (a: number, b: number): number => a + (b - a) * part;
-  const focal = from.focal.map((value, axis) => mix(value, to.focal[axis])) as [number, number, number];
+  const focal = from.focal.map((value, axis) => mix(value, to.focal[axis])) as [
+    number,
+    number,
+    number,
+  ];
   return {
-    kind: to.kind, focal, distance: mix(from.distance, to.distance), yaw: mix(from.yaw, to.yaw),
-    pitch: mix(from.pitch, to.pitch), scale: mix(from.scale, to.scale), angle: mix(from.angle, to.angle),
+    kind: to.kind,
+    focal,
+    distance: mix(from.distance, to.distance),
+    yaw: mix(from.yaw, to.yaw),
+    pitch: mix(from.pitch, to.pitch),
+    scale: mix(from.scale, to.scale),
+    angle: mix(from.angle, to.angle),
   };
 }

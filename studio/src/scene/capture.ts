@@ -8,7 +8,10 @@ export function screenshot(view: View): Promise<Blob> {
   return new Promise((resolve, reject) => {
     const stop = view.afterDraw(() => {
       stop();
-      view.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The picture could not be made.'))), 'image/png');
+      view.canvas.toBlob(
+        (blob) => (blob ? resolve(blob) : reject(new Error('The picture could not be made.'))),
+        'image/png',
+      );
     });
     view.drawNow();
   });
@@ -28,7 +31,9 @@ export class Film {
 
   start(): void {
     const stream = this.view.canvas.captureStream(VIDEO_FPS);
-    const type = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find((each) => MediaRecorder.isTypeSupported(each));
+    const type = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find((each) =>
+      MediaRecorder.isTypeSupported(each),
+    );
     this.parts = [];
     this.recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 6_000_000 });
     this.recorder.ondataavailable = (event) => this.parts.push(event.data);

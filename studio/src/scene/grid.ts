@@ -23,7 +23,9 @@ export function gridLines(look: GridLook): THREE.LineSegments {
   const pieces = Math.min(look.cells, MOST_PIECES);
   const put = (a: number[], b: number[], colour: number[]): void => {
     for (let piece = 0; piece < pieces; piece++) {
-      const ends = [piece, piece + 1].map((n) => a.map((value, axis) => value + ((b[axis] - value) * n) / pieces));
+      const ends = [piece, piece + 1].map((n) =>
+        a.map((value, axis) => value + ((b[axis] - value) * n) / pieces),
+      );
       points.push(...turned(ends[0], look.plane), ...turned(ends[1], look.plane));
       colours.push(...colour, ...colour);
     }
@@ -37,7 +39,12 @@ export function gridLines(look: GridLook): THREE.LineSegments {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
   geometry.setAttribute('color', new THREE.Float32BufferAttribute(colours, 3));
-  const material = new THREE.LineBasicMaterial({ vertexColors: true, opacity: look.alpha, transparent: true, depthWrite: false });
+  const material = new THREE.LineBasicMaterial({
+    vertexColors: true,
+    opacity: look.alpha,
+    transparent: true,
+    depthWrite: false,
+  });
   const lines = new THREE.LineSegments(geometry, material);
   lines.name = 'grid';
   lines.renderOrder = -1;

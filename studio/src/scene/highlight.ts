@@ -12,7 +12,11 @@ export class Highlight {
   private boxes: THREE.LineSegments[] = [];
   private readonly stop: () => void;
 
-  constructor(private readonly view: View, private readonly assembly: Assembly, private readonly world: WorldStore) {
+  constructor(
+    private readonly view: View,
+    private readonly assembly: Assembly,
+    private readonly world: WorldStore,
+  ) {
     this.stop = world.onSelection(() => this.draw());
   }
 

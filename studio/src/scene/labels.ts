@@ -19,7 +19,12 @@ export interface LabelLook {
 /** Make a sprite that shows a text, turned to the viewer; its middle is at its position. */
 export function label(text: string, look: LabelLook = {}): THREE.Sprite {
   const drawn = textTexture(text);
-  const material = new THREE.SpriteMaterial({ map: drawn.map, transparent: true, depthTest: !look.onTop, depthWrite: false });
+  const material = new THREE.SpriteMaterial({
+    map: drawn.map,
+    transparent: true,
+    depthTest: !look.onTop,
+    depthWrite: false,
+  });
   const [r, g, b] = look.colour ?? [1, 1, 1];
   material.color.setRGB(r, g, b);
   material.opacity = look.alpha ?? 1;
@@ -27,7 +32,9 @@ export function label(text: string, look: LabelLook = {}): THREE.Sprite {
   const sprite = new THREE.Sprite(material);
   const height = (look.height ?? 0.1) * drawn.lines * (look.pixels ? 1 / 700 : 1);
   sprite.scale.set(height * drawn.aspect, height, 1);
-  if (look.pixels) sprite.onBeforeRender = (renderer, _scene, camera) => keepPixels(sprite, renderer, camera, height, drawn.aspect);
+  if (look.pixels)
+    sprite.onBeforeRender = (renderer, _scene, camera) =>
+      keepPixels(sprite, renderer, camera, height, drawn.aspect);
   sprite.name = text;
   sprite.userData.text = text;
   sprite.renderOrder = look.onTop ? 20 : 5;
@@ -36,9 +43,17 @@ export function label(text: string, look: LabelLook = {}): THREE.Sprite {
 }
 
 /** A camera without perspective knows no size by distance: the scale makes the pixels there. */
-function keepPixels(sprite: THREE.Sprite, renderer: THREE.WebGLRenderer, camera: THREE.Camera, height: number, aspect: number): void {
+function keepPixels(
+  sprite: THREE.Sprite,
+  renderer: THREE.WebGLRenderer,
+  camera: THREE.Camera,
+  height: number,
+  aspect: number,
+): void {
   const isFlat = camera instanceof THREE.OrthographicCamera;
-  const perPixel = isFlat ? (camera.top - camera.bottom) / (renderer.domElement.clientHeight || 1) : 1 / 700;
+  const perPixel = isFlat
+    ? (camera.top - camera.bottom) / (renderer.domElement.clientHeight || 1)
+    : 1 / 700;
   const size = height * 700 * perPixel;
   if (sprite.scale.y === size) return;
   sprite.scale.set(size * aspect, size, 1);
@@ -62,7 +77,10 @@ function textTexture(text: string): { map: THREE.CanvasTexture; aspect: number; 
   const paint = canvas.getContext('2d') as CanvasRenderingContext2D;
   const font = `600 ${PIXELS * 0.78}px system-ui, "DejaVu Sans", sans-serif`;
   paint.font = font;
-  canvas.width = Math.min(2048, Math.ceil(Math.max(...lines.map((line) => paint.measureText(line).width)) + PIXELS * 0.4));
+  canvas.width = Math.min(
+    2048,
+    Math.ceil(Math.max(...lines.map((line) => paint.measureText(line).width)) + PIXELS * 0.4),
+  );
   canvas.height = PIXELS * lines.length;
   paint.font = font;
   paint.textAlign = 'center';

@@ -11,12 +11,24 @@ const FULL = Math.PI;
 type Lamp = Omit<LightValue, 'intensity' | 'spot_outer_angle_rad'>;
 
 const STUDIO: Lamp = {
-  name: 'key', type: 'directional', pose: [4, -3, 8, 0, 0, 0, 1], direction: [-0.5, 0.35, -0.8],
-  diffuse: [0.6, 0.6, 0.6], specular: [0.15, 0.15, 0.15], range_m: 0, cast_shadows: true,
+  name: 'key',
+  type: 'directional',
+  pose: [4, -3, 8, 0, 0, 0, 1],
+  direction: [-0.5, 0.35, -0.8],
+  diffuse: [0.6, 0.6, 0.6],
+  specular: [0.15, 0.15, 0.15],
+  range_m: 0,
+  cast_shadows: true,
 };
 const FILL: Lamp = {
-  name: 'fill', type: 'directional', pose: [0, 0, 10, 0, 0, 0, 1], direction: [0.5, -0.5, -0.25],
-  diffuse: [0.16, 0.17, 0.19], specular: [0, 0, 0], range_m: 0, cast_shadows: false,
+  name: 'fill',
+  type: 'directional',
+  pose: [0, 0, 10, 0, 0, 0, 1],
+  direction: [0.5, -0.5, -0.25],
+  diffuse: [0.16, 0.17, 0.19],
+  specular: [0, 0, 0],
+  range_m: 0,
+  cast_shadows: false,
 };
 
 /** What a view without a world's own light and background is lit with. */
@@ -30,7 +42,11 @@ export interface Surroundings {
 
 /** RViz's dark grey room, lit from the eye. */
 export const ROOM: Surroundings = {
-  lights: [], ambient: [0.45, 0.45, 0.45], background: [48 / 255, 48 / 255, 48 / 255], sky: false, shadows: true,
+  lights: [],
+  ambient: [0.45, 0.45, 0.45],
+  background: [48 / 255, 48 / 255, 48 / 255],
+  sky: false,
+  shadows: true,
 };
 
 /** The surroundings a world names. */
@@ -91,7 +107,14 @@ export class Lighting {
       sun.position.copy(sun.target.position).addScaledVector(direction, -4 * reach);
       const camera = sun.shadow.camera;
       if (camera.right !== reach) {
-        Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 8 * reach });
+        Object.assign(camera, {
+          left: -reach,
+          right: reach,
+          top: reach,
+          bottom: -reach,
+          near: 0.1,
+          far: 8 * reach,
+        });
         camera.updateProjectionMatrix();
       }
     }
@@ -137,7 +160,8 @@ function skyDome(): THREE.Mesh {
     side: THREE.BackSide,
     depthWrite: false,
     depthTest: false,
-    vertexShader: 'varying vec3 v; void main() { v = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }',
+    vertexShader:
+      'varying vec3 v; void main() { v = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }',
     fragmentShader: `varying vec3 v;
       void main() {
         float up = normalize(v).z;

@@ -5,10 +5,18 @@ export type MouseStyle = 'gazebo' | 'rviz';
 type Action = 'rotate' | 'pan' | 'zoom';
 
 const FLY_KEYS: Record<string, [number, number, number]> = {
-  w: [0, 0, 1], s: [0, 0, -1], a: [-1, 0, 0], d: [1, 0, 0], q: [0, -1, 0], e: [0, 1, 0],
+  w: [0, 0, 1],
+  s: [0, 0, -1],
+  a: [-1, 0, 0],
+  d: [1, 0, 0],
+  q: [0, -1, 0],
+  e: [0, 1, 0],
 };
 const ARROWS: Record<string, [number, number]> = {
-  ArrowLeft: [-24, 0], ArrowRight: [24, 0], ArrowUp: [0, -24], ArrowDown: [0, 24],
+  ArrowLeft: [-24, 0],
+  ArrowRight: [24, 0],
+  ArrowUp: [0, -24],
+  ArrowDown: [0, 24],
 };
 
 /** Moves the camera of a view. A tool gets the pointer first and may keep it. */
@@ -17,7 +25,10 @@ export class Navigation {
   private at = { x: 0, y: 0 };
   private readonly held = new Set<string>();
 
-  constructor(private readonly view: View, private readonly style: MouseStyle) {}
+  constructor(
+    private readonly view: View,
+    private readonly style: MouseStyle,
+  ) {}
 
   down(event: PointerEvent): void {
     this.action = this.actionOf(event);
@@ -85,7 +96,8 @@ export class Navigation {
     const { button, shiftKey, ctrlKey } = event;
     if (button === 1) return this.style === 'gazebo' ? 'rotate' : shiftKey ? 'zoom' : 'pan';
     if (button === 2) return 'zoom';
-    if (this.style === 'gazebo' && event.pointerType === 'mouse') return shiftKey ? 'rotate' : 'pan';
+    if (this.style === 'gazebo' && event.pointerType === 'mouse')
+      return shiftKey ? 'rotate' : 'pan';
     return ctrlKey ? 'zoom' : shiftKey ? 'pan' : 'rotate';
   }
 }

@@ -23,11 +23,18 @@ export function pick(view: View, clientX: number, clientY: number): Hit | null {
   visit(view.scene, (object) => caster.intersectObject(object, false, found));
   found.sort((a, b) => a.distance - b.distance);
   const first = found.find((hit) => hit.distance > 0);
-  return first ? { object: first.object, point: first.point, entity: entityOf(first.object) } : null;
+  return first
+    ? { object: first.object, point: first.point, entity: entityOf(first.object) }
+    : null;
 }
 
 /** The point of the ground (z = 0 of the fixed frame) under the pointer; null above the horizon. */
-export function groundPoint(view: View, clientX: number, clientY: number, height = 0): THREE.Vector3 | null {
+export function groundPoint(
+  view: View,
+  clientX: number,
+  clientY: number,
+  height = 0,
+): THREE.Vector3 | null {
   GROUND.constant = -height;
   return view.ray(clientX, clientY).intersectPlane(GROUND, new THREE.Vector3());
 }

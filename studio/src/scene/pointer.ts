@@ -21,7 +21,11 @@ export class Pointer {
   private taken = false;
   private dragged = false;
 
-  constructor(private readonly view: View, style: MouseStyle, private readonly host: PointerHost) {
+  constructor(
+    private readonly view: View,
+    style: MouseStyle,
+    private readonly host: PointerHost,
+  ) {
     this.navigation = new Navigation(view, style);
     const { canvas } = view;
     canvas.tabIndex = 0;
@@ -47,7 +51,11 @@ export class Pointer {
   }
 
   private move(event: PointerEvent): void {
-    if (this.from && Math.hypot(event.clientX - this.from.x, event.clientY - this.from.y) > CLICK_PX) this.dragged = true;
+    if (
+      this.from &&
+      Math.hypot(event.clientX - this.from.x, event.clientY - this.from.y) > CLICK_PX
+    )
+      this.dragged = true;
     const taken = this.host.tool().move?.(event);
     if (!this.taken && !taken && this.dragged) this.navigation.move(event);
   }
@@ -70,7 +78,10 @@ export class Pointer {
 
   private key(event: KeyboardEvent, down: boolean): void {
     if (event.ctrlKey && event.key !== 'Control') return;
-    const taken = (down && this.host.tool().keyDown?.(event)) || this.navigation.key(event, down) || (down && this.host.key(event));
+    const taken =
+      (down && this.host.tool().keyDown?.(event)) ||
+      this.navigation.key(event, down) ||
+      (down && this.host.key(event));
     if (taken) event.preventDefault();
   }
 }

@@ -23,7 +23,8 @@ export function firstLevel(quality: Quality): Level {
 
 /** The choice of the address (`?quality=low`), else of the last visit. */
 export function wantedQuality(): Quality {
-  const wanted = new URLSearchParams(location.search).get('quality') ?? localStorage.getItem('gazelle.quality');
+  const wanted =
+    new URLSearchParams(location.search).get('quality') ?? localStorage.getItem('gazelle.quality');
   return wanted === 'low' || wanted === 'high' ? wanted : 'auto';
 }
 
@@ -55,7 +56,10 @@ export class Governor {
   /** Tell how long a frame took, from its begin to its end. */
   frame(took_ms: number): void {
     if (!this.adaptive || ++this.frames < 3) return;
-    this.slow = took_ms > SLOW_FRAME_MS ? this.slow + Math.min(4, took_ms / SLOW_FRAME_MS) : Math.max(0, this.slow - 1);
+    this.slow =
+      took_ms > SLOW_FRAME_MS
+        ? this.slow + Math.min(4, took_ms / SLOW_FRAME_MS)
+        : Math.max(0, this.slow - 1);
     if (this.slow < FRAMES_TO_JUDGE) return;
     this.slow = 0;
     if (this.level.pixelRatio > 1) this.level.pixelRatio = 1;

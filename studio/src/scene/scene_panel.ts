@@ -52,7 +52,11 @@ export class ScenePanel implements Panel, Bench {
   private readonly stops: (() => void)[] = [];
   private framed = false;
 
-  constructor(readonly kind: SceneKind, readonly connection: Connection, readonly host: PanelHost) {
+  constructor(
+    readonly kind: SceneKind,
+    readonly connection: Connection,
+    readonly host: PanelHost,
+  ) {
     this.id = host.id;
     this.title = kind === 'gazebo' ? 'Gazebo' : 'RViz';
     this.graph = host.graph;
@@ -60,7 +64,10 @@ export class ScenePanel implements Panel, Bench {
     this.element = h('div', { class: 'scene-panel', 'data-kind': kind });
     this.element.append(stage);
     this.view = new View(stage);
-    this.view.canvas.setAttribute('aria-label', `${this.title}: 3D view. Arrow keys turn, plus and minus zoom.`);
+    this.view.canvas.setAttribute(
+      'aria-label',
+      `${this.title}: 3D view. Arrow keys turn, plus and minus zoom.`,
+    );
     this.world = worldStore(connection);
     this.assembly = new Assembly((moved) => (moved ? this.view.moved() : this.view.invalidate()));
     this.view.scene.add(this.assembly.root);
@@ -69,7 +76,14 @@ export class ScenePanel implements Panel, Bench {
     this.film = new Film(this.view);
     this.contacts = new Contacts(this.view, connection);
     this.highlight = new Highlight(this.view, this.assembly, this.world);
-    this.grid = gridLines({ cells: 20, size_m: 1, colour: [0.45, 0.46, 0.48], alpha: 0.55, plane: 'XY', axes: true });
+    this.grid = gridLines({
+      cells: 20,
+      size_m: 1,
+      colour: [0.45, 0.46, 0.48],
+      alpha: 0.55,
+      plane: 'XY',
+      axes: true,
+    });
     // Above the ground, which lies at zero too.
     this.grid.position.z = 0.003;
     this.view.scene.add(this.grid);
@@ -90,7 +104,8 @@ export class ScenePanel implements Panel, Bench {
       this.framed = true;
     }
     if (isObject(params['modes'])) {
-      for (const [mode, on] of Object.entries(params['modes'] as ModeFlags)) this.assembly.setMode(mode as Mode, Boolean(on));
+      for (const [mode, on] of Object.entries(params['modes'] as ModeFlags))
+        this.assembly.setMode(mode as Mode, Boolean(on));
     }
     if (isObject(params['displays'])) this.loadDisplays(params['displays'] as JsonObject);
     else if (!this.displays.displays.length) this.beginDisplays();
@@ -118,10 +133,17 @@ export class ScenePanel implements Panel, Bench {
 
   /** What Gazelle does not have a pip package may have. */
   private async addWaiting(): Promise<void> {
-    const problems = await learnAdded(this.connection).catch((problem: unknown) => [inOneLine(problem)]);
+    const problems = await learnAdded(this.connection).catch((problem: unknown) => [
+      inOneLine(problem),
+    ]);
     const unknown = this.displays.addWaiting();
     if (!unknown.length) return;
-    this.host.fail(new CallError(`These display classes are not known and were left out: ${unknown.join(', ')}`, problems.join(' ')));
+    this.host.fail(
+      new CallError(
+        `These display classes are not known and were left out: ${unknown.join(', ')}`,
+        problems.join(' '),
+      ),
+    );
   }
 
   shown(visible: boolean): void {
@@ -247,7 +269,8 @@ export class ScenePanel implements Panel, Bench {
 
   private menu(event: PointerEvent): void {
     const entity = pick(this.view, event.clientX, event.clientY)?.entity;
-    if (entity && this.assembly.model(entity.model)) entityMenu(this, entity, event.clientX, event.clientY);
+    if (entity && this.assembly.model(entity.model))
+      entityMenu(this, entity, event.clientX, event.clientY);
   }
 
   private key(event: KeyboardEvent): boolean {

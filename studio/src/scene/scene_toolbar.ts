@@ -21,8 +21,13 @@ const ANGLES: Record<string, Partial<ViewState>> = {
 
 /** Tools that have a picture of their own; the others show their names. */
 const PICTURES: Record<string, SceneIcon> = {
-  'Move Camera': 'camera', Select: 'select', Translate: 'translate', Rotate: 'rotate', Measure: 'measure',
-  Interact: 'interact', 'Focus Camera': 'focus',
+  'Move Camera': 'camera',
+  Select: 'select',
+  Translate: 'translate',
+  Rotate: 'rotate',
+  Measure: 'measure',
+  Interact: 'interact',
+  'Focus Camera': 'focus',
 };
 
 /** The row of buttons above a view. */
@@ -34,17 +39,28 @@ export class SceneToolbar {
 
   constructor(private readonly panel: ScenePanel) {
     const kinds = Object.entries(VIEW_KINDS);
-    this.camera = select('View type', kinds, panel.view.rig.state.kind, (kind) => panel.view.rig.setKind(kind as ViewKind));
+    this.camera = select('View type', kinds, panel.view.rig.state.kind, (kind) =>
+      panel.view.rig.setKind(kind as ViewKind),
+    );
     this.record = toggle('', false, () => void this.film(), { title: 'Record a video' });
     this.record.append(sceneIcon('video'));
-    this.element = toolbar(`${panel.title} tools`, ...this.tools(), h('span', { class: 'rule' }), ...this.inserts(), spacer(), ...this.right());
+    this.element = toolbar(
+      `${panel.title} tools`,
+      ...this.tools(),
+      h('span', { class: 'rule' }),
+      ...this.inserts(),
+      spacer(),
+      ...this.right(),
+    );
     this.element.classList.add('scene-toolbar');
     this.refresh();
   }
 
   /** Show which tool and camera are in use. */
   refresh(): void {
-    this.buttons.forEach((each, name) => each.setAttribute('aria-pressed', String(name === this.panel.tool.name)));
+    this.buttons.forEach((each, name) =>
+      each.setAttribute('aria-pressed', String(name === this.panel.tool.name)),
+    );
     this.camera.value = this.panel.view.rig.state.kind;
   }
 
@@ -52,7 +68,10 @@ export class SceneToolbar {
     return this.panel.tools.map((tool) => {
       const picture = PICTURES[tool.name];
       const key = tool.key ? ` (${tool.key.toUpperCase()})` : '';
-      const made = button(picture ? '' : tool.name, () => this.panel.choose(tool.name), { title: `${tool.name}${key}: ${tool.about}`, pressed: false });
+      const made = button(picture ? '' : tool.name, () => this.panel.choose(tool.name), {
+        title: `${tool.name}${key}: ${tool.about}`,
+        pressed: false,
+      });
       made.setAttribute('aria-label', tool.name);
       if (picture) made.prepend(sceneIcon(picture));
       this.buttons.set(tool.name, made);
@@ -63,15 +82,22 @@ export class SceneToolbar {
   private inserts(): HTMLElement[] {
     if (this.panel.kind !== 'gazebo') return [];
     return (['box', 'sphere', 'cylinder'] as const).map((shape) => {
-      const made = button('', () => void insertPrimitive(this.panel, shape), { title: `Insert a ${shape}` });
+      const made = button('', () => void insertPrimitive(this.panel, shape), {
+        title: `Insert a ${shape}`,
+      });
       made.append(sceneIcon(shape));
       return made;
     });
   }
 
   private right(): HTMLElement[] {
-    const view = button('View', () => openMenu(view, this.viewMenu(), 'View'), { icon: 'down', title: 'What is shown' });
-    const angle = button('', () => openMenu(angle, this.angleMenu(), 'View Angle'), { title: 'View angle' });
+    const view = button('View', () => openMenu(view, this.viewMenu(), 'View'), {
+      icon: 'down',
+      title: 'What is shown',
+    });
+    const angle = button('', () => openMenu(angle, this.angleMenu(), 'View Angle'), {
+      title: 'View angle',
+    });
     angle.append(sceneIcon('angle'));
     const picture = button('', () => void this.picture(), { title: 'Screenshot' });
     picture.append(sceneIcon('picture'));
@@ -81,21 +107,38 @@ export class SceneToolbar {
 
   private viewMenu(): MenuItem[] {
     const { panel } = this;
-    const modes: MenuItem[] = panel.kind === 'gazebo' ? (Object.keys(MODES) as Mode[]).map((mode) => ({
-      text: MODES[mode], title: ABOUT[mode], checked: panel.assembly.modes.isOn(mode),
-      run: () => panel.setMode(mode, !panel.assembly.modes.isOn(mode)),
-    })) : [];
-    const contacts: MenuItem[] = panel.kind === 'gazebo'
-      ? [{ text: 'Contacts', checked: panel.contacts.on, run: () => panel.contacts.set(!panel.contacts.on) }] : [];
+    const modes: MenuItem[] =
+      panel.kind === 'gazebo'
+        ? (Object.keys(MODES) as Mode[]).map((mode) => ({
+            text: MODES[mode],
+            title: ABOUT[mode],
+            checked: panel.assembly.modes.isOn(mode),
+            run: () => panel.setMode(mode, !panel.assembly.modes.isOn(mode)),
+          }))
+        : [];
+    const contacts: MenuItem[] =
+      panel.kind === 'gazebo'
+        ? [
+            {
+              text: 'Contacts',
+              checked: panel.contacts.on,
+              run: () => panel.contacts.set(!panel.contacts.on),
+            },
+          ]
+        : [];
     return [
-      ...modes, ...contacts,
+      ...modes,
+      ...contacts,
       { text: 'Grid', checked: panel.gridShown, run: () => panel.setGrid(!panel.gridShown) },
       { text: 'Stop following', run: () => panel.view.rig.follow(null) },
     ];
   }
 
   private angleMenu(): MenuItem[] {
-    return Object.entries(ANGLES).map(([text, change]) => ({ text, run: () => this.panel.view.rig.glideTo(change) }));
+    return Object.entries(ANGLES).map(([text, change]) => ({
+      text,
+      run: () => this.panel.view.rig.glideTo(change),
+    }));
   }
 
   private async picture(): Promise<void> {

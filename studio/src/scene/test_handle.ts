@@ -36,13 +36,17 @@ export function publishHandle(): void {
     scene: (kind?: 'gazebo' | 'rviz') => report(panelOf(kind)),
     pose: (body: string, kind?: 'gazebo' | 'rviz') => pose(panelOf(kind), body),
     frame: (name: string, kind?: 'gazebo' | 'rviz') => frame(panelOf(kind), name),
-    points: (display: string, every: number, kind?: 'gazebo' | 'rviz') => points(panelOf(kind), display, every),
+    points: (display: string, every: number, kind?: 'gazebo' | 'rviz') =>
+      points(panelOf(kind), display, every),
     screen: (body: string, kind?: 'gazebo' | 'rviz') => screen(panelOf(kind), body),
-    project: (point: [number, number, number], kind?: 'gazebo' | 'rviz') => panelOf(kind).view.toPage(new THREE.Vector3(...point)),
-    handle: (marker: string, control: string, end = 1) => handle(panelOf('rviz'), marker, control, end),
+    project: (point: [number, number, number], kind?: 'gazebo' | 'rviz') =>
+      panelOf(kind).view.toPage(new THREE.Vector3(...point)),
+    handle: (marker: string, control: string, end = 1) =>
+      handle(panelOf('rviz'), marker, control, end),
     overlays: (mode: Mode) => panelOf('gazebo').assembly.count(mode),
     look: (state: object, kind?: 'gazebo' | 'rviz') => panelOf(kind).view.rig.set(state),
-    addDisplay: (name: string, properties: JsonObject, kind?: 'gazebo' | 'rviz') => Boolean(panelOf(kind).displays.add(name, properties)),
+    addDisplay: (name: string, properties: JsonObject, kind?: 'gazebo' | 'rviz') =>
+      Boolean(panelOf(kind).displays.add(name, properties)),
     drawNow: (kind?: 'gazebo' | 'rviz') => panelOf(kind).view.drawNow(),
     objects: (kind?: 'gazebo' | 'rviz') => count(panelOf(kind).view.scene),
   };
@@ -57,16 +61,35 @@ function panelOf(kind?: 'gazebo' | 'rviz'): ScenePanel {
 function report(panel: ScenePanel): SceneReport {
   const { view, assembly, displays, world } = panel;
   const { render, memory } = view.renderer.info;
-  const shown = displays.displays.map((each) => [each.name, {
-    class: each.kind.name, enabled: each.enabled, level: each.level, counts: each.counts(), topic: each.topic,
-    status: Object.fromEntries([...each.status].map(([what, line]) => [what, line.text])),
-  }]);
+  const shown = displays.displays.map((each) => [
+    each.name,
+    {
+      class: each.kind.name,
+      enabled: each.enabled,
+      level: each.level,
+      counts: each.counts(),
+      topic: each.topic,
+      status: Object.fromEntries([...each.status].map(([what, line]) => [what, line.text])),
+    },
+  ]);
   return {
-    kind: panel.kind, bodies: assembly.bodies.length, models: assembly.value?.models.map((model) => model.name) ?? [],
-    selected: world.selection, tool: panel.tool.name, fixedFrame: displays.fixedFrame, displays: Object.fromEntries(shown),
-    camera: view.rig.state, following: view.rig.following, drawn: view.drawn, scriptMs: view.scriptMs, calls: render.calls,
-    triangles: render.triangles, geometries: memory.geometries, highlighted: panel.highlight.count,
-    contacts: panel.contacts.count, shadows: view.renderer.shadowMap.enabled,
+    kind: panel.kind,
+    bodies: assembly.bodies.length,
+    models: assembly.value?.models.map((model) => model.name) ?? [],
+    selected: world.selection,
+    tool: panel.tool.name,
+    fixedFrame: displays.fixedFrame,
+    displays: Object.fromEntries(shown),
+    camera: view.rig.state,
+    following: view.rig.following,
+    drawn: view.drawn,
+    scriptMs: view.scriptMs,
+    calls: render.calls,
+    triangles: render.triangles,
+    geometries: memory.geometries,
+    highlighted: panel.highlight.count,
+    contacts: panel.contacts.count,
+    shadows: view.renderer.shadowMap.enabled,
   };
 }
 
@@ -85,24 +108,39 @@ function frame(panel: ScenePanel, name: string): number[] | null {
 /** Every n-th point of a display in the fixed frame: x, y, z, x, … */
 function points(panel: ScenePanel, name: string, every: number): number[] {
   const found: number[] = [];
-  panel.displays.displays.find((each) => each.name === name)?.root.traverse((object) => {
-    if (!(object instanceof THREE.Points)) return;
-    const position = object.geometry.getAttribute('position');
-    object.updateWorldMatrix(true, false);
-    for (let index = 0; index < object.geometry.drawRange.count; index += every) {
-      found.push(...new THREE.Vector3().fromBufferAttribute(position, index).applyMatrix4(object.matrixWorld).toArray());
-    }
-  });
+  panel.displays.displays
+    .find((each) => each.name === name)
+    ?.root.traverse((object) => {
+      if (!(object instanceof THREE.Points)) return;
+      const position = object.geometry.getAttribute('position');
+      object.updateWorldMatrix(true, false);
+      for (let index = 0; index < object.geometry.drawRange.count; index += every) {
+        found.push(
+          ...new THREE.Vector3()
+            .fromBufferAttribute(position, index)
+            .applyMatrix4(object.matrixWorld)
+            .toArray(),
+        );
+      }
+    });
   return found;
 }
 
-interface PagePoint { x: number; y: number }
+interface PagePoint {
+  x: number;
+  y: number;
+}
 
 /**
  * Where on the page a control of a marker can be grasped, and where its middle is: an arrow or a ring
  * at an end (1 or -1) of its longest side.
  */
-function handle(panel: ScenePanel, marker: string, name: string, end: number): (PagePoint & { middle: PagePoint }) | null {
+function handle(
+  panel: ScenePanel,
+  marker: string,
+  name: string,
+  end: number,
+): (PagePoint & { middle: PagePoint }) | null {
   const control = panel.view.scene.getObjectByName(marker)?.getObjectByName(name);
   if (!control) return null;
   control.updateWorldMatrix(true, true);
@@ -111,7 +149,8 @@ function handle(panel: ScenePanel, marker: string, name: string, end: number): (
   const geometry = alone?.geometry as THREE.BufferGeometry | undefined;
   geometry?.computeBoundingBox();
   const box = geometry?.boundingBox ?? new THREE.Box3().setFromObject(control);
-  const toPage = (point: THREE.Vector3): PagePoint => panel.view.toPage(alone ? alone.localToWorld(point) : point);
+  const toPage = (point: THREE.Vector3): PagePoint =>
+    panel.view.toPage(alone ? alone.localToWorld(point) : point);
   const middle = box.getCenter(new THREE.Vector3());
   const half = box.max.clone().sub(middle);
   const longest = half.x > half.y && half.x > half.z ? 'x' : half.y > half.z ? 'y' : 'z';

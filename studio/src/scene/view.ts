@@ -42,7 +42,9 @@ export class View {
     this.lighting = new Lighting(this.scene);
     this.hands.name = 'hands';
     this.scene.add(this.hands);
-    this.governor = new Governor(this.renderer, this.level, quality === 'auto', () => this.useLevel());
+    this.governor = new Governor(this.renderer, this.level, quality === 'auto', () =>
+      this.useLevel(),
+    );
     this.useLevel();
     this.watcher = new ResizeObserver(() => this.resize());
     this.watcher.observe(host);
@@ -106,7 +108,10 @@ export class View {
   toPage(point: THREE.Vector3): { x: number; y: number } {
     const box = this.canvas.getBoundingClientRect();
     const at = point.clone().project(this.camera);
-    return { x: box.left + ((at.x + 1) / 2) * box.width, y: box.top + ((1 - at.y) / 2) * box.height };
+    return {
+      x: box.left + ((at.x + 1) / 2) * box.width,
+      y: box.top + ((1 - at.y) / 2) * box.height,
+    };
   }
 
   /** How many metres a pixel is, at a point. */

@@ -26,6 +26,12 @@ function showLost(root: HTMLElement, lost: boolean): void {
 }
 
 function showOther(root: HTMLElement, version: string): void {
-  root.replaceChildren(h('div', { class: 'banner' }, `The server is now version ${version}. `,
-    button('Reload the page', () => location.reload())));
+  root.replaceChildren(
+    h(
+      'div',
+      { class: 'banner' },
+      `The server is now version ${version}. `,
+      button('Reload the page', () => location.reload()),
+    ),
+  );
 }

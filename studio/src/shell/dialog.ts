@@ -6,10 +6,18 @@ import { button, h } from '../widgets/dom';
 export function askText(title: string, label: string, value = ''): Promise<string | null> {
   return new Promise((resolve) => {
     const input = h('input', { type: 'text', value, required: true });
-    const form = h('form', { method: 'dialog' },
-      h('h2', {}, title), h('label', { class: 'stacked' }, label, input),
-      h('div', { class: 'dialog-buttons' },
-        button('Cancel', () => dialog.close('')), h('button', { type: 'submit', class: 'button primary', value: 'ok' }, 'OK')));
+    const form = h(
+      'form',
+      { method: 'dialog' },
+      h('h2', {}, title),
+      h('label', { class: 'stacked' }, label, input),
+      h(
+        'div',
+        { class: 'dialog-buttons' },
+        button('Cancel', () => dialog.close('')),
+        h('button', { type: 'submit', class: 'button primary', value: 'ok' }, 'OK'),
+      ),
+    );
     const dialog = h('dialog', { class: 'dialog', 'aria-label': title }, form);
     dialog.addEventListener('close', () => {
       dialog.remove();
@@ -25,8 +33,14 @@ export function askText(title: string, label: string, value = ''): Promise<strin
 export function askFile(accept: string): Promise<File | null> {
   return new Promise((resolve) => {
     const input = h('input', { type: 'file', accept, hidden: true });
-    input.addEventListener('change', () => { resolve(input.files?.[0] ?? null); input.remove(); });
-    input.addEventListener('cancel', () => { resolve(null); input.remove(); });
+    input.addEventListener('change', () => {
+      resolve(input.files?.[0] ?? null);
+      input.remove();
+    });
+    input.addEventListener('cancel', () => {
+      resolve(null);
+      input.remove();
+    });
     document.body.append(input);
     input.click();
   });
@@ -35,10 +49,18 @@ export function askFile(accept: string): Promise<File | null> {
 /** Asks whether something that cannot be undone shall be done. */
 export function confirmDanger(title: string, text: string, verb: string): Promise<boolean> {
   return new Promise((resolve) => {
-    const dialog = h('dialog', { class: 'dialog', 'aria-label': title },
-      h('h2', {}, title), h('p', {}, text),
-      h('div', { class: 'dialog-buttons' },
-        button('Cancel', () => dialog.close('')), button(verb, () => dialog.close('yes'), { class: 'danger' })));
+    const dialog = h(
+      'dialog',
+      { class: 'dialog', 'aria-label': title },
+      h('h2', {}, title),
+      h('p', {}, text),
+      h(
+        'div',
+        { class: 'dialog-buttons' },
+        button('Cancel', () => dialog.close('')),
+        button(verb, () => dialog.close('yes'), { class: 'danger' }),
+      ),
+    );
     dialog.addEventListener('close', () => {
       dialog.remove();
       resolve(dialog.returnValue === 'yes');
@@ -50,9 +72,22 @@ export function confirmDanger(title: string, text: string, verb: string): Promis
 
 /** Shows the shortcuts. */
 export function showShortcuts(rows: readonly (readonly [string, string])[]): void {
-  const list = h('dl', { class: 'shortcuts' }, ...rows.flatMap(([keys, text]) => [h('dt', {}, h('kbd', {}, keys)), h('dd', {}, text)]));
-  const dialog = h('dialog', { class: 'dialog', 'aria-label': 'Keyboard shortcuts' },
-    h('h2', {}, 'Keyboard shortcuts'), list, h('div', { class: 'dialog-buttons' }, button('Close', () => dialog.close())));
+  const list = h(
+    'dl',
+    { class: 'shortcuts' },
+    ...rows.flatMap(([keys, text]) => [h('dt', {}, h('kbd', {}, keys)), h('dd', {}, text)]),
+  );
+  const dialog = h(
+    'dialog',
+    { class: 'dialog', 'aria-label': 'Keyboard shortcuts' },
+    h('h2', {}, 'Keyboard shortcuts'),
+    list,
+    h(
+      'div',
+      { class: 'dialog-buttons' },
+      button('Close', () => dialog.close()),
+    ),
+  );
   dialog.addEventListener('close', () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();

@@ -1,6 +1,12 @@
 /** The dock: panels in tabs and splits, shown by name, kept as a layout. */
 
-import { createDockview, themeDark, type DockviewApi, type IDockviewPanel, type SerializedDockview } from 'dockview-core';
+import {
+  createDockview,
+  themeDark,
+  type DockviewApi,
+  type IDockviewPanel,
+  type SerializedDockview,
+} from 'dockview-core';
 import type { Connection } from '../connection';
 import type { GraphStore } from '../graph_store';
 import { isObject, type Json, type JsonObject } from '../json';
@@ -46,7 +52,8 @@ export class Dock {
       defaultRenderer: 'always',
       createComponent: ({ id, name }) => this.createFrame(id, name),
       createWatermarkComponent: () => ({
-        element: h('div', { class: 'watermark' }, 'Choose a panel from the Panels menu'), init: () => undefined,
+        element: h('div', { class: 'watermark' }, 'Choose a panel from the Panels menu'),
+        init: () => undefined,
       }),
     });
     this.api.onDidLayoutChange(() => this.touch());
@@ -62,8 +69,13 @@ export class Dock {
     }
     if (kind.single && this.openIn(kind.kind, params)) return;
     this.api.addPanel({
-      id: this.freshId(kind.kind), component: kind.kind, title: kind.title, params: { state: params },
-      ...this.position(place ?? placeBelow(kind.below && this.has(kind.below) ? kind.below : undefined, kind.kind)),
+      id: this.freshId(kind.kind),
+      component: kind.kind,
+      title: kind.title,
+      params: { state: params },
+      ...this.position(
+        place ?? placeBelow(kind.below && this.has(kind.below) ? kind.below : undefined, kind.kind),
+      ),
     });
   }
 
@@ -82,7 +94,13 @@ export class Dock {
     const tabs = this.api.getGroup(this.besides);
     const widths = this.api.groups.map((group) => [group, group.width] as const);
     if (this.api.panels.length === 0) return this.show(name, params);
-    this.show(name, params, tabs ? { kind: name, direction: 'within', group: tabs.id } : { kind: name, direction: 'right' });
+    this.show(
+      name,
+      params,
+      tabs
+        ? { kind: name, direction: 'within', group: tabs.id }
+        : { kind: name, direction: 'right' },
+    );
     const group = this.api.activeGroup;
     this.besides = group?.id ?? '';
     if (tabs || !group) return;
@@ -105,10 +123,14 @@ export class Dock {
   /** Puts a default layout in place of what is open. */
   arrange(places: readonly Place[]): void {
     this.api.clear();
-    for (const place of places) if (findPanel(place.kind)) this.show(place.kind, place.params ?? {}, place);
+    for (const place of places)
+      if (findPanel(place.kind)) this.show(place.kind, place.params ?? {}, place);
     // Of panels that share tabs the first is in front, and the layout's first panel has the focus.
-    const shared = new Set(places.filter((place) => place.direction === 'within').map((place) => place.beside));
-    for (const place of places.toReversed()) if (shared.has(place.kind)) this.panelOf(place.kind)?.api.setActive();
+    const shared = new Set(
+      places.filter((place) => place.direction === 'within').map((place) => place.beside),
+    );
+    for (const place of places.toReversed())
+      if (shared.has(place.kind)) this.panelOf(place.kind)?.api.setActive();
     const first = places[0] && this.panelOf(places[0].kind);
     first?.api.setActive();
   }
@@ -153,7 +175,13 @@ export class Dock {
   }
 
   private createFrame(id: string, name: string): PanelFrame {
-    const frame = new PanelFrame(findPanel(name), name, (host) => this.makePanel(name, host), this.hostFor(id), this.toasts);
+    const frame = new PanelFrame(
+      findPanel(name),
+      name,
+      (host) => this.makePanel(name, host),
+      this.hostFor(id),
+      this.toasts,
+    );
     this.frames.set(id, frame);
     return frame;
   }
@@ -169,7 +197,12 @@ export class Dock {
       id,
       graph: this.graph,
       setTitle: (title) => this.api.getPanel(id)?.api.setTitle(title),
-      show: (kind, params, below) => this.show(kind, params, below && this.has(below) ? { kind, beside: below, direction: 'below' } : undefined),
+      show: (kind, params, below) =>
+        this.show(
+          kind,
+          params,
+          below && this.has(below) ? { kind, beside: below, direction: 'below' } : undefined,
+        ),
       fail: (problem, where) => this.toasts.fail(problem, where),
       tell: (text) => this.toasts.tell(text),
       touched: () => this.touch(),
@@ -203,9 +236,15 @@ export class Dock {
   private position(place: Place | undefined): object {
     if (!place) return {};
     const beside = place.beside ? this.panelOf(place.beside) : undefined;
-    const reference = beside ? { referencePanel: beside.id } : place.group ? { referenceGroup: place.group } : {};
+    const reference = beside
+      ? { referencePanel: beside.id }
+      : place.group
+        ? { referenceGroup: place.group }
+        : {};
     return {
-      ...(beside ?? place.direction ? { position: { ...reference, direction: place.direction ?? 'within' } } : {}),
+      ...((beside ?? place.direction)
+        ? { position: { ...reference, direction: place.direction ?? 'within' } }
+        : {}),
       ...(place.width ? { initialWidth: place.width } : {}),
       ...(place.height ? { initialHeight: place.height } : {}),
     };

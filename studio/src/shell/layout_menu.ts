@@ -21,11 +21,18 @@ export class Layouts {
   private readonly awaited = new Set<string>();
 
   constructor(
-    private readonly connection: Connection, private readonly dock: Dock, private readonly store: LayoutStore, private readonly toasts: Toasts,
+    private readonly connection: Connection,
+    private readonly dock: Dock,
+    private readonly store: LayoutStore,
+    private readonly toasts: Toasts,
   ) {
-    connection.onHello((hello) => { if (!this.begun) this.begin(hello.panels); });
+    connection.onHello((hello) => {
+      if (!this.begun) this.begin(hello.panels);
+    });
     connection.onShow((panel, params) => this.show(panel, params));
-    dock.onChange(() => { if (this.begun) store.keepLast(this.commands, dock.save()); });
+    dock.onChange(() => {
+      if (this.begun) store.keepLast(this.commands, dock.save());
+    });
   }
 
   /** The menu of the Layout button. */
@@ -34,13 +41,29 @@ export class Layouts {
     const items: MenuItem[] = [
       { text: 'Save layout as…', run: () => void this.saveAs() },
       { text: 'Reset layout', run: () => this.reset() },
-      { text: 'Open perspective…', title: "A .perspective file of rqt", run: () => void this.openPerspective() },
+      {
+        text: 'Open perspective…',
+        title: 'A .perspective file of rqt',
+        run: () => void this.openPerspective(),
+      },
       { text: 'Default layouts', heading: true },
-      ...NAMED_LAYOUTS.map(([command, text]) => ({ text, run: () => this.dock.arrange(placesFor(command)) })),
+      ...NAMED_LAYOUTS.map(([command, text]) => ({
+        text,
+        run: () => this.dock.arrange(placesFor(command)),
+      })),
     ];
     if (names.length > 0) {
-      items.push({ text: 'Saved layouts', heading: true }, ...names.map((name) => ({ text: name, run: () => void this.load(name) })));
-      items.push({ text: 'Delete', heading: true }, ...names.map((name) => ({ text: `Delete ${name}`, run: () => void this.store.delete(name) })));
+      items.push(
+        { text: 'Saved layouts', heading: true },
+        ...names.map((name) => ({ text: name, run: () => void this.load(name) })),
+      );
+      items.push(
+        { text: 'Delete', heading: true },
+        ...names.map((name) => ({
+          text: `Delete ${name}`,
+          run: () => void this.store.delete(name),
+        })),
+      );
     }
     openMenu(anchor, items, 'Layout');
   }
@@ -51,7 +74,8 @@ export class Layouts {
     const wanted = asked ? asked.split(',').filter(Boolean) : panels;
     const kept = wanted.length === 0 ? this.store.tab() : null;
     this.commands = kept?.commands ?? wanted;
-    if (!this.dock.restore(kept?.layout ?? this.store.last(this.commands))) this.dock.arrange(placesForAll(this.commands, this.dock.width >= ROOMY_PX));
+    if (!this.dock.restore(kept?.layout ?? this.store.last(this.commands)))
+      this.dock.arrange(placesForAll(this.commands, this.dock.width >= ROOMY_PX));
     for (const name of panels) this.awaited.add(findPanel(name)?.kind ?? name);
     this.begun = true;
   }
@@ -60,9 +84,14 @@ export class Layouts {
     const name = textOf(params, 'layout');
     const kind = findPanel(panel)?.kind;
     if (panel === 'layout' && name) void this.load(name);
-    else if (panel === 'rqt_gui') void this.showPerspective({ path: textOf(params, 'perspective') });
-    else if (!kind) this.toasts.fail(new Error(`A command asks for the panel ${panel}, which this page does not have.`));
-    else if (!this.awaited.delete(kind) || !this.dock.openIn(kind, params)) this.showBeside(kind, params);
+    else if (panel === 'rqt_gui')
+      void this.showPerspective({ path: textOf(params, 'perspective') });
+    else if (!kind)
+      this.toasts.fail(
+        new Error(`A command asks for the panel ${panel}, which this page does not have.`),
+      );
+    else if (!this.awaited.delete(kind) || !this.dock.openIn(kind, params))
+      this.showBeside(kind, params);
   }
 
   private showBeside(kind: string, params: JsonObject): void {
@@ -70,7 +99,11 @@ export class Layouts {
     for (const place of companionsOf(kind)) {
       if (this.dock.openIn(place.kind, {})) continue;
       const trees = this.dock.has('entities') && this.dock.width < ROOMY_PX;
-      this.dock.show(place.kind, {}, trees ? { kind: place.kind, beside: 'entities', direction: 'within' } : place);
+      this.dock.show(
+        place.kind,
+        {},
+        trees ? { kind: place.kind, beside: 'entities', direction: 'within' } : place,
+      );
     }
   }
 
@@ -83,7 +116,11 @@ export class Layouts {
     const name = await askText('Save layout', 'Name');
     if (!name) return;
     const where = await this.store.save(name, this.dock.save());
-    this.toasts.tell(where === 'server' ? `Layout ${name} is saved.` : `Layout ${name} is saved in this browser only.`);
+    this.toasts.tell(
+      where === 'server'
+        ? `Layout ${name} is saved.`
+        : `Layout ${name} is saved in this browser only.`,
+    );
   }
 
   private async openPerspective(): Promise<void> {
@@ -92,14 +129,21 @@ export class Layouts {
   }
 
   /** Panels of an rqt perspective, in place of those that are open; without one the page stays as it is. */
-  private async showPerspective(file: { path: string } | { name: string; text: string }): Promise<void> {
+  private async showPerspective(
+    file: { path: string } | { name: string; text: string },
+  ): Promise<void> {
     const name = 'path' in file ? file.path : file.name;
     if (!name) return;
     try {
       const value = await this.connection.call('perspective.open', file);
-      const panels = isObject(value) && Array.isArray(value['panels']) ? value['panels'].filter(isObject) : [];
+      const panels =
+        isObject(value) && Array.isArray(value['panels']) ? value['panels'].filter(isObject) : [];
       this.dock.arrange([]);
-      for (const panel of panels) this.dock.showBeside(textOf(panel, 'kind'), isObject(panel['params']) ? panel['params'] : {});
+      for (const panel of panels)
+        this.dock.showBeside(
+          textOf(panel, 'kind'),
+          isObject(panel['params']) ? panel['params'] : {},
+        );
     } catch (problem) {
       this.toasts.fail(problem, name);
     }

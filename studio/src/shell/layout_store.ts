@@ -58,7 +58,9 @@ export class LayoutStore {
   /** What was open in this tab before it was reloaded. */
   tab(): { commands: string[]; layout: Json } | null {
     const kept = parsed(sessionStorage.getItem(TAB));
-    return isObject(kept) ? { commands: textsOf(kept, 'commands'), layout: kept['layout'] ?? null } : null;
+    return isObject(kept)
+      ? { commands: textsOf(kept, 'commands'), layout: kept['layout'] ?? null }
+      : null;
   }
 
   /** Keeps what is open for the next time. */
@@ -74,7 +76,9 @@ export class LayoutStore {
   }
 
   private localNames(): string[] {
-    return Object.keys(localStorage).filter((each) => each.startsWith(PREFIX)).map((each) => each.slice(PREFIX.length));
+    return Object.keys(localStorage)
+      .filter((each) => each.startsWith(PREFIX))
+      .map((each) => each.slice(PREFIX.length));
   }
 }
 

@@ -31,11 +31,23 @@ const WITHOUT_WORLD: readonly Place[] = [
 ];
 
 const BY_COMMAND: Readonly<Record<string, readonly Place[]>> = {
-  gzclient: GAZEBO, gazebo: GAZEBO, scene: GAZEBO, rviz: RVIZ, rviz2: RVIZ, studio: STUDIO, graph: WITHOUT_WORLD, rqt_gui: WITHOUT_WORLD,
+  gzclient: GAZEBO,
+  gazebo: GAZEBO,
+  scene: GAZEBO,
+  rviz: RVIZ,
+  rviz2: RVIZ,
+  studio: STUDIO,
+  graph: WITHOUT_WORLD,
+  rqt_gui: WITHOUT_WORLD,
 };
 
 /** Names a person can choose from the layout menu. */
-export const NAMED_LAYOUTS = [['studio', 'Everything'], ['gzclient', 'Gazebo'], ['rviz', 'RViz'], ['graph', 'Graph and topics']] as const;
+export const NAMED_LAYOUTS = [
+  ['studio', 'Everything'],
+  ['gzclient', 'Gazebo'],
+  ['rviz', 'RViz'],
+  ['graph', 'Graph and topics'],
+] as const;
 
 /** The places for one command: its own layout, or its panel alone. */
 export function placesFor(command: string): readonly Place[] {
@@ -60,12 +72,21 @@ export function placesForAll(commands: readonly string[], isRoomy: boolean): rea
   let last: string | null = null;
   for (const command of commands) {
     const kind = findPanel(command)?.kind;
-    if (command === framed || !kind || places.some((place) => findPanel(place.kind)?.kind === kind)) continue;
-    places.push(last ? { kind, beside: last, direction: 'within' } : { kind, beside: anchor, direction: 'right', width: 480 });
+    if (command === framed || !kind || places.some((place) => findPanel(place.kind)?.kind === kind))
+      continue;
+    places.push(
+      last
+        ? { kind, beside: last, direction: 'within' }
+        : { kind, beside: anchor, direction: 'right', width: 480 },
+    );
     last = kind;
     for (const each of companionsOf(command)) {
       if (places.some((place) => place.kind === each.kind)) continue;
-      places.push(isRoomy || !places.some((place) => place.kind === 'entities') ? each : { kind: each.kind, beside: 'entities', direction: 'within' });
+      places.push(
+        isRoomy || !places.some((place) => place.kind === 'entities')
+          ? each
+          : { kind: each.kind, beside: 'entities', direction: 'within' },
+      );
     }
   }
   return places;

@@ -22,7 +22,11 @@ export class PanelFrame implements IContentRenderer {
     private readonly host: PanelHost,
     private readonly toasts: Toasts,
   ) {
-    this.element = h('section', { class: 'frame', 'aria-label': kind?.title ?? name, 'data-panel': kind?.kind ?? name });
+    this.element = h('section', {
+      class: 'frame',
+      'aria-label': kind?.title ?? name,
+      'data-panel': kind?.kind ?? name,
+    });
   }
 
   /** Called by the dock once the tab is there. */
@@ -32,7 +36,10 @@ export class PanelFrame implements IContentRenderer {
     this.visible = parameters.api.isVisible;
     parameters.api.onDidVisibilityChange((event) => this.show(event.isVisible));
     new ResizeObserver(() => this.resize()).observe(this.element);
-    this.make(this.host).then((panel) => this.take(panel), (problem: unknown) => this.broken(problem));
+    this.make(this.host).then(
+      (panel) => this.take(panel),
+      (problem: unknown) => this.broken(problem),
+    );
   }
 
   /** Hands parameters to the panel, now or when its code is there. */

@@ -6,9 +6,16 @@ import { switchTheme } from './theme';
 import type { WorldControls } from './world_controls';
 
 const ROWS = [
-  ['Space', 'Play or pause the simulation'], ['.', 'Step'], ['Ctrl+R', 'Reset world'], ['Ctrl+Shift+R', 'Reset model poses'],
-  ['P', 'Open a panel'], ['M', 'Maximize the panel, or restore it'], ['Alt+W', 'Close the panel'], ['L', 'Light or dark'],
-  ['F6', 'Next group of panels'], ['?', 'This list'],
+  ['Space', 'Play or pause the simulation'],
+  ['.', 'Step'],
+  ['Ctrl+R', 'Reset world'],
+  ['Ctrl+Shift+R', 'Reset model poses'],
+  ['P', 'Open a panel'],
+  ['M', 'Maximize the panel, or restore it'],
+  ['Alt+W', 'Close the panel'],
+  ['L', 'Light or dark'],
+  ['F6', 'Next group of panels'],
+  ['?', 'This list'],
 ] as const;
 
 /** Shows the list of shortcuts. */
@@ -29,15 +36,27 @@ export function listenForKeys(dock: Dock, world: WorldControls, panels: HTMLButt
 
 function inField(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
-  return target.closest('input:not([type=checkbox]):not([type=range]), textarea, select, dialog, [data-keys]') !== null;
+  return (
+    target.closest(
+      'input:not([type=checkbox]):not([type=range]), textarea, select, dialog, [data-keys]',
+    ) !== null
+  );
 }
 
-function actionFor(event: KeyboardEvent, dock: Dock, world: WorldControls, panels: HTMLButtonElement): (() => void) | null {
+function actionFor(
+  event: KeyboardEvent,
+  dock: Dock,
+  world: WorldControls,
+  panels: HTMLButtonElement,
+): (() => void) | null {
   const key = event.key.toLowerCase();
-  if (event.ctrlKey && key === 'r' && world.present) return () => world.reset(event.shiftKey ? 'poses' : 'world');
+  if (event.ctrlKey && key === 'r' && world.present)
+    return () => world.reset(event.shiftKey ? 'poses' : 'world');
   if (event.altKey && key === 'w') return () => dock.closeActive();
   if (event.ctrlKey || event.altKey || event.metaKey) return null;
-  const onButton = event.target instanceof HTMLElement && event.target.closest('button, a, summary, [role=tab]') !== null;
+  const onButton =
+    event.target instanceof HTMLElement &&
+    event.target.closest('button, a, summary, [role=tab]') !== null;
   if (key === ' ' && world.present && !onButton) return () => world.togglePlay();
   if (key === '.' && world.present) return () => world.step();
   if (key === 'p') return () => panels.click();

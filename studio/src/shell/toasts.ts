@@ -32,10 +32,18 @@ export class Toasts {
 
   private add(level: string, parts: HTMLElement[], lasts_ms: number): void {
     const key = parts.map((part) => part.textContent).join('\n');
-    for (const old of this.root.querySelectorAll<HTMLElement>('.toast')) if (old.dataset['key'] === key) old.remove();
-    const toast = h('div', { class: `toast toast-${level}`, role: level === 'error' ? 'alert' : 'status', 'data-key': key },
+    for (const old of this.root.querySelectorAll<HTMLElement>('.toast'))
+      if (old.dataset['key'] === key) old.remove();
+    const toast = h(
+      'div',
+      {
+        class: `toast toast-${level}`,
+        role: level === 'error' ? 'alert' : 'status',
+        'data-key': key,
+      },
       h('div', { class: 'toast-body' }, ...parts),
-      button('', () => toast.remove(), { icon: 'close', title: 'Dismiss', class: 'ghost' }));
+      button('', () => toast.remove(), { icon: 'close', title: 'Dismiss', class: 'ghost' }),
+    );
     this.root.append(toast);
     while (this.root.childElementCount > MOST) this.root.firstElementChild?.remove();
     setTimeout(() => toast.remove(), lasts_ms);

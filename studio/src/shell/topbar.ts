@@ -11,11 +11,19 @@ import type { WorldControls } from './world_controls';
 
 /** Fills the bar; answers the button of the panels' menu. */
 export function buildTopbar(
-  root: HTMLElement, connection: Connection, dock: Dock, layouts: Layouts, world: WorldControls, help: () => void,
+  root: HTMLElement,
+  connection: Connection,
+  dock: Dock,
+  layouts: Layouts,
+  world: WorldControls,
+  help: () => void,
 ): HTMLButtonElement {
   const open = (): void => openMenu(panels, panelItems(dock), 'Panels', 3);
   const panels = button('Panels', open, { icon: 'panels', title: 'Open a panel (P)' });
-  const layout = button('Layout', () => void layouts.openMenu(layout), { icon: 'layout', title: 'Save, load and reset layouts' });
+  const layout = button('Layout', () => void layouts.openMenu(layout), {
+    icon: 'layout',
+    title: 'Save, load and reset layouts',
+  });
   for (const each of [panels, layout]) each.setAttribute('aria-haspopup', 'menu');
   onPanelsChanged(() => {
     if (panels.getAttribute('aria-expanded') !== 'true') return;
@@ -23,7 +31,8 @@ export function buildTopbar(
     // Once to close it, once to open it with what is new.
     open();
     open();
-    for (const item of document.querySelectorAll<HTMLElement>('.menu [role^=menuitem]')) if (item.textContent === chosen) item.focus();
+    for (const item of document.querySelectorAll<HTMLElement>('.menu [role^=menuitem]'))
+      if (item.textContent === chosen) item.focus();
   });
   const light = h('span', { class: 'light', role: 'img' });
   connection.onState((state) => {
@@ -33,9 +42,15 @@ export function buildTopbar(
     light.title = text;
   });
   root.replaceChildren(
-    h('h1', {}, 'Gazelle'), panels, layout, world.element, spacer(),
+    h('h1', {}, 'Gazelle'),
+    panels,
+    layout,
+    world.element,
+    spacer(),
     button('', help, { icon: 'help', title: 'Keyboard shortcuts (?)', class: 'ghost' }),
-    button('', switchTheme, { icon: 'theme', title: 'Light or dark', class: 'ghost' }), light);
+    button('', switchTheme, { icon: 'theme', title: 'Light or dark', class: 'ghost' }),
+    light,
+  );
   return panels;
 }
 
@@ -44,9 +59,15 @@ function panelItems(dock: Dock): MenuItem[] {
   return PANEL_GROUPS.flatMap((group) => {
     const kinds = allPanels().filter((kind) => kind.group === group);
     if (kinds.length === 0) return [];
-    const items = kinds.map((kind): MenuItem => ({
-      text: kind.title, note: kind.note ?? kind.kind, title: kind.about, faded: kind.faded, run: () => dock.show(kind.kind),
-    }));
+    const items = kinds.map(
+      (kind): MenuItem => ({
+        text: kind.title,
+        note: kind.note ?? kind.kind,
+        title: kind.about,
+        faded: kind.faded,
+        run: () => dock.show(kind.kind),
+      }),
+    );
     return [{ text: group, heading: true }, ...items];
   });
 }

@@ -15,8 +15,22 @@ const LOOK_AGAIN_MS = 2000;
 export class WorldControls {
   readonly element: HTMLElement;
   private readonly play: HTMLButtonElement;
-  private readonly steps = h('input', { type: 'number', class: 'steps', min: 1, value: 1, 'aria-label': 'Steps', title: 'How many steps' });
-  private readonly wanted = h('input', { type: 'number', class: 'wanted', min: 0, step: 0.1, 'aria-label': 'Wanted real-time factor', title: 'Wanted real-time factor; 0 is as fast as it goes' });
+  private readonly steps = h('input', {
+    type: 'number',
+    class: 'steps',
+    min: 1,
+    value: 1,
+    'aria-label': 'Steps',
+    title: 'How many steps',
+  });
+  private readonly wanted = h('input', {
+    type: 'number',
+    class: 'wanted',
+    min: 0,
+    step: 0.1,
+    'aria-label': 'Wanted real-time factor',
+    title: 'Wanted real-time factor; 0 is as fast as it goes',
+  });
   private readonly rtf = h('output', { class: 'figure', 'aria-label': 'Real-time factor' });
   private readonly sim = h('output', { class: 'figure', 'aria-label': 'Simulation time' });
   private readonly real = h('output', { class: 'figure', 'aria-label': 'Real time' });
@@ -24,16 +38,40 @@ export class WorldControls {
   private channel: Channel | null = null;
   private readonly draw = perFrame(() => this.render());
 
-  constructor(private readonly connection: Connection, private readonly toasts: Toasts) {
-    this.play = button('', () => this.togglePlay(), { icon: 'play', title: 'Play (Space)', class: 'primary' });
-    const reset = button('Reset', () => this.openReset(reset), { icon: 'reset', title: 'Reset the world, the model poses or the time' });
+  constructor(
+    private readonly connection: Connection,
+    private readonly toasts: Toasts,
+  ) {
+    this.play = button('', () => this.togglePlay(), {
+      icon: 'play',
+      title: 'Play (Space)',
+      class: 'primary',
+    });
+    const reset = button('Reset', () => this.openReset(reset), {
+      icon: 'reset',
+      title: 'Reset the world, the model poses or the time',
+    });
     reset.setAttribute('aria-haspopup', 'menu');
-    this.wanted.addEventListener('change', () => this.send('world.factor', { wanted_rtf: Number(this.wanted.value) }));
-    this.element = h('div', { class: 'world', role: 'toolbar', 'aria-label': 'Simulation', hidden: true },
-      this.play, h('span', { class: 'joined' }, button('', () => this.step(), { icon: 'step', title: 'Step ( . )' }), this.steps), reset,
+    this.wanted.addEventListener('change', () =>
+      this.send('world.factor', { wanted_rtf: Number(this.wanted.value) }),
+    );
+    this.element = h(
+      'div',
+      { class: 'world', role: 'toolbar', 'aria-label': 'Simulation', hidden: true },
+      this.play,
+      h(
+        'span',
+        { class: 'joined' },
+        button('', () => this.step(), { icon: 'step', title: 'Step ( . )' }),
+        this.steps,
+      ),
+      reset,
       h('span', { class: 'rule' }),
-      figure('RTF', this.rtf), h('label', { class: 'figure-label' }, 'wanted ', this.wanted),
-      figure('Sim', this.sim), figure('Real', this.real));
+      figure('RTF', this.rtf),
+      h('label', { class: 'figure-label' }, 'wanted ', this.wanted),
+      figure('Sim', this.sim),
+      figure('Real', this.real),
+    );
     this.watch();
   }
 
@@ -58,11 +96,15 @@ export class WorldControls {
   }
 
   private openReset(anchor: HTMLElement): void {
-    openMenu(anchor, [
-      { text: 'Reset world', note: 'Ctrl+R', run: () => this.reset('world') },
-      { text: 'Reset model poses', note: 'Ctrl+Shift+R', run: () => this.reset('poses') },
-      { text: 'Reset time', run: () => this.reset('time') },
-    ], 'Reset');
+    openMenu(
+      anchor,
+      [
+        { text: 'Reset world', note: 'Ctrl+R', run: () => this.reset('world') },
+        { text: 'Reset model poses', note: 'Ctrl+Shift+R', run: () => this.reset('poses') },
+        { text: 'Reset time', run: () => this.reset('time') },
+      ],
+      'Reset',
+    );
   }
 
   private send(method: string, params: JsonObject = {}): void {
@@ -70,11 +112,15 @@ export class WorldControls {
   }
 
   private watch(): void {
-    this.channel = this.connection.open('world.stats', {}, {
-      onData: (value) => this.take(value),
-      onFailed: () => this.lookAgain(),
-      onEnded: () => this.lookAgain(),
-    });
+    this.channel = this.connection.open(
+      'world.stats',
+      {},
+      {
+        onData: (value) => this.take(value),
+        onFailed: () => this.lookAgain(),
+        onEnded: () => this.lookAgain(),
+      },
+    );
   }
 
   private lookAgain(): void {

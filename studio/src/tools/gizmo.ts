@@ -15,7 +15,9 @@ export function gizmo(bench: Bench, mode: 'translate' | 'rotate'): Tool {
   const hand = new Gizmo(bench, mode);
   const name = mode === 'translate' ? 'Translate' : 'Rotate';
   return {
-    name, key: mode[0], about: `${name} the selected model; Ctrl snaps.`,
+    name,
+    key: mode[0],
+    about: `${name} the selected model; Ctrl snaps.`,
     begin: () => hand.begin(),
     end: () => hand.end(),
     down: (event) => hand.isOver(event),
@@ -38,7 +40,10 @@ class Gizmo {
   private sending = false;
   private again = false;
 
-  constructor(private readonly bench: Bench, private readonly mode: 'translate' | 'rotate') {}
+  constructor(
+    private readonly bench: Bench,
+    private readonly mode: 'translate' | 'rotate',
+  ) {}
 
   get isBusy(): boolean {
     return Boolean(this.controls?.dragging);
@@ -139,7 +144,10 @@ class Gizmo {
     this.again = false;
     try {
       this.proxy.updateMatrix();
-      await this.bench.world.call('world.set_pose', { model: this.model, pose: poseOf(this.proxy.matrix) });
+      await this.bench.world.call('world.set_pose', {
+        model: this.model,
+        pose: poseOf(this.proxy.matrix),
+      });
     } catch (problem) {
       this.bench.fail(problem);
     }

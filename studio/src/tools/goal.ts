@@ -24,14 +24,19 @@ const VARIANCES = { x: 0.25, y: 0.25, yaw: 0.06853891909122467 };
 /** Tells the localization where the robot is. */
 export function poseEstimate(bench: Bench): Tool {
   return arrowTool(bench, {
-    name: '2D Pose Estimate', key: 'p', about: 'Press where the robot is, drag where it looks: /initialpose.', colour: 0x3ecf5a,
+    name: '2D Pose Estimate',
+    key: 'p',
+    about: 'Press where the robot is, drag where it looks: /initialpose.',
+    colour: 0x3ecf5a,
     publish(to, pose) {
       const told = settings(to, 'SetInitialPose');
       const covariance = new Array<number>(36).fill(0);
       covariance[0] = variance(told, 'X', 'x');
       covariance[7] = variance(told, 'Y', 'y');
       covariance[35] = variance(told, 'Theta', 'yaw');
-      return send(to, told?.topic || '/initialpose', 'geometry_msgs/PoseWithCovarianceStamped', { pose: { pose, covariance } });
+      return send(to, told?.topic || '/initialpose', 'geometry_msgs/PoseWithCovarianceStamped', {
+        pose: { pose, covariance },
+      });
     },
   });
 }
@@ -39,10 +44,18 @@ export function poseEstimate(bench: Bench): Tool {
 /** Sends the robot somewhere. */
 export function navGoal(bench: Bench): Tool {
   return arrowTool(bench, {
-    name: '2D Nav Goal', key: 'g', about: 'Press where the robot shall go, drag where it shall look: the goal.', colour: 0xff2fd0,
+    name: '2D Nav Goal',
+    key: 'g',
+    about: 'Press where the robot shall go, drag where it shall look: the goal.',
+    colour: 0xff2fd0,
     publish(to, pose) {
       const taken = takeGoal({ header: stampedHeader(to.displays.fixedFrame), pose });
-      return taken || goalTopics(to).map((topic) => send(to, topic, 'geometry_msgs/PoseStamped', { pose })).join(', ');
+      return (
+        taken ||
+        goalTopics(to)
+          .map((topic) => send(to, topic, 'geometry_msgs/PoseStamped', { pose }))
+          .join(', ')
+      );
     },
   });
 }
@@ -56,7 +69,11 @@ function settings(bench: Bench, name: string): RvizTool | undefined {
 function variance(told: RvizTool | undefined, ros1: string, ros2: keyof typeof VARIANCES): number {
   const deviation = Number(told?.properties[`${ros1} std deviation`] ?? NaN);
   const value = Number(told?.properties[`Covariance ${ros2}`] ?? NaN);
-  return Number.isFinite(deviation) ? deviation * deviation : Number.isFinite(value) ? value : VARIANCES[ros2];
+  return Number.isFinite(deviation)
+    ? deviation * deviation
+    : Number.isFinite(value)
+      ? value
+      : VARIANCES[ros2];
 }
 
 /** The file's topic, else those that somebody listens to, else the one of the graph's ROS. */
@@ -67,13 +84,17 @@ function goalTopics(bench: Bench): readonly string[] {
 }
 
 function isHeard(bench: Bench, name: string): boolean {
-  return bench.graph.value.topics.some((topic) => topic.name === name && topic.subscribers.length > 0);
+  return bench.graph.value.topics.some(
+    (topic) => topic.name === name && topic.subscribers.length > 0,
+  );
 }
 
 /** Publish in the fixed frame; returns what is to be said of it. */
 function send(bench: Bench, topic: string, type: string, body: JsonObject): string {
   const message = { header: stampedHeader(bench.displays.fixedFrame), ...body };
-  bench.connection.call('topic.publish', { topic, type: typeFor(bench.graph, type), message }).catch(bench.fail);
+  bench.connection
+    .call('topic.publish', { topic, type: typeFor(bench.graph, type), message })
+    .catch(bench.fail);
   return isHeard(bench, topic) ? topic : `${topic}, to which nobody listens`;
 }
 
@@ -83,14 +104,18 @@ function arrowTool(bench: Bench, goal: Goal): Tool {
   arrow.visible = false;
   let from: THREE.Vector3 | null = null;
   let yaw = 0;
-  const point = (event: PointerEvent): THREE.Vector3 | null => groundPoint(bench.view, event.clientX, event.clientY);
+  const point = (event: PointerEvent): THREE.Vector3 | null =>
+    groundPoint(bench.view, event.clientX, event.clientY);
   const show = (): void => {
     const size = bench.view.metresPerPixel(arrow.position) * 90;
     aim(arrow, new THREE.Vector3(Math.cos(yaw), Math.sin(yaw), 0).multiplyScalar(size), 1);
     bench.view.invalidate(true);
   };
   return {
-    name: goal.name, key: goal.key, about: goal.about, cursor: 'crosshair',
+    name: goal.name,
+    key: goal.key,
+    about: goal.about,
+    cursor: 'crosshair',
     begin() {
       bench.view.hands.add(arrow);
       bench.say(`${goal.name}: press for the place and drag for the direction.`);
@@ -118,7 +143,10 @@ function arrowTool(bench: Bench, goal: Goal): Tool {
     up() {
       if (!from) return false;
       const position = { x: from.x, y: from.y, z: 0 };
-      const where = goal.publish(bench, { position, orientation: { x: 0, y: 0, z: Math.sin(yaw / 2), w: Math.cos(yaw / 2) } });
+      const where = goal.publish(bench, {
+        position,
+        orientation: { x: 0, y: 0, z: Math.sin(yaw / 2), w: Math.cos(yaw / 2) },
+      });
       const shown = `[${from.x.toFixed(3)}, ${from.y.toFixed(3)}], yaw ${yaw.toFixed(3)}`;
       bench.done();
       bench.say(`${goal.name} in ${bench.displays.fixedFrame}: ${shown} → ${where}`);

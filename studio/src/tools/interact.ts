@@ -17,7 +17,9 @@ export function interact(bench: Bench): Tool {
     held = null;
   };
   return {
-    name: 'Interact', key: 'i', about: 'Drag the handles of interactive markers.',
+    name: 'Interact',
+    key: 'i',
+    about: 'Drag the handles of interactive markers.',
     end: drop,
     down(event) {
       const found = handleAt(bench, event);
@@ -28,7 +30,11 @@ export function interact(bench: Bench): Tool {
         return true;
       }
       found.handle.send(FEEDBACK.MOUSE_DOWN, 0, found.point);
-      if (isDragged(mode)) held = { handle: found.handle, drag: found.handle.begin(bench.view.ray(event.clientX, event.clientY)) };
+      if (isDragged(mode))
+        held = {
+          handle: found.handle,
+          drag: found.handle.begin(bench.view.ray(event.clientX, event.clientY)),
+        };
       else if (mode === BUTTON) {
         found.handle.send(FEEDBACK.MOUSE_UP, 0, found.point);
         found.handle.send(FEEDBACK.BUTTON_CLICK, 0, found.point);
@@ -52,12 +58,16 @@ export function interact(bench: Bench): Tool {
       return true;
     },
     click(event) {
-      if (!handleAt(bench, event)) bench.world.selectEntity(pick(bench.view, event.clientX, event.clientY)?.entity ?? null);
+      if (!handleAt(bench, event))
+        bench.world.selectEntity(pick(bench.view, event.clientX, event.clientY)?.entity ?? null);
     },
   };
 }
 
-function handleAt(bench: Bench, event: PointerEvent): { handle: Handle; point: THREE.Vector3 } | null {
+function handleAt(
+  bench: Bench,
+  event: PointerEvent,
+): { handle: Handle; point: THREE.Vector3 } | null {
   const hit = pick(bench.view, event.clientX, event.clientY);
   for (let at: THREE.Object3D | null = hit?.object ?? null; at && hit; at = at.parent) {
     if (at.userData.interact) return { handle: at.userData.interact as Handle, point: hit.point };
@@ -72,9 +82,14 @@ function menu(event: PointerEvent, handle: Handle, point: THREE.Vector3): void {
     return parent ? 1 + depth(parent) : 0;
   };
   const parents = new Set(entries.map((entry) => entry.parent_id));
-  openMenuAt(event.clientX, event.clientY, handle.marker.name, entries.map((entry) => ({
-    text: `${'  '.repeat(depth(entry.id))}${entry.title}`,
-    heading: parents.has(entry.id),
-    run: () => handle.send(FEEDBACK.MENU_SELECT, entry.id, point),
-  })));
+  openMenuAt(
+    event.clientX,
+    event.clientY,
+    handle.marker.name,
+    entries.map((entry) => ({
+      text: `${'  '.repeat(depth(entry.id))}${entry.title}`,
+      heading: parents.has(entry.id),
+      run: () => handle.send(FEEDBACK.MENU_SELECT, entry.id, point),
+    })),
+  );
 }

@@ -12,7 +12,11 @@ export function carryField(event: DragEvent, path: string): void {
 }
 
 /** Takes dragged fields on an element; `mark` shows where they may be dropped. */
-export function acceptFields(element: HTMLElement, mark: HTMLElement, take: (path: string) => void): void {
+export function acceptFields(
+  element: HTMLElement,
+  mark: HTMLElement,
+  take: (path: string) => void,
+): void {
   element.addEventListener('dragover', (event) => {
     if (!event.dataTransfer?.types.includes(FIELD_MIME)) return;
     event.preventDefault();

@@ -18,14 +18,21 @@ export interface MenuItem {
 let shut: (() => void) | null = null;
 
 /** Opens a menu below an element; the one that is open closes. */
-export function openMenu(anchor: HTMLElement, items: readonly MenuItem[], label: string, columns = 1): void {
+export function openMenu(
+  anchor: HTMLElement,
+  items: readonly MenuItem[],
+  label: string,
+  columns = 1,
+): void {
   const again = anchor.getAttribute('aria-expanded') === 'true';
   shut?.();
   if (again) return;
   const menu = h('div', { class: 'menu', role: 'menu', 'aria-label': label });
   menu.style.columnCount = String(columns);
   for (const section of sections(items)) {
-    menu.append(h('div', { class: 'menu-section', role: 'group' }, ...section.map((item) => entry(item))));
+    menu.append(
+      h('div', { class: 'menu-section', role: 'group' }, ...section.map((item) => entry(item))),
+    );
   }
   document.body.append(menu);
   place(menu, anchor);
@@ -46,11 +53,25 @@ function sections(items: readonly MenuItem[]): MenuItem[][] {
 function entry(item: MenuItem): HTMLElement {
   if (item.heading) return h('div', { class: 'menu-heading' }, item.text);
   const role = item.checked === undefined ? 'menuitem' : 'menuitemcheckbox';
-  return h('button', {
-    type: 'button', class: item.faded ? 'menu-item faded' : 'menu-item', role, title: item.title, tabindex: -1,
-    'aria-checked': item.checked === undefined ? undefined : String(item.checked),
-    on: { click: () => { shut?.(); item.run?.(); } },
-  }, h('span', {}, item.text), item.note ? h('span', { class: 'menu-note' }, item.note) : null);
+  return h(
+    'button',
+    {
+      type: 'button',
+      class: item.faded ? 'menu-item faded' : 'menu-item',
+      role,
+      title: item.title,
+      tabindex: -1,
+      'aria-checked': item.checked === undefined ? undefined : String(item.checked),
+      on: {
+        click: () => {
+          shut?.();
+          item.run?.();
+        },
+      },
+    },
+    h('span', {}, item.text),
+    item.note ? h('span', { class: 'menu-note' }, item.note) : null,
+  );
 }
 
 function place(menu: HTMLElement, anchor: HTMLElement): void {
@@ -81,8 +102,10 @@ function onKey(event: KeyboardEvent, menu: HTMLElement, anchor: HTMLElement): vo
   const items = [...menu.querySelectorAll<HTMLElement>('[role^=menuitem]')];
   const at = items.indexOf(document.activeElement as HTMLElement);
   event.stopPropagation();
-  if (event.key === 'Escape' || event.key === 'Tab') { shut?.(); anchor.focus(); }
-  else if (event.key === 'ArrowDown') items[(at + 1) % items.length]?.focus();
+  if (event.key === 'Escape' || event.key === 'Tab') {
+    shut?.();
+    anchor.focus();
+  } else if (event.key === 'ArrowDown') items[(at + 1) % items.length]?.focus();
   else if (event.key === 'ArrowUp') items[(at - 1 + items.length) % items.length]?.focus();
   else if (event.key === 'Home') items[0]?.focus();
   else if (event.key === 'End') items[items.length - 1]?.focus();

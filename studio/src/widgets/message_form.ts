@@ -10,7 +10,11 @@ export interface FormOptions {
   changed: () => void;
 }
 
-interface Leaf { field: TypeField; path: string; input: HTMLInputElement }
+interface Leaf {
+  field: TypeField;
+  path: string;
+  input: HTMLInputElement;
+}
 
 const INTEGERS = /^(u?int(8|16|32|64)|byte|char|octet)$/;
 const FLOATS = /^(float(32|64)?|double)$/;
@@ -20,7 +24,10 @@ export class MessageForm {
   readonly element = h('div', { class: 'form', role: 'group', 'aria-label': 'Message' });
   private readonly leaves: Leaf[] = [];
 
-  constructor(fields: readonly TypeField[], private readonly options: FormOptions) {
+  constructor(
+    fields: readonly TypeField[],
+    private readonly options: FormOptions,
+  ) {
     this.element.append(...fields.map((field) => this.row(field, '', 0)));
   }
 
@@ -59,7 +66,8 @@ export class MessageForm {
   }
 
   private expressionOf(leaf: Leaf): string | null {
-    if (!this.options.expressions || leaf.field.array !== null || !isNumber(leaf.field)) return null;
+    if (!this.options.expressions || leaf.field.array !== null || !isNumber(leaf.field))
+      return null;
     const text = leaf.input.value.trim();
     return text !== '' && Number.isNaN(numberFrom(text)) ? text : null;
   }
@@ -69,8 +77,16 @@ export class MessageForm {
     const label = h('span', { class: 'form-name', title: path }, field.name);
     const type = h('span', { class: 'form-type' }, typeText(field));
     if (field.fields && field.array === null) {
-      const inside = h('details', { class: 'form-branch', open: depth < 2 },
-        h('summary', {}, label, type), h('div', { class: 'form-inside' }, ...field.fields.map((each) => this.row(each, path, depth + 1))));
+      const inside = h(
+        'details',
+        { class: 'form-branch', open: depth < 2 },
+        h('summary', {}, label, type),
+        h(
+          'div',
+          { class: 'form-inside' },
+          ...field.fields.map((each) => this.row(each, path, depth + 1)),
+        ),
+      );
       return inside;
     }
     const input = this.input(field, path);
@@ -81,9 +97,15 @@ export class MessageForm {
   private input(field: TypeField, path: string): HTMLInputElement {
     const tick = field.type === 'bool' || field.type === 'boolean';
     const input = h('input', {
-      type: tick && field.array === null ? 'checkbox' : 'text', 'aria-label': path, spellcheck: 'false', autocomplete: 'off',
+      type: tick && field.array === null ? 'checkbox' : 'text',
+      'aria-label': path,
+      spellcheck: 'false',
+      autocomplete: 'off',
       placeholder: field.array === null ? undefined : 'YAML list: [1, 2]',
-      title: this.options.expressions && isNumber(field) ? 'A number, or an expression of t (seconds) and i (count): sin(t/2)' : undefined,
+      title:
+        this.options.expressions && isNumber(field)
+          ? 'A number, or an expression of t (seconds) and i (count): sin(t/2)'
+          : undefined,
     });
     setInput(input, defaultText(field));
     input.addEventListener(tick ? 'change' : 'input', () => this.options.changed());
@@ -101,8 +123,12 @@ function typeText(field: TypeField): string {
 }
 
 function defaultText(field: TypeField): string {
-  if (field.array !== null) return typeof field.array === 'number' && isNumber(field) ? `[${Array(field.array).fill(0).join(', ')}]` : '[]';
-  if (field.default !== undefined && field.default !== null && typeof field.default !== 'object') return String(field.default);
+  if (field.array !== null)
+    return typeof field.array === 'number' && isNumber(field)
+      ? `[${Array(field.array).fill(0).join(', ')}]`
+      : '[]';
+  if (field.default !== undefined && field.default !== null && typeof field.default !== 'object')
+    return String(field.default);
   if (field.type === 'bool' || field.type === 'boolean') return 'false';
   return isNumber(field) ? '0' : '';
 }
@@ -117,7 +143,14 @@ function setInput(input: HTMLInputElement, text: string): void {
 }
 
 function numberFrom(text: string): number {
-  const named: Record<string, number> = { nan: 0, '.nan': 0, inf: 0, '.inf': 0, '-inf': 0, '-.inf': 0 };
+  const named: Record<string, number> = {
+    nan: 0,
+    '.nan': 0,
+    inf: 0,
+    '.inf': 0,
+    '-inf': 0,
+    '-.inf': 0,
+  };
   return text.toLowerCase() in named ? 0 : Number(text);
 }
 

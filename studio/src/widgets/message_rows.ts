@@ -19,13 +19,24 @@ export interface MessageRow {
 const MOST_ITEMS = 200;
 
 /** The rows of a value, its own fields only; those below `expanded` paths too. */
-export function messageRows(value: Json, path: string, depth: number, expanded: ReadonlySet<string>, rows: MessageRow[] = []): MessageRow[] {
+export function messageRows(
+  value: Json,
+  path: string,
+  depth: number,
+  expanded: ReadonlySet<string>,
+  rows: MessageRow[] = [],
+): MessageRow[] {
   for (const [name, child, childPath] of childrenOf(value, path)) {
     const branch = isBranch(child);
     const open = branch && expanded.has(childPath);
     rows.push({
-      path: childPath, name, depth, value: branch ? summary(child) : leafText(child),
-      branch, expanded: open, numeric: typeof child === 'number' || typeof child === 'boolean',
+      path: childPath,
+      name,
+      depth,
+      value: branch ? summary(child) : leafText(child),
+      branch,
+      expanded: open,
+      numeric: typeof child === 'number' || typeof child === 'boolean',
     });
     if (open) messageRows(child, childPath, depth + 1, expanded, rows);
   }
@@ -34,8 +45,12 @@ export function messageRows(value: Json, path: string, depth: number, expanded: 
 
 function childrenOf(value: Json, path: string): [string, Json, string][] {
   const items = cutItems(value) ?? (Array.isArray(value) ? value : null);
-  if (items) return items.slice(0, MOST_ITEMS).map((item, index) => [`[${index}]`, item, `${path}[${index}]`]);
-  if (isObject(value)) return Object.entries(value).map(([name, item]) => [name, item, `${path}/${name}`]);
+  if (items)
+    return items
+      .slice(0, MOST_ITEMS)
+      .map((item, index) => [`[${index}]`, item, `${path}[${index}]`]);
+  if (isObject(value))
+    return Object.entries(value).map(([name, item]) => [name, item, `${path}/${name}`]);
   return [];
 }
 
@@ -76,9 +91,11 @@ export function asYaml(value: Json, indent = ''): string {
   if (!isBranch(value)) return typeof value === 'string' ? JSON.stringify(value) : leafText(value);
   const entries = childrenOf(value, '');
   const list = Array.isArray(value) || cutItems(value) !== null;
-  return entries.map(([name, child]) => {
-    const lead = list ? '-' : `${name}:`;
-    const deeper = isBranch(child);
-    return `${indent}${lead}${deeper ? '\n' : ' '}${asYaml(child, `${indent}  `)}`;
-  }).join('\n');
+  return entries
+    .map(([name, child]) => {
+      const lead = list ? '-' : `${name}:`;
+      const deeper = isBranch(child);
+      return `${indent}${lead}${deeper ? '\n' : ' '}${asYaml(child, `${indent}  `)}`;
+    })
+    .join('\n');
 }

@@ -17,10 +17,17 @@ let count = 0;
 export function nameInput(options: NameInputOptions): HTMLInputElement {
   const list = h('datalist', { id: `names-${++count}` });
   const input = h('input', {
-    type: 'text', class: 'name', list: list.id, 'aria-label': options.label, placeholder: options.placeholder ?? options.label,
-    spellcheck: 'false', autocomplete: 'off', value: options.value ?? '',
+    type: 'text',
+    class: 'name',
+    list: list.id,
+    'aria-label': options.label,
+    placeholder: options.placeholder ?? options.label,
+    spellcheck: 'false',
+    autocomplete: 'off',
+    value: options.value ?? '',
   });
-  const offer = (names: readonly string[]) => list.replaceChildren(...names.map((name) => h('option', { value: name })));
+  const offer = (names: readonly string[]) =>
+    list.replaceChildren(...names.map((name) => h('option', { value: name })));
   input.addEventListener('focus', () => void Promise.resolve(options.names()).then(offer));
   input.addEventListener('change', () => options.chosen(input.value.trim()));
   input.append(list);

@@ -23,7 +23,9 @@ export class PanZoom {
     this.svg.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     this.svg.addEventListener('pointerdown', (event) => this.drag(event));
     this.svg.addEventListener('keydown', (event) => this.key(event));
-    new ResizeObserver(() => { if (this.fitting) this.fit(); }).observe(this.element);
+    new ResizeObserver(() => {
+      if (this.fitting) this.fit();
+    }).observe(this.element);
   }
 
   /** Says how large the contents are; the first time they are fitted into sight. */
@@ -87,9 +89,21 @@ export class PanZoom {
   private key(event: KeyboardEvent): void {
     const step = 40;
     const moves: Record<string, () => void> = {
-      ArrowLeft: () => { this.x += step; }, ArrowRight: () => { this.x -= step; },
-      ArrowUp: () => { this.y += step; }, ArrowDown: () => { this.y -= step; },
-      '+': () => this.zoom(1.2), '-': () => this.zoom(1 / 1.2), '0': () => this.fit(),
+      ArrowLeft: () => {
+        this.x += step;
+      },
+      ArrowRight: () => {
+        this.x -= step;
+      },
+      ArrowUp: () => {
+        this.y += step;
+      },
+      ArrowDown: () => {
+        this.y -= step;
+      },
+      '+': () => this.zoom(1.2),
+      '-': () => this.zoom(1 / 1.2),
+      '0': () => this.fit(),
     };
     const move = moves[event.key];
     if (!move || event.ctrlKey) return;

@@ -25,12 +25,22 @@ export function labelOf(spec: JsonObject): string {
 
 /** A label at the left and something at the right of it. */
 export function labelled(spec: JsonObject, control: HTMLElement): HTMLElement {
-  return h('div', { class: 'own-widget', title: textOf(spec, 'help') || undefined },
-    h('span', { class: 'own-label ellipsis' }, labelOf(spec)), control);
+  return h(
+    'div',
+    { class: 'own-widget', title: textOf(spec, 'help') || undefined },
+    h('span', { class: 'own-label ellipsis' }, labelOf(spec)),
+    control,
+  );
 }
 
 const MAKERS: Readonly<Record<string, (spec: JsonObject, act: Act) => WidgetView>> = {
-  slider, number, checkbox, choice, textinput, button: press, label,
+  slider,
+  number,
+  checkbox,
+  choice,
+  textinput,
+  button: press,
+  label,
 };
 
 /** The view of a widget of this file, or null when it is of another kind. */
@@ -69,8 +79,13 @@ class Typing {
   on = false;
 
   constructor(field: HTMLInputElement) {
-    field.addEventListener('input', () => { this.on = true; });
-    for (const end of ['change', 'blur']) field.addEventListener(end, () => { this.on = false; });
+    field.addEventListener('input', () => {
+      this.on = true;
+    });
+    for (const end of ['change', 'blur'])
+      field.addEventListener(end, () => {
+        this.on = false;
+      });
   }
 }
 
@@ -88,27 +103,56 @@ function slider(spec: JsonObject, act: Act): WidgetView {
   const step = stepOf(spec, (max - min) / 1000);
   const name = labelOf(spec);
   const range = h('input', { type: 'range', min, max, step, 'aria-label': name });
-  const field = h('input', { type: 'number', class: 'number', min, max, step: 'any', 'aria-label': `${name} value` });
+  const field = h('input', {
+    type: 'number',
+    class: 'number',
+    min,
+    max,
+    step: 'any',
+    'aria-label': `${name} value`,
+  });
   const newest = new Newest(act);
   const typing = new Typing(field);
-  const put = (value: number) => { range.value = String(value); field.value = short(value); };
-  range.addEventListener('input', () => { field.value = short(Number(range.value)); newest.send(Number(range.value)); });
-  field.addEventListener('change', () => { range.value = field.value; newest.send(Number(field.value)); });
+  const put = (value: number) => {
+    range.value = String(value);
+    field.value = short(value);
+  };
+  range.addEventListener('input', () => {
+    field.value = short(Number(range.value));
+    newest.send(Number(range.value));
+  });
+  field.addEventListener('change', () => {
+    range.value = field.value;
+    newest.send(Number(field.value));
+  });
   return {
     element: labelled(spec, h('span', { class: 'own-slider' }, range, field, unit(spec))),
-    show: (value) => { if (!newest.busy && !typing.on && typeof value === 'number') put(value); },
+    show: (value) => {
+      if (!newest.busy && !typing.on && typeof value === 'number') put(value);
+    },
   };
 }
 
 function number(spec: JsonObject, act: Act): WidgetView {
-  const limit = (name: string) => typeof spec[name] === 'number' ? spec[name] : undefined;
-  const field = h('input', { type: 'number', class: 'number', min: limit('min'), max: limit('max'), step: stepOf(spec, 'any'), 'aria-label': labelOf(spec) });
+  const limit = (name: string) => (typeof spec[name] === 'number' ? spec[name] : undefined);
+  const field = h('input', {
+    type: 'number',
+    class: 'number',
+    min: limit('min'),
+    max: limit('max'),
+    step: stepOf(spec, 'any'),
+    'aria-label': labelOf(spec),
+  });
   const newest = new Newest(act);
   const typing = new Typing(field);
-  field.addEventListener('change', () => { if (field.value !== '') newest.send(Number(field.value)); });
+  field.addEventListener('change', () => {
+    if (field.value !== '') newest.send(Number(field.value));
+  });
   return {
     element: labelled(spec, h('span', { class: 'own-inline' }, field, unit(spec))),
-    show: (value) => { if (!newest.busy && !typing.on && typeof value === 'number') field.value = short(value, 12); },
+    show: (value) => {
+      if (!newest.busy && !typing.on && typeof value === 'number') field.value = short(value, 12);
+    },
   };
 }
 
@@ -118,7 +162,9 @@ function checkbox(spec: JsonObject, act: Act): WidgetView {
   input.addEventListener('change', () => newest.send(input.checked));
   return {
     element: labelled(spec, h('span', {}, input)),
-    show: (value) => { if (!newest.busy) input.checked = value === true; },
+    show: (value) => {
+      if (!newest.busy) input.checked = value === true;
+    },
   };
 }
 
@@ -127,25 +173,43 @@ function choice(spec: JsonObject, act: Act): WidgetView {
   const element = h('select', { 'aria-label': labelOf(spec) }, ...options);
   const newest = new Newest(act);
   element.addEventListener('change', () => newest.send(element.value));
-  return { element: labelled(spec, element), show: (value) => { if (!newest.busy) element.value = String(value ?? ''); } };
+  return {
+    element: labelled(spec, element),
+    show: (value) => {
+      if (!newest.busy) element.value = String(value ?? '');
+    },
+  };
 }
 
 function textinput(spec: JsonObject, act: Act): WidgetView {
-  const input = h('input', { type: 'text', spellcheck: 'false', placeholder: textOf(spec, 'placeholder') || undefined, 'aria-label': labelOf(spec) });
+  const input = h('input', {
+    type: 'text',
+    spellcheck: 'false',
+    placeholder: textOf(spec, 'placeholder') || undefined,
+    'aria-label': labelOf(spec),
+  });
   const newest = new Newest(act);
   const typing = new Typing(input);
   input.addEventListener('change', () => newest.send(input.value));
-  return { element: labelled(spec, input), show: (value) => { if (!newest.busy && !typing.on) input.value = String(value ?? ''); } };
+  return {
+    element: labelled(spec, input),
+    show: (value) => {
+      if (!newest.busy && !typing.on) input.value = String(value ?? '');
+    },
+  };
 }
 
 function press(spec: JsonObject, act: Act): WidgetView {
-  const element = button(labelOf(spec), () => void act(null), { title: textOf(spec, 'help') || undefined });
+  const element = button(labelOf(spec), () => void act(null), {
+    title: textOf(spec, 'help') || undefined,
+  });
   return { element: h('div', { class: 'own-press' }, element), show: () => undefined };
 }
 
 function label(spec: JsonObject): WidgetView {
   const output = h('output', { class: 'own-value', 'aria-label': labelOf(spec) });
-  const text = (value: Json) => typeof value === 'number' ? short(value) : String(value ?? '') || '–';
+  const text = (value: Json) =>
+    typeof value === 'number' ? short(value) : String(value ?? '') || '–';
   return {
     element: labelled(spec, h('span', { class: 'own-inline' }, output, unit(spec))),
     show: (value) => setText(output, text(value)),

@@ -17,16 +17,24 @@ export interface ViewHost {
   /** Where the pictures of the panel are: `/plugin/<name>/`. */
   readonly base: string;
   /** Opens a stream of pictures; answers what ends it. */
-  pictures(topic: string, draw: (frame: Frame) => Promise<void>, tell: (text: string) => void): () => void;
+  pictures(
+    topic: string,
+    draw: (frame: Frame) => Promise<void>,
+    tell: (text: string) => void,
+  ): () => void;
 }
 
 /** The view of a plot, picture or table; null for what the page does not know. */
 export function viewFor(spec: JsonObject, host: ViewHost): WidgetView | null {
   switch (textOf(spec, 'kind')) {
-    case 'plot': return new PlotView(spec);
-    case 'image': return textOf(spec, 'topic') ? topicImage(spec, host) : codeImage(spec, host);
-    case 'table': return table(spec);
-    default: return null;
+    case 'plot':
+      return new PlotView(spec);
+    case 'image':
+      return textOf(spec, 'topic') ? topicImage(spec, host) : codeImage(spec, host);
+    case 'table':
+      return table(spec);
+    default:
+      return null;
   }
 }
 
@@ -42,11 +50,24 @@ class PlotView implements WidgetView {
 
   constructor(private readonly spec: JsonObject) {
     const unit = textOf(spec, 'unit');
-    this.curves = textsOf(spec, 'curves').map((name, index) => ({ name, colour: curveColour(index), samples: new Samples(), shown: true }));
+    this.curves = textsOf(spec, 'curves').map((name, index) => ({
+      name,
+      colour: curveColour(index),
+      samples: new Samples(),
+      shown: true,
+    }));
     const legend = this.curves.map((curve) => this.legendRow(curve, unit));
-    this.area.setAttribute('aria-label', `${labelOf(spec)}: ${this.curves.map((curve) => curve.name).join(', ')}`);
-    this.element = h('figure', { class: 'own-figure', title: textOf(spec, 'help') || undefined },
-      h('figcaption', { class: 'own-label' }, labelOf(spec)), this.area, h('div', { class: 'own-legend' }, ...legend));
+    this.area.setAttribute(
+      'aria-label',
+      `${labelOf(spec)}: ${this.curves.map((curve) => curve.name).join(', ')}`,
+    );
+    this.element = h(
+      'figure',
+      { class: 'own-figure', title: textOf(spec, 'help') || undefined },
+      h('figcaption', { class: 'own-label' }, labelOf(spec)),
+      this.area,
+      h('div', { class: 'own-legend' }, ...legend),
+    );
     this.chart = new PlotChart(this.area, () => this.draw());
     this.observer.observe(this.area);
     this.forgetTheme = onTheme(() => this.restyle());
@@ -57,7 +78,9 @@ class PlotView implements WidgetView {
   add(points: readonly Json[]): void {
     for (const point of points) {
       if (!Array.isArray(point)) continue;
-      this.curves.forEach((curve, index) => curve.samples.add([Number(point[0])], [Number(point[index + 1])]));
+      this.curves.forEach((curve, index) =>
+        curve.samples.add([Number(point[0])], [Number(point[index + 1])]),
+      );
     }
     this.draw();
   }
@@ -69,10 +92,21 @@ class PlotView implements WidgetView {
   }
 
   private drawNow(): void {
-    this.curves.forEach((curve, index) => setText(this.outputs[index], Number.isNaN(curve.samples.last()) ? '–' : short(curve.samples.last(), 4)));
+    this.curves.forEach((curve, index) =>
+      setText(
+        this.outputs[index],
+        Number.isNaN(curve.samples.last()) ? '–' : short(curve.samples.last(), 4),
+      ),
+    );
     const end = Math.max(...this.curves.map((curve) => curve.samples.end()));
     if (!Number.isFinite(end) || !this.area.isConnected) return;
-    this.chart.draw(this.curves, end - numberOf(this.spec, 'window_s', 30), end, this.area.clientWidth, PLOT_HEIGHT);
+    this.chart.draw(
+      this.curves,
+      end - numberOf(this.spec, 'window_s', 30),
+      end,
+      this.area.clientWidth,
+      PLOT_HEIGHT,
+    );
   }
 
   private legendRow(curve: Curve, unit: string): HTMLElement {
@@ -80,12 +114,23 @@ class PlotView implements WidgetView {
     this.outputs.push(output);
     const swatch = h('span', { class: 'own-swatch' });
     swatch.style.background = curve.colour;
-    return h('span', { class: 'own-inline' }, swatch, curve.name, output, unit ? h('span', { class: 'dim' }, unit) : null);
+    return h(
+      'span',
+      { class: 'own-inline' },
+      swatch,
+      curve.name,
+      output,
+      unit ? h('span', { class: 'dim' }, unit) : null,
+    );
   }
 
   private restyle(): void {
-    this.curves.forEach((curve, index) => { curve.colour = curveColour(index); });
-    this.element.querySelectorAll<HTMLElement>('.own-swatch').forEach((swatch, index) => { swatch.style.background = curveColour(index); });
+    this.curves.forEach((curve, index) => {
+      curve.colour = curveColour(index);
+    });
+    this.element.querySelectorAll<HTMLElement>('.own-swatch').forEach((swatch, index) => {
+      swatch.style.background = curveColour(index);
+    });
     this.chart.restyle();
     this.draw();
   }
@@ -96,8 +141,12 @@ function curveColour(index: number): string {
 }
 
 function figure(spec: JsonObject, ...children: HTMLElement[]): HTMLElement {
-  return h('figure', { class: 'own-figure', title: textOf(spec, 'help') || undefined },
-    h('figcaption', { class: 'own-label' }, labelOf(spec)), ...children);
+  return h(
+    'figure',
+    { class: 'own-figure', title: textOf(spec, 'help') || undefined },
+    h('figcaption', { class: 'own-label' }, labelOf(spec)),
+    ...children,
+  );
 }
 
 /** A picture of the panel's code: its value is a number that grows; the next is fetched when the last is there. */
@@ -112,17 +161,29 @@ function codeImage(spec: JsonObject, host: ViewHost): WidgetView {
     shown = wanted;
     picture.src = `${host.base}${encodeURIComponent(textOf(spec, 'name'))}?v=${wanted}`;
   };
-  const done = () => { loading = false; fetchNewest(); };
+  const done = () => {
+    loading = false;
+    fetchNewest();
+  };
   picture.addEventListener('load', done);
   picture.addEventListener('error', done);
   return {
     element: figure(spec, picture),
-    show: (value) => { wanted = typeof value === 'number' ? value : 0; fetchNewest(); },
+    show: (value) => {
+      wanted = typeof value === 'number' ? value : 0;
+      fetchNewest();
+    },
   };
 }
 
 function topicImage(spec: JsonObject, host: ViewHost): WidgetView {
-  const canvas = h('canvas', { class: 'own-picture', role: 'img', 'aria-label': labelOf(spec), width: 0, height: 0 });
+  const canvas = h('canvas', {
+    class: 'own-picture',
+    role: 'img',
+    'aria-label': labelOf(spec),
+    width: 0,
+    height: 0,
+  });
   const status = h('div', { class: 'dim' }, `Waiting for ${textOf(spec, 'topic')}`);
   const draw = async (frame: Frame): Promise<void> => {
     const picture = await createImageBitmap(new Blob([bytes(frame)]));
@@ -132,19 +193,35 @@ function topicImage(spec: JsonObject, host: ViewHost): WidgetView {
     picture.close();
     status.hidden = true;
   };
-  const end = host.pictures(textOf(spec, 'topic'), draw, (text) => { status.hidden = !text; setText(status, text); });
+  const end = host.pictures(textOf(spec, 'topic'), draw, (text) => {
+    status.hidden = !text;
+    setText(status, text);
+  });
   return { element: figure(spec, canvas, status), show: () => undefined, dispose: end };
 }
 
 function table(spec: JsonObject): WidgetView {
   const body = h('tbody');
   const heads = textsOf(spec, 'columns').map((column) => h('th', { scope: 'col' }, column));
-  const element = figure(spec, h('table', { class: 'own-table', 'aria-label': labelOf(spec) }, h('thead', {}, h('tr', {}, ...heads)), body));
-  const cell = (value: Json) => typeof value === 'number' ? h('td', { class: 'number' }, short(value)) : h('td', {}, String(value));
+  const element = figure(
+    spec,
+    h(
+      'table',
+      { class: 'own-table', 'aria-label': labelOf(spec) },
+      h('thead', {}, h('tr', {}, ...heads)),
+      body,
+    ),
+  );
+  const cell = (value: Json) =>
+    typeof value === 'number'
+      ? h('td', { class: 'number' }, short(value))
+      : h('td', {}, String(value));
   return {
     element,
     show: (value) => {
-      const rows = Array.isArray(value) ? value.filter((row): row is Json[] => Array.isArray(row)) : [];
+      const rows = Array.isArray(value)
+        ? value.filter((row): row is Json[] => Array.isArray(row))
+        : [];
       body.replaceChildren(...rows.map((row) => h('tr', {}, ...row.map(cell))));
     },
   };

@@ -15,7 +15,11 @@ export class SliderForm {
   private readonly limits = new Map<string, [number, number]>();
   private readonly syncs: (() => void)[] = [];
 
-  constructor(fields: readonly TypeField[], ranges: Json, private readonly changed: () => void) {
+  constructor(
+    fields: readonly TypeField[],
+    ranges: Json,
+    private readonly changed: () => void,
+  ) {
     this.form = new MessageForm(fields, { expressions: true, changed });
     this.element.append(this.form.element);
     for (const [path, field] of numbersOf(fields)) this.addSlider(path, field, ranges);
@@ -44,14 +48,28 @@ export class SliderForm {
   }
 
   private addSlider(path: string, field: TypeField, ranges: Json): void {
-    const input = this.form.element.querySelector<HTMLInputElement>(`input[aria-label="${CSS.escape(path)}"]`);
+    const input = this.form.element.querySelector<HTMLInputElement>(
+      `input[aria-label="${CSS.escape(path)}"]`,
+    );
     if (!input) return;
     const whole = INTEGERS.test(field.type);
     const [low, high] = rangeFor(path, ranges, whole);
     this.limits.set(path, [low, high]);
-    const slider = h('input', { type: 'range', min: low, max: high, step: whole ? 1 : (high - low) / 1000, value: Number(input.value) || 0, 'aria-label': `${path} slider` });
-    slider.addEventListener('input', () => { input.value = slider.value; this.changed(); });
-    const sync = () => { if (Number.isFinite(Number(input.value))) slider.value = input.value; };
+    const slider = h('input', {
+      type: 'range',
+      min: low,
+      max: high,
+      step: whole ? 1 : (high - low) / 1000,
+      value: Number(input.value) || 0,
+      'aria-label': `${path} slider`,
+    });
+    slider.addEventListener('input', () => {
+      input.value = slider.value;
+      this.changed();
+    });
+    const sync = () => {
+      if (Number.isFinite(Number(input.value))) slider.value = input.value;
+    };
     input.addEventListener('input', sync);
     this.syncs.push(sync);
     input.before(this.bound(path, 0, slider), slider, this.bound(path, 1, slider));
@@ -60,7 +78,13 @@ export class SliderForm {
 
   private bound(path: string, end: 0 | 1, slider: HTMLInputElement): HTMLInputElement {
     const limits = this.limits.get(path) ?? [-1, 1];
-    const input = h('input', { type: 'number', step: 'any', class: 'bound', value: limits[end], 'aria-label': `${path} ${end ? 'maximum' : 'minimum'}` });
+    const input = h('input', {
+      type: 'number',
+      step: 'any',
+      class: 'bound',
+      value: limits[end],
+      'aria-label': `${path} ${end ? 'maximum' : 'minimum'}`,
+    });
     input.addEventListener('change', () => {
       limits[end] = Number(input.value);
       slider.min = String(limits[0]);
@@ -73,7 +97,8 @@ export class SliderForm {
 
 function rangeFor(path: string, ranges: Json, whole: boolean): [number, number] {
   const kept = isObject(ranges) ? ranges[path] : null;
-  if (Array.isArray(kept) && typeof kept[0] === 'number' && typeof kept[1] === 'number') return [kept[0], kept[1]];
+  if (Array.isArray(kept) && typeof kept[0] === 'number' && typeof kept[1] === 'number')
+    return [kept[0], kept[1]];
   return whole ? [0, 100] : [-1, 1];
 }
 

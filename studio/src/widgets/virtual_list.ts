@@ -27,11 +27,19 @@ export class VirtualList<T> {
   readonly refresh = perFrame(() => this.draw());
 
   constructor(private readonly maker: RowMaker<T>) {
-    this.element = h('div', { class: 'virtual', role: maker.role ?? 'table', 'aria-label': maker.label, tabindex: 0 }, this.canvas);
-    this.element.addEventListener('scroll', () => {
-      this.stick = this.stick && this.atEnd();
-      this.refresh();
-    }, { passive: true });
+    this.element = h(
+      'div',
+      { class: 'virtual', role: maker.role ?? 'table', 'aria-label': maker.label, tabindex: 0 },
+      this.canvas,
+    );
+    this.element.addEventListener(
+      'scroll',
+      () => {
+        this.stick = this.stick && this.atEnd();
+        this.refresh();
+      },
+      { passive: true },
+    );
     new ResizeObserver(this.refresh).observe(this.element);
   }
 
@@ -64,7 +72,8 @@ export class VirtualList<T> {
   reveal(index: number): void {
     const top = index * this.maker.height;
     const { scrollTop, clientHeight } = this.element;
-    if (top < scrollTop || top + this.maker.height > scrollTop + clientHeight) this.element.scrollTop = top - clientHeight / 2;
+    if (top < scrollTop || top + this.maker.height > scrollTop + clientHeight)
+      this.element.scrollTop = top - clientHeight / 2;
     this.refresh();
   }
 
@@ -97,7 +106,8 @@ export class VirtualList<T> {
     const element = this.maker.make();
     element.classList.add('row');
     element.style.height = `${this.maker.height}px`;
-    if (!element.hasAttribute('role')) element.setAttribute('role', this.maker.role === 'listbox' ? 'option' : 'row');
+    if (!element.hasAttribute('role'))
+      element.setAttribute('role', this.maker.role === 'listbox' ? 'option' : 'row');
     this.pool.push(element);
     return element;
   }
@@ -105,10 +115,18 @@ export class VirtualList<T> {
 
 /** The headings above a list; `columns` is a CSS grid template that rows of class `cells` share. */
 export function headings(texts: readonly string[]): HTMLElement {
-  return h('div', { class: 'cells headings', role: 'row' }, ...texts.map((text) => h('span', { role: 'columnheader' }, text)));
+  return h(
+    'div',
+    { class: 'cells headings', role: 'row' },
+    ...texts.map((text) => h('span', { role: 'columnheader' }, text)),
+  );
 }
 
 /** A row of cells. */
 export function cellRow(count: number): HTMLElement {
-  return h('div', { class: 'cells' }, ...Array.from({ length: count }, () => h('span', { role: 'cell' })));
+  return h(
+    'div',
+    { class: 'cells' },
+    ...Array.from({ length: count }, () => h('span', { role: 'cell' })),
+  );
 }

@@ -15,16 +15,28 @@ import { openMenuAt } from './menu';
 import { openWrenchDialog } from './wrench_dialog';
 
 const SIZES: Record<string, JsonObject> = {
-  box: { size: [1, 1, 1] }, sphere: { radius: 0.5 }, cylinder: { radius: 0.5, length: 1 },
+  box: { size: [1, 1, 1] },
+  sphere: { radius: 0.5 },
+  cylinder: { radius: 0.5, length: 1 },
 };
 const HALF_M = 0.5;
 
 /** Insert a source of `world.insert` where one looks (or at a point), and take it in hand. */
-export async function insert(panel: ScenePanel, source: JsonObject, name: string, at?: THREE.Vector3, height = 0): Promise<void> {
+export async function insert(
+  panel: ScenePanel,
+  source: JsonObject,
+  name: string,
+  at?: THREE.Vector3,
+  height = 0,
+): Promise<void> {
   const [x, y] = at ? [at.x, at.y] : freePlace(panel);
   const pose: Pose = [rounded(x), rounded(y), height, 0, 0, 0, 1];
   try {
-    const answer = await panel.world.call('world.insert', { source, name: freeName(panel, name), pose });
+    const answer = await panel.world.call('world.insert', {
+      source,
+      name: freeName(panel, name),
+      pose,
+    });
     const made = isObject(answer) ? textOf(answer, 'name', name) : name;
     panel.say(`Inserted ${made}`);
     selectWhenThere(panel, made);
@@ -34,7 +46,11 @@ export async function insert(panel: ScenePanel, source: JsonObject, name: string
 }
 
 /** Insert a box, sphere or cylinder standing on the ground. */
-export function insertPrimitive(panel: ScenePanel, shape: 'box' | 'sphere' | 'cylinder', at?: THREE.Vector3): Promise<void> {
+export function insertPrimitive(
+  panel: ScenePanel,
+  shape: 'box' | 'sphere' | 'cylinder',
+  at?: THREE.Vector3,
+): Promise<void> {
   return insert(panel, { primitive: shape, ...SIZES[shape] }, shape, at, HALF_M);
 }
 
@@ -105,7 +121,11 @@ async function dropped(panel: ScenePanel, event: DragEvent): Promise<void> {
   const at = groundPoint(panel.view, event.clientX, event.clientY) ?? undefined;
   const own = event.dataTransfer?.getData('application/x-gazelle-source');
   if (own) {
-    const { source, name, height } = JSON.parse(own) as { source: JsonObject; name: string; height: number };
+    const { source, name, height } = JSON.parse(own) as {
+      source: JsonObject;
+      name: string;
+      height: number;
+    };
     return insert(panel, source, name, at, height);
   }
   for (const file of event.dataTransfer?.files ?? []) await insertFile(panel, file, at);
@@ -116,7 +136,9 @@ export async function insertFile(panel: ScenePanel, file: File, at?: THREE.Vecto
   const text = await file.text();
   if (file.name.endsWith('.rviz')) return openRviz(panel, { text, name: file.name });
   if (!/<(robot|sdf|model|world)[\s>]/.test(text)) {
-    panel.fail(new Error(`${file.name} is neither URDF nor SDF: it has no <robot>, <sdf> or <model>.`));
+    panel.fail(
+      new Error(`${file.name} is neither URDF nor SDF: it has no <robot>, <sdf> or <model>.`),
+    );
     return;
   }
   await insert(panel, { text, file: file.name }, file.name.replace(/\.[^.]*$/, ''), at);
@@ -129,10 +151,18 @@ export async function openRviz(panel: ScenePanel, file: JsonObject): Promise<voi
     if (!isObject(value)) return;
     panel.open({ displays: value, ...(isObject(value['view']) ? { view: value['view'] } : {}) });
     openPanels(panel, value);
-    if (panel.displays.displays.some((display) => display.kind.name === DISPLAY_ROWS.MotionPlanning.name)) {
+    if (
+      panel.displays.displays.some(
+        (display) => display.kind.name === DISPLAY_ROWS.MotionPlanning.name,
+      )
+    ) {
       panel.choose('Interact');
       // As in RViz below the displays, unless Gazebo's panels leave little room there.
-      panel.host.show('motion_planning', {}, scenePanels().some((each) => each.kind === 'gazebo') ? 'rviz' : 'displays');
+      panel.host.show(
+        'motion_planning',
+        {},
+        scenePanels().some((each) => each.kind === 'gazebo') ? 'rviz' : 'displays',
+      );
     }
   } catch (problem) {
     panel.fail(asCallError(problem));
@@ -141,12 +171,24 @@ export async function openRviz(panel: ScenePanel, file: JsonObject): Promise<voi
 
 const RVIZ_PANELS = /^rviz(_common)?\/|^$/;
 const PANELS: Record<string, string> = { 'nav2_rviz_plugins/Navigation 2': 'navigation' };
-const TOOLS = ['MoveCamera', 'Interact', 'Select', 'FocusCamera', 'Measure', 'SetInitialPose', 'SetGoal', 'PublishPoint', 'GoalTool'];
+const TOOLS = [
+  'MoveCamera',
+  'Interact',
+  'Select',
+  'FocusCamera',
+  'Measure',
+  'SetInitialPose',
+  'SetGoal',
+  'PublishPoint',
+  'GoalTool',
+];
 
 /** Panels of plug-ins that a `.rviz` file names; those of RViz itself are parts of this page. */
 function openPanels(panel: ScenePanel, value: JsonObject): void {
   const names = textsOf(value, 'panels').filter((name) => !RVIZ_PANELS.test(name));
-  const tools = panel.displays.tools.map((tool) => tool.class).filter((name) => !TOOLS.includes(name));
+  const tools = panel.displays.tools
+    .map((tool) => tool.class)
+    .filter((name) => !TOOLS.includes(name));
   for (const name of names) if (PANELS[name]) panel.host.show(PANELS[name], {});
   const unknown = names.filter((name) => !PANELS[name]);
   if (unknown.length) panel.host.tell(`The file's panels ${unknown.join(', ')} do not exist here.`);
@@ -158,7 +200,9 @@ async function copyPose(panel: ScenePanel, model: string): Promise<void> {
   if (!pose) return;
   const [x, y, z, qx, qy, qz, qw] = poseOf(pose);
   const euler = new THREE.Euler().setFromQuaternion(new THREE.Quaternion(qx, qy, qz, qw), 'ZYX');
-  await navigator.clipboard.writeText([x, y, z, euler.x, euler.y, euler.z].map((value) => value.toFixed(4)).join(' '));
+  await navigator.clipboard.writeText(
+    [x, y, z, euler.x, euler.y, euler.z].map((value) => value.toFixed(4)).join(' '),
+  );
   panel.say('The pose was copied: x y z roll pitch yaw.');
 }
 
@@ -177,13 +221,18 @@ function selectWhenThere(panel: ScenePanel, model: string): void {
 function freePlace(panel: ScenePanel): [number, number] {
   const [x, y] = panel.view.rig.state.focal;
   const around = (node: { root: THREE.Object3D }): boolean => node.root.visible;
-  const boxes = panel.assembly.bodies.filter(around).map((node) => panel.assembly.worldBox([node]))
+  const boxes = panel.assembly.bodies
+    .filter(around)
+    .map((node) => panel.assembly.worldBox([node]))
     .filter((box) => box.max.z > 0.05 && box.getSize(new THREE.Vector3()).length() < 20);
   for (let step = 0; step < 60; step++) {
     const angle = step * 2.4;
     const away = 0.45 * Math.sqrt(step);
     const [px, py] = [x + away * Math.cos(angle), y + away * Math.sin(angle)];
-    const room = new THREE.Box3(new THREE.Vector3(px - 0.55, py - 0.55, 0.02), new THREE.Vector3(px + 0.55, py + 0.55, 1));
+    const room = new THREE.Box3(
+      new THREE.Vector3(px - 0.55, py - 0.55, 0.02),
+      new THREE.Vector3(px + 0.55, py + 0.55, 1),
+    );
     if (!boxes.some((box) => box.intersectsBox(room))) return [px, py];
   }
   return [x, y];

@@ -17,8 +17,16 @@ interface Row {
 export class EntitiesPanel extends BasePanel {
   readonly title = 'World';
   private readonly world: WorldStore;
-  private readonly search = h('input', { type: 'search', placeholder: 'Search', 'aria-label': 'Search entities' });
-  private readonly tree = h('div', { class: 'entity-tree', role: 'tree', 'aria-label': 'Entities' });
+  private readonly search = h('input', {
+    type: 'search',
+    placeholder: 'Search',
+    'aria-label': 'Search entities',
+  });
+  private readonly tree = h('div', {
+    class: 'entity-tree',
+    role: 'tree',
+    'aria-label': 'Entities',
+  });
   private readonly unfolded = new Set<string>();
   private rows: Row[] = [];
   private drawn = '';
@@ -28,18 +36,31 @@ export class EntitiesPanel extends BasePanel {
     this.world = worldStore(connection);
     this.search.addEventListener('input', () => this.draw());
     this.element.append(
-      toolbar('World', this.search,
-        button('Move To', () => this.act((scene, name) => moveTo(scene, name)), { title: 'Look at the selected model' }),
-        button('Follow', () => this.act((scene, name) => follow(scene, name)), { title: 'Follow the selected model' }),
-        button('', () => this.act((scene, name) => void remove(scene, name)), { icon: 'trash', title: 'Delete the selected model' })),
-      this.tree);
+      toolbar(
+        'World',
+        this.search,
+        button('Move To', () => this.act((scene, name) => moveTo(scene, name)), {
+          title: 'Look at the selected model',
+        }),
+        button('Follow', () => this.act((scene, name) => follow(scene, name)), {
+          title: 'Follow the selected model',
+        }),
+        button('', () => this.act((scene, name) => void remove(scene, name)), {
+          icon: 'trash',
+          title: 'Delete the selected model',
+        }),
+      ),
+      this.tree,
+    );
     this.element.classList.add('entities-panel');
     this.tree.addEventListener('keydown', (event) => this.key(event));
     this.atEnd(this.world.onScene(() => this.draw()));
     this.atEnd(this.world.onSelection(() => this.mark()));
   }
 
-  private act(run: (scene: NonNullable<ReturnType<typeof activeScene>>, model: string) => void): void {
+  private act(
+    run: (scene: NonNullable<ReturnType<typeof activeScene>>, model: string) => void,
+  ): void {
     const scene = activeScene('gazebo');
     const model = this.world.selection?.model;
     if (!scene || !model) return this.host.fail(new Error('Select a model first.'));
@@ -49,7 +70,12 @@ export class EntitiesPanel extends BasePanel {
   private draw(): void {
     const { scene } = this.world;
     const words = this.search.value.trim().toLowerCase();
-    const key = JSON.stringify([scene?.models.map((model) => [model.name, model.bodies.length, model.joints.length]), scene?.lights.map((light) => light.name), words, [...this.unfolded]]);
+    const key = JSON.stringify([
+      scene?.models.map((model) => [model.name, model.bodies.length, model.joints.length]),
+      scene?.lights.map((light) => light.name),
+      words,
+      [...this.unfolded],
+    ]);
     if (key === this.drawn) return;
     this.drawn = key;
     this.rows = [];
@@ -58,10 +84,10 @@ export class EntitiesPanel extends BasePanel {
       return;
     }
     const models = scene.models.flatMap((model) => this.model(scene, model, words));
-    const lights = scene.lights.filter((light) => light.name.toLowerCase().includes(words))
+    const lights = scene.lights
+      .filter((light) => light.name.toLowerCase().includes(words))
       .map((light) => this.row(light.name, 'light', 2, { model: '', light: light.name }));
-    this.tree.replaceChildren(
-      heading('Models'), ...models, heading('Lights'), ...lights);
+    this.tree.replaceChildren(heading('Models'), ...models, heading('Lights'), ...lights);
     this.mark();
   }
 
@@ -72,21 +98,53 @@ export class EntitiesPanel extends BasePanel {
     const inside = words && (links.some(hits) || joints.some((joint) => hits(joint.name)));
     if (words && !hits(model.name) && !inside) return [];
     const isOpen = this.unfolded.has(model.name) || Boolean(inside);
-    const head = this.row(model.name, model.static ? 'static' : 'model', 2, { model: model.name }, isOpen);
+    const head = this.row(
+      model.name,
+      model.static ? 'static' : 'model',
+      2,
+      { model: model.name },
+      isOpen,
+    );
     if (!isOpen) return [head];
     return [
       head,
-      ...links.filter((link) => !words || hits(model.name) || hits(link)).map((link) => this.row(link, 'link', 3, { model: model.name, link })),
-      ...joints.filter((joint) => !words || hits(model.name) || hits(joint.name)).map((joint) => this.row(joint.name, joint.type, 3, { model: model.name })),
+      ...links
+        .filter((link) => !words || hits(model.name) || hits(link))
+        .map((link) => this.row(link, 'link', 3, { model: model.name, link })),
+      ...joints
+        .filter((joint) => !words || hits(model.name) || hits(joint.name))
+        .map((joint) => this.row(joint.name, joint.type, 3, { model: model.name })),
     ];
   }
 
-  private row(name: string, note: string, level: number, selection: Selection, expanded?: boolean): HTMLElement {
+  private row(
+    name: string,
+    note: string,
+    level: number,
+    selection: Selection,
+    expanded?: boolean,
+  ): HTMLElement {
     const isModel = expanded !== undefined;
-    const element = h('div', {
-      class: 'entity', role: 'treeitem', tabindex: -1, 'aria-level': level, 'aria-label': `${name} ${note}`,
-      'aria-expanded': isModel ? String(expanded) : undefined, 'data-name': name, 'data-kind': note,
-    }, h('span', { class: 'entity-twist', 'aria-hidden': 'true' }, isModel ? (expanded ? '▾' : '▸') : ''), h('span', { class: 'entity-name' }, name), h('span', { class: 'entity-note' }, note));
+    const element = h(
+      'div',
+      {
+        class: 'entity',
+        role: 'treeitem',
+        tabindex: -1,
+        'aria-level': level,
+        'aria-label': `${name} ${note}`,
+        'aria-expanded': isModel ? String(expanded) : undefined,
+        'data-name': name,
+        'data-kind': note,
+      },
+      h(
+        'span',
+        { class: 'entity-twist', 'aria-hidden': 'true' },
+        isModel ? (expanded ? '▾' : '▸') : '',
+      ),
+      h('span', { class: 'entity-name' }, name),
+      h('span', { class: 'entity-note' }, note),
+    );
     element.style.paddingLeft = `${(level - 2) * 16 + 6}px`;
     element.addEventListener('click', (event) => {
       const onTwist = (event.target as HTMLElement).classList.contains('entity-twist');

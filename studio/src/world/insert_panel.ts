@@ -14,7 +14,11 @@ import { insert, insertFile, insertPrimitive } from './actions';
 export class InsertPanel extends BasePanel {
   readonly title = 'Insert';
   private models: ModelEntry[] = [];
-  private readonly search = h('input', { type: 'search', placeholder: 'Search models', 'aria-label': 'Search models' });
+  private readonly search = h('input', {
+    type: 'search',
+    placeholder: 'Search models',
+    'aria-label': 'Search models',
+  });
   private readonly list = h('div', { class: 'model-list', role: 'list', 'aria-label': 'Models' });
 
   constructor(connection: Connection, host: PanelHost) {
@@ -26,19 +30,36 @@ export class InsertPanel extends BasePanel {
       file.value = '';
     });
     const shapes = (['box', 'sphere', 'cylinder'] as const).map((shape) => {
-      const made = button(shape, () => {
-        const scene = this.scene();
-        if (scene) void insertPrimitive(scene, shape);
-      }, { title: `Insert a ${shape}` });
+      const made = button(
+        shape,
+        () => {
+          const scene = this.scene();
+          if (scene) void insertPrimitive(scene, shape);
+        },
+        { title: `Insert a ${shape}` },
+      );
       made.prepend(sceneIcon(shape));
       return made;
     });
     this.search.addEventListener('input', () => this.draw());
     this.element.classList.add('insert-panel');
     this.element.append(
-      toolbar('Insert', ...shapes, button('File…', () => file.click(), { title: 'Insert a URDF or SDF file; files can be dropped on the view too' }), file),
-      h('div', { class: 'toolbar' }, this.search, button('', () => void this.load(), { icon: 'refresh', title: 'Look for models again' })),
-      this.list);
+      toolbar(
+        'Insert',
+        ...shapes,
+        button('File…', () => file.click(), {
+          title: 'Insert a URDF or SDF file; files can be dropped on the view too',
+        }),
+        file,
+      ),
+      h(
+        'div',
+        { class: 'toolbar' },
+        this.search,
+        button('', () => void this.load(), { icon: 'refresh', title: 'Look for models again' }),
+      ),
+      this.list,
+    );
     void this.load();
   }
 
@@ -60,24 +81,52 @@ export class InsertPanel extends BasePanel {
 
   private draw(): void {
     const words = this.search.value.trim().toLowerCase();
-    const fitting = this.models.filter((model) => `${model.name} ${model.title} ${model.description}`.toLowerCase().includes(words));
+    const fitting = this.models.filter((model) =>
+      `${model.name} ${model.title} ${model.description}`.toLowerCase().includes(words),
+    );
     this.list.replaceChildren(...fitting.map((model) => this.card(model)));
-    if (!fitting.length) this.list.append(notice(words ? 'No model has these words.' : 'No models found: GAZEBO_MODEL_PATH names where they are.'));
+    if (!fitting.length)
+      this.list.append(
+        notice(
+          words
+            ? 'No model has these words.'
+            : 'No models found: GAZEBO_MODEL_PATH names where they are.',
+        ),
+      );
   }
 
   private card(model: ModelEntry): HTMLElement {
     const source: JsonObject = { model: model.name };
-    const picture = h('img', { class: 'model-picture', alt: '', loading: 'lazy', src: model.thumbnail, draggable: 'false' });
+    const picture = h('img', {
+      class: 'model-picture',
+      alt: '',
+      loading: 'lazy',
+      src: model.thumbnail,
+      draggable: 'false',
+    });
     picture.addEventListener('error', () => picture.classList.add('missing'));
-    const card = h('button', {
-      type: 'button', class: 'model-card', draggable: 'true', title: [model.description, model.path].filter(Boolean).join('\n'), 'aria-label': `Insert ${model.name}`,
-    }, picture, h('span', { class: 'model-name' }, model.title), h('span', { class: 'model-path' }, model.name));
+    const card = h(
+      'button',
+      {
+        type: 'button',
+        class: 'model-card',
+        draggable: 'true',
+        title: [model.description, model.path].filter(Boolean).join('\n'),
+        'aria-label': `Insert ${model.name}`,
+      },
+      picture,
+      h('span', { class: 'model-name' }, model.title),
+      h('span', { class: 'model-path' }, model.name),
+    );
     card.addEventListener('click', () => {
       const scene = this.scene();
       if (scene) void insert(scene, source, model.name);
     });
     card.addEventListener('dragstart', (event) => {
-      event.dataTransfer?.setData('application/x-gazelle-source', JSON.stringify({ source, name: model.name, height: 0 }));
+      event.dataTransfer?.setData(
+        'application/x-gazelle-source',
+        JSON.stringify({ source, name: model.name, height: 0 }),
+      );
     });
     return h('div', { role: 'listitem' }, card);
   }

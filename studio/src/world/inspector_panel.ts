@@ -40,14 +40,22 @@ export class InspectorPanel extends BasePanel {
     this.poseInputs = [];
     if (!selection) return this.body.replaceChildren(notice('Select a model, a link or a light.'));
     if (selection.light) return this.showLight(selection.light);
-    const title = h('h3', {}, selection.link ? `${selection.model}::${selection.link}` : selection.model);
+    const title = h(
+      'h3',
+      {},
+      selection.link ? `${selection.model}::${selection.link}` : selection.model,
+    );
     this.body.replaceChildren(title, this.poseGroup());
     this.refreshPose(true);
-    const params: Record<string, string> = selection.link ? { model: selection.model, link: selection.link } : { model: selection.model };
-    const rows = await this.connection.call('world.properties', params).catch((problem: unknown) => {
-      this.host.fail(problem, 'Properties');
-      return [];
-    });
+    const params: Record<string, string> = selection.link
+      ? { model: selection.model, link: selection.link }
+      : { model: selection.model };
+    const rows = await this.connection
+      .call('world.properties', params)
+      .catch((problem: unknown) => {
+        this.host.fail(problem, 'Properties');
+        return [];
+      });
     if (ask !== this.asked || !Array.isArray(rows)) return;
     this.body.append(...this.groups(rows as unknown as PropertyRow[], params));
   }
@@ -56,14 +64,20 @@ export class InspectorPanel extends BasePanel {
     const light = this.world.scene?.lights.find((each) => each.name === name);
     if (!light) return this.body.replaceChildren(notice('This light is gone.'));
     const change = (values: Partial<LightValue>): void =>
-      void this.world.call('world.light', { name, ...(values as object) } as never).catch((problem) => this.host.fail(problem));
+      void this.world
+        .call('world.light', { name, ...(values as object) } as never)
+        .catch((problem) => this.host.fail(problem));
     this.body.replaceChildren(h('h3', {}, name), ...lightRows(light, change));
   }
 
   private poseGroup(): HTMLElement {
     const rows = POSE_FIELDS.map((field) => {
       const unit = field.length === 1 ? 'm' : 'rad';
-      const input = h('input', { type: 'number', step: field.length === 1 ? 0.01 : 0.05, 'aria-label': `Pose ${field} (${unit})` });
+      const input = h('input', {
+        type: 'number',
+        step: field.length === 1 ? 0.01 : 0.05,
+        'aria-label': `Pose ${field} (${unit})`,
+      });
       input.addEventListener('change', () => void this.writePose());
       this.poseInputs.push(input);
       return row(field, input, unit);
@@ -72,31 +86,58 @@ export class InspectorPanel extends BasePanel {
   }
 
   private groups(values: PropertyRow[], params: Record<string, string>): HTMLElement[] {
-    const names = [...new Set(values.map((value) => value.group))].filter((name) => name !== 'pose');
-    return names.map((name) => h('details', { class: 'property-group', open: true }, h('summary', {}, name),
-      ...values.filter((value) => value.group === name).map((value) => row(value.name, this.control(value, params), value.unit))));
+    const names = [...new Set(values.map((value) => value.group))].filter(
+      (name) => name !== 'pose',
+    );
+    return names.map((name) =>
+      h(
+        'details',
+        { class: 'property-group', open: true },
+        h('summary', {}, name),
+        ...values
+          .filter((value) => value.group === name)
+          .map((value) => row(value.name, this.control(value, params), value.unit)),
+      ),
+    );
   }
 
   private control(property: PropertyRow, params: Record<string, string>): HTMLElement {
     const { name, value, editable, unit } = property;
-    const set = (next: Json): void => void this.world.call('world.set_property', { ...params, name, value: next })
-      .catch((problem) => {
-        this.host.fail(problem);
-        void this.show();
-      });
+    const set = (next: Json): void =>
+      void this.world
+        .call('world.set_property', { ...params, name, value: next })
+        .catch((problem) => {
+          this.host.fail(problem);
+          void this.show();
+        });
     const label = unit ? `${name} (${unit})` : name;
     if (!editable) return h('span', { class: 'inspector-value' }, plain(value));
     if (typeof value === 'boolean') {
-      const input = h('input', { type: 'checkbox', 'aria-label': label, on: { change: () => set(input.checked) } });
+      const input = h('input', {
+        type: 'checkbox',
+        'aria-label': label,
+        on: { change: () => set(input.checked) },
+      });
       input.checked = value;
       return input;
     }
     if (typeof value === 'number') {
-      const input = h('input', { type: 'number', step: 'any', value: short(value), 'aria-label': label, on: { change: () => input.value !== '' && set(Number(input.value)) } });
+      const input = h('input', {
+        type: 'number',
+        step: 'any',
+        value: short(value),
+        'aria-label': label,
+        on: { change: () => input.value !== '' && set(Number(input.value)) },
+      });
       return input;
     }
     if (Array.isArray(value)) return list(value, label, set);
-    const input = h('input', { type: 'text', value: plain(value), 'aria-label': label, on: { change: () => set(input.value) } });
+    const input = h('input', {
+      type: 'text',
+      value: plain(value),
+      'aria-label': label,
+      on: { change: () => set(input.value) },
+    });
     return input;
   }
 
@@ -114,10 +155,19 @@ export class InspectorPanel extends BasePanel {
   /** Without a view the store's poses serve. */
   private storedMatrix(): THREE.Matrix4 | null {
     const { selection, scene } = this.world;
-    const index = scene?.bodies.findIndex((body) => scene.models[body.model]?.name === selection?.model && (!selection?.link || body.link === selection.link)) ?? -1;
+    const index =
+      scene?.bodies.findIndex(
+        (body) =>
+          scene.models[body.model]?.name === selection?.model &&
+          (!selection?.link || body.link === selection.link),
+      ) ?? -1;
     if (index < 0) return null;
     const [x, y, z, qx, qy, qz, qw] = this.world.pose(index);
-    return new THREE.Matrix4().compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw), new THREE.Vector3(1, 1, 1));
+    return new THREE.Matrix4().compose(
+      new THREE.Vector3(x, y, z),
+      new THREE.Quaternion(qx, qy, qz, qw),
+      new THREE.Vector3(1, 1, 1),
+    );
   }
 
   private refreshPose(now: boolean): void {
@@ -141,7 +191,9 @@ export class InspectorPanel extends BasePanel {
     if (!selection || ![x, y, z, roll, pitch, yaw].every(Number.isFinite)) return;
     const turn = new THREE.Quaternion().setFromEuler(new THREE.Euler(roll, pitch, yaw, 'ZYX'));
     const pose = [x, y, z, turn.x, turn.y, turn.z, turn.w];
-    const target: Record<string, string> = selection.link ? { model: selection.model, link: selection.link } : { model: selection.model };
+    const target: Record<string, string> = selection.link
+      ? { model: selection.model, link: selection.link }
+      : { model: selection.model };
     await this.ask('world.set_pose', { ...target, pose });
   }
 }
@@ -149,11 +201,28 @@ export class InspectorPanel extends BasePanel {
 function row(name: string, control: HTMLElement, unit = ''): HTMLElement {
   const words = h('span', { class: 'property-name' });
   setText(words, name);
-  return h('div', { class: 'property-row' }, words, h('span', { class: 'property-value' }, control, unit ? h('span', { class: 'unit' }, unit) : null));
+  return h(
+    'div',
+    { class: 'property-row' },
+    words,
+    h(
+      'span',
+      { class: 'property-value' },
+      control,
+      unit ? h('span', { class: 'unit' }, unit) : null,
+    ),
+  );
 }
 
 function list(values: Json[], label: string, set: (value: Json) => void): HTMLElement {
-  const inputs = values.map((value, index) => h('input', { type: 'number', step: 'any', value: short(Number(value)), 'aria-label': `${label} ${index + 1}` }));
+  const inputs = values.map((value, index) =>
+    h('input', {
+      type: 'number',
+      step: 'any',
+      value: short(Number(value)),
+      'aria-label': `${label} ${index + 1}`,
+    }),
+  );
   const write = (): void => set(inputs.map((input) => Number(input.value)));
   inputs.forEach((input) => input.addEventListener('change', write));
   return h('span', { class: 'triple' }, ...inputs);

@@ -11,7 +11,11 @@ import { worldStore, type WorldStore } from './store';
 type Mode = 'force' | 'position' | 'velocity';
 const MODES: Record<Mode, string> = { force: 'Force', position: 'Position', velocity: 'Velocity' };
 const GAINS = ['p', 'i', 'd'] as const;
-const FIRST_GAINS: Record<Mode, readonly number[]> = { force: [], position: [1, 0.1, 0.01], velocity: [1, 0.1, 0.01] };
+const FIRST_GAINS: Record<Mode, readonly number[]> = {
+  force: [],
+  position: [1, 0.1, 0.01],
+  velocity: [1, 0.1, 0.01],
+};
 
 /** Gazebo's Joints tab of the selected model. */
 export class JointsPanel extends BasePanel {
@@ -22,24 +26,38 @@ export class JointsPanel extends BasePanel {
   private mode: Mode = 'force';
   private model = '';
   private channel: Channel | null = null;
-  private rows = new Map<string, { position: HTMLElement; velocity: HTMLElement; effort: HTMLElement }>();
+  private rows = new Map<
+    string,
+    { position: HTMLElement; velocity: HTMLElement; effort: HTMLElement }
+  >();
   private names = '';
 
   constructor(connection: Connection, host: PanelHost) {
     super(connection, host);
     this.world = worldStore(connection);
     const tabs = (Object.keys(MODES) as Mode[]).map((mode) => {
-      const tab = button(MODES[mode], () => this.setMode(mode, tabs), { pressed: mode === this.mode });
+      const tab = button(MODES[mode], () => this.setMode(mode, tabs), {
+        pressed: mode === this.mode,
+      });
       return tab;
     });
     this.element.classList.add('joints-panel');
     this.element.append(
-      toolbar('Joints', this.models, ...tabs, button('Reset', () => void this.free(), { title: 'Take all commands off this model' })), this.body);
+      toolbar(
+        'Joints',
+        this.models,
+        ...tabs,
+        button('Reset', () => void this.free(), { title: 'Take all commands off this model' }),
+      ),
+      this.body,
+    );
     this.atEnd(this.world.onScene(() => this.fill()));
-    this.atEnd(this.world.onSelection(() => {
-      const name = this.world.selection?.model;
-      if (name && this.movable().includes(name)) this.choose(name);
-    }));
+    this.atEnd(
+      this.world.onSelection(() => {
+        const name = this.world.selection?.model;
+        if (name && this.movable().includes(name)) this.choose(name);
+      }),
+    );
   }
 
   override open(params: JsonObject): void {
@@ -52,7 +70,9 @@ export class JointsPanel extends BasePanel {
 
   private movable(): string[] {
     const { scene } = this.world;
-    return (scene?.models ?? []).filter((model) => model.joints.some((index) => scene?.joints[index].type !== 'fixed')).map((model) => model.name);
+    return (scene?.models ?? [])
+      .filter((model) => model.joints.some((index) => scene?.joints[index].type !== 'fixed'))
+      .map((model) => model.name);
   }
 
   private fill(): void {
@@ -69,15 +89,23 @@ export class JointsPanel extends BasePanel {
     this.endStream(this.channel);
     this.channel = null;
     this.names = '';
-    this.body.replaceChildren(notice(model ? 'Waiting for the joints…' : 'No model with joints is in the world.'));
+    this.body.replaceChildren(
+      notice(model ? 'Waiting for the joints…' : 'No model with joints is in the world.'),
+    );
     if (!model) return;
     const gone = () => this.body.replaceChildren(notice(`${model} is no longer in the world.`));
-    this.channel = this.stream('world.joints', { model }, { onData: (value) => this.take(value), onFailed: gone, onEnded: gone });
+    this.channel = this.stream(
+      'world.joints',
+      { model },
+      { onData: (value) => this.take(value), onFailed: gone, onEnded: gone },
+    );
   }
 
   private setMode(mode: Mode, tabs: HTMLElement[]): void {
     this.mode = mode;
-    tabs.forEach((tab, index) => tab.setAttribute('aria-pressed', String(Object.keys(MODES)[index] === mode)));
+    tabs.forEach((tab, index) =>
+      tab.setAttribute('aria-pressed', String(Object.keys(MODES)[index] === mode)),
+    );
     this.names = '';
   }
 
@@ -104,24 +132,54 @@ export class JointsPanel extends BasePanel {
     this.rows.set(joint.name, { position, velocity, effort });
     const linear = joint.type === 'prismatic';
     const units = linear ? ['m', 'm/s', 'N'] : ['rad', 'rad/s', 'N·m'];
-    return h('fieldset', { class: 'joint', 'data-joint': joint.name }, h('legend', {}, joint.name, h('span', { class: 'entity-note' }, joint.type)),
+    return h(
+      'fieldset',
+      { class: 'joint', 'data-joint': joint.name },
+      h('legend', {}, joint.name, h('span', { class: 'entity-note' }, joint.type)),
       ...this.controls(joint, units),
-      h('div', { class: 'joint-state' }, position, ` ${units[0]}`, velocity, ` ${units[1]}`, effort, ` ${units[2]}`));
+      h(
+        'div',
+        { class: 'joint-state' },
+        position,
+        ` ${units[0]}`,
+        velocity,
+        ` ${units[1]}`,
+        effort,
+        ` ${units[2]}`,
+      ),
+    );
   }
 
   private controls(joint: WorldJoint, units: string[]): HTMLElement[] {
     if (this.mode === 'force') {
       const force = field(`${joint.name} force (${units[2]})`, 0, 0.1);
-      force.addEventListener('change', () => this.command(joint.name, { force: Number(force.value) }));
+      force.addEventListener('change', () =>
+        this.command(joint.name, { force: Number(force.value) }),
+      );
       return [h('div', { class: 'joint-row' }, h('span', {}, units[2]), force)];
     }
     const mode = this.mode;
-    const gains = GAINS.map((gain, index) => field(`${joint.name} ${gain}`, FIRST_GAINS[mode][index], 0.1));
-    const target = field(`${joint.name} ${mode} (${units[mode === 'position' ? 0 : 1]})`, mode === 'position' ? joint.position : 0, 0.05);
-    const slider = h('input', { type: 'range', step: 'any', min: joint.lower ?? -3.1416, max: joint.upper ?? 3.1416, value: Number(target.value), 'aria-label': `${joint.name} ${mode} slider` });
-    const send = (): void => this.command(joint.name, {
-      [mode]: Number(target.value), ...Object.fromEntries(GAINS.map((gain, index) => [gain, Number(gains[index].value)])),
+    const gains = GAINS.map((gain, index) =>
+      field(`${joint.name} ${gain}`, FIRST_GAINS[mode][index], 0.1),
+    );
+    const target = field(
+      `${joint.name} ${mode} (${units[mode === 'position' ? 0 : 1]})`,
+      mode === 'position' ? joint.position : 0,
+      0.05,
+    );
+    const slider = h('input', {
+      type: 'range',
+      step: 'any',
+      min: joint.lower ?? -3.1416,
+      max: joint.upper ?? 3.1416,
+      value: Number(target.value),
+      'aria-label': `${joint.name} ${mode} slider`,
     });
+    const send = (): void =>
+      this.command(joint.name, {
+        [mode]: Number(target.value),
+        ...Object.fromEntries(GAINS.map((gain, index) => [gain, Number(gains[index].value)])),
+      });
     target.addEventListener('change', () => {
       slider.value = target.value;
       send();
@@ -131,9 +189,17 @@ export class JointsPanel extends BasePanel {
       send();
     });
     gains.forEach((gain) => gain.addEventListener('change', send));
-    const labels = GAINS.map((gain, index) => h('label', { class: 'gain' }, gain.toUpperCase(), gains[index]));
+    const labels = GAINS.map((gain, index) =>
+      h('label', { class: 'gain' }, gain.toUpperCase(), gains[index]),
+    );
     return [
-      h('div', { class: 'joint-row' }, h('span', {}, units[mode === 'position' ? 0 : 1]), target, mode === 'position' ? slider : null),
+      h(
+        'div',
+        { class: 'joint-row' },
+        h('span', {}, units[mode === 'position' ? 0 : 1]),
+        target,
+        mode === 'position' ? slider : null,
+      ),
       h('div', { class: 'joint-row' }, ...labels),
     ];
   }
@@ -144,14 +210,26 @@ export class JointsPanel extends BasePanel {
 
   private async free(): Promise<void> {
     for (const joint of this.rows.keys()) {
-      await this.ask('world.joint', { model: this.model, joint, force: null, position: null, velocity: null });
+      await this.ask('world.joint', {
+        model: this.model,
+        joint,
+        force: null,
+        position: null,
+        velocity: null,
+      });
     }
     this.names = '';
   }
 }
 
 function field(label: string, value: number, step: number): HTMLInputElement {
-  return h('input', { type: 'number', step: 'any', value: Number(value.toFixed(4)), 'aria-label': label, 'data-step': step });
+  return h('input', {
+    type: 'number',
+    step: 'any',
+    value: Number(value.toFixed(4)),
+    'aria-label': label,
+    'data-step': step,
+  });
 }
 
 function number(value: number | null | undefined): string {

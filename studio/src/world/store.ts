@@ -80,7 +80,8 @@ export class WorldStore {
   /** The newest pose of a body of the scene value, seven numbers. */
   pose(body: number): number[] {
     const at = body * POSE_LENGTH;
-    if (at + POSE_LENGTH <= this.poses.length) return [...this.poses.subarray(at, at + POSE_LENGTH)];
+    if (at + POSE_LENGTH <= this.poses.length)
+      return [...this.poses.subarray(at, at + POSE_LENGTH)];
     return this.scene?.bodies[body]?.pose ?? [0, 0, 0, 0, 0, 0, 1];
   }
 
@@ -92,12 +93,16 @@ export class WorldStore {
   private begin(): void {
     if (this.channels.length) return;
     const scene = this.connection.open('world.scene', {}, { onData: (value) => this.take(value) });
-    const poses = this.connection.open('world.poses', {}, {
-      onFrame: (frame) => {
-        this.poses = floats(frame, frame.count * POSE_LENGTH);
-        this.poseListeners.forEach((listener) => listener());
+    const poses = this.connection.open(
+      'world.poses',
+      {},
+      {
+        onFrame: (frame) => {
+          this.poses = floats(frame, frame.count * POSE_LENGTH);
+          this.poseListeners.forEach((listener) => listener());
+        },
       },
-    });
+    );
     poses.hold(true);
     this.channels = [scene, poses];
   }
@@ -115,7 +120,12 @@ export class WorldStore {
     this.scene = newest as unknown as PageScene | null;
     this.poses = new Float32Array(0);
     const { selection, scene } = this;
-    if (selection && !selection.light && !scene?.models.some((model) => model.name === selection.model)) this.select(null);
+    if (
+      selection &&
+      !selection.light &&
+      !scene?.models.some((model) => model.name === selection.model)
+    )
+      this.select(null);
     this.sceneListeners.forEach((listener) => listener());
   }
 }
