@@ -156,31 +156,26 @@ export class Connection {
 
   private understand(message: JsonObject): void {
     const channel = this.byNumber.get(numberOf(message, 'ch'));
-    switch (message['op']) {
+    switch (message.op) {
       case 'hello':
         return this.greet(message);
       case 'result':
-        return this.answer(message, (call) => call.resolve(message['value'] ?? null));
+        return this.answer(message, (call) => call.resolve(message.value ?? null));
       case 'error':
-        return this.answer(message, (call) => call.reject(CallError.from(message['error'])));
+        return this.answer(message, (call) => call.reject(CallError.from(message.error)));
       case 'show':
         return this.show(message);
       case 'data':
-        return channel?.deliver(message['value'] ?? null, channel.handlers.onData);
+        return channel?.deliver(message.value ?? null, channel.handlers.onData);
       case 'opened':
-        return channel?.handlers.onOpened?.(message['info'] ?? null);
+        return channel?.handlers.onOpened?.(message.info ?? null);
       case 'status':
-        return channel?.handlers.onStatus?.(
-          message['level'] as StatusLevel,
-          textOf(message, 'text'),
-        );
+        return channel?.handlers.onStatus?.(message.level as StatusLevel, textOf(message, 'text'));
       case 'failed':
-        return this.end(channel, () =>
-          channel?.handlers.onFailed?.(CallError.from(message['error'])),
-        );
+        return this.end(channel, () => channel?.handlers.onFailed?.(CallError.from(message.error)));
       case 'ended':
         return this.end(channel, () =>
-          channel?.handlers.onEnded?.(message['error'] ? CallError.from(message['error']) : null),
+          channel?.handlers.onEnded?.(message.error ? CallError.from(message.error) : null),
         );
     }
   }

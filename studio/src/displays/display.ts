@@ -199,7 +199,7 @@ export class Display {
   private take(value: Json): void {
     if (!isObject(value)) return;
     this.count();
-    const pose = value['pose'];
+    const pose = value.pose;
     if (!this.kind.ownPose && 'pose' in value) {
       this.root.visible = this.enabled && pose !== null;
       if (pose === null) {

@@ -73,13 +73,13 @@ export class DisplayList {
   load(value: JsonObject): boolean {
     [...this.displays].forEach((display) => this.remove(display));
     if (textOf(value, 'fixed_frame')) this.setFixedFrame(textOf(value, 'fixed_frame'));
-    this.tools = (Array.isArray(value['tools']) ? value['tools'] : []).filter(
+    this.tools = (Array.isArray(value.tools) ? value.tools : []).filter(
       isObject,
     ) as unknown as RvizTool[];
     // What a world file says of its scene stays.
     if (textOf(value, 'background') && !this.stage.view.lighting.ofWorld)
       this.setBackground(textOf(value, 'background'));
-    const displays = Array.isArray(value['displays']) ? value['displays'] : [];
+    const displays = Array.isArray(value.displays) ? value.displays : [];
     this.waiting = this.addAll(displays.filter(isObject) as unknown as RvizDisplay[]);
     this.tell('list');
     return this.waiting.length > 0;

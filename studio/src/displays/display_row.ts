@@ -72,8 +72,8 @@ export class DisplayRow {
   refreshStatus(): void {
     const { display } = this;
     this.enabled.checked = display.enabled;
-    this.light.dataset['level'] = display.enabled ? display.level : 'off';
-    this.element.dataset['level'] = display.level;
+    this.light.dataset.level = display.enabled ? display.level : 'off';
+    this.element.dataset.level = display.level;
     if (this.body.hidden) return;
     this.status.replaceChildren(
       ...[...display.status].map(([what, line]) =>

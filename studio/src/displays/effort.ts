@@ -96,7 +96,7 @@ class EffortDrawer implements Drawer {
   private draw(): void {
     this.pool.begin();
     const names = this.last ? list<string>(this.last, 'name') : [];
-    const efforts = numbers(this.last?.['effort']);
+    const efforts = numbers(this.last?.effort);
     if (names.length && !efforts.length)
       this.site.status('Efforts', 'warn', 'The joint states hold no efforts');
     else if (names.length) this.site.status('Efforts', 'ok', `${efforts.length} efforts`);

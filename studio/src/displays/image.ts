@@ -67,7 +67,7 @@ class CameraDrawer implements Drawer {
 
   take(value: JsonObject): void {
     this.info = part(value, 'camera_info');
-    this.pose = arrayMatrix(value['pose']);
+    this.pose = arrayMatrix(value.pose);
     const { status, frames } = this.site;
     if (!this.pose)
       return status('Transform', 'error', `No transform from the camera to [${frames.fixed}]`);
@@ -120,10 +120,10 @@ class CameraDrawer implements Drawer {
   private lens(): void {
     const info = this.info;
     if (!info) return;
-    const p = numbers(info['p'] ?? info['P']);
-    const k = numbers(info['k'] ?? info['K']);
+    const p = numbers(info.p ?? info.P);
+    const k = numbers(info.k ?? info.K);
     const [fx, fy, cx, cy] = p[0] > 0 ? [p[0], p[5], p[2], p[6]] : [k[0], k[4], k[2], k[5]];
-    const [width, height] = [Number(info['width']), Number(info['height'])];
+    const [width, height] = [Number(info.width), Number(info.height)];
     if (!(fx > 0 && width > 0))
       return this.site.status('Camera Info', 'error', 'CameraInfo holds no focal length');
     const zoom = this.site.props.num('Zoom Factor');

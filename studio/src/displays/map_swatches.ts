@@ -95,8 +95,8 @@ export class Swatches {
     this.look = look;
     for (const { mesh } of this.swatches) {
       const { material } = mesh;
-      material.uniforms['alpha'].value = look.alpha;
-      material.uniforms['palette'].value = look.palette;
+      material.uniforms.alpha.value = look.alpha;
+      material.uniforms.palette.value = look.palette;
       // What is not transparent is drawn before all that is: only so everything comes over it.
       material.transparent = !look.behind;
       material.depthTest = !look.behind;

@@ -46,8 +46,14 @@ export class MarkerSet {
   /** Take a marker; `base` is where its header's frame is. Returns what is wrong with it. */
   take(marker: Marker, base: THREE.Matrix4): string | null {
     const key = `${marker.ns}/${marker.id}`;
-    if (marker.action === DELETE_ALL) return (this.clear(), null);
-    if (marker.action === DELETE) return (this.remove(key), null);
+    if (marker.action === DELETE_ALL) {
+      this.clear();
+      return null;
+    }
+    if (marker.action === DELETE) {
+      this.remove(key);
+      return null;
+    }
     if (marker.action !== ADD) return `Unknown action ${marker.action}`;
     this.remove(key);
     const problem = wrong(marker);
@@ -67,9 +73,9 @@ export class MarkerSet {
 
   /** Show or hide namespaces anew. */
   refresh(): void {
-    this.kept.forEach(
-      ({ single, marker }) => single && (single.object.visible = this.shows(marker.ns)),
-    );
+    for (const { single, marker } of this.kept.values()) {
+      if (single) single.object.visible = this.shows(marker.ns);
+    }
     this.stale = true;
   }
 

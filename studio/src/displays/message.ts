@@ -32,11 +32,7 @@ export function poseMatrix(value: Pose | Json | undefined): THREE.Matrix4 {
   } = part(value as Json, 'orientation') as unknown as Partial<Pose['orientation']>;
   const turn = new THREE.Quaternion(x, y, z, w);
   if (turn.lengthSq() < 1e-12) turn.set(0, 0, 0, 1);
-  return new THREE.Matrix4().compose(
-    vector(part(value as Json)['position']),
-    turn.normalize(),
-    ONE,
-  );
+  return new THREE.Matrix4().compose(vector(part(value as Json).position), turn.normalize(), ONE);
 }
 
 const ONE = new THREE.Vector3(1, 1, 1);

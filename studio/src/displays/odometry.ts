@@ -32,19 +32,19 @@ class OdometryDrawer implements Drawer {
 
   take(value: JsonObject): void {
     const { frames, status, props } = this.site;
-    const frame = arrayMatrix(value['pose']);
+    const frame = arrayMatrix(value.pose);
     if (!frame)
       return status(
         'Transform',
         'error',
-        `No transform from [${String(value['frame'])}] to [${frames.fixed}]`,
+        `No transform from [${String(value.frame)}] to [${frames.fixed}]`,
       );
     status('Transform', 'ok', 'Transform OK');
     const message = part(value, 'message');
-    const pose = frame.multiply(poseMatrix(part(message, 'pose')['pose']));
+    const pose = frame.multiply(poseMatrix(part(message, 'pose').pose));
     const last = this.kept[this.kept.length - 1];
     if (last && this.isNear(last.pose, pose)) return;
-    this.kept.push({ pose, values: numbers(part(message, 'pose')['covariance']) });
+    this.kept.push({ pose, values: numbers(part(message, 'pose').covariance) });
     this.kept = this.kept.slice(-Math.max(1, props.num('Keep')));
     this.draw();
   }

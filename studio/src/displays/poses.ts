@@ -11,7 +11,7 @@ import { InstancePool, PoseShapes, shapeProperties } from './shapes';
 /** RViz's Pose. */
 export const POSE: Drawing = {
   properties: shapeProperties('Arrow'),
-  make: (site) => new PosesDrawer(site, (message) => [poseMatrix(message['pose'])]),
+  make: (site) => new PosesDrawer(site, (message) => [poseMatrix(message.pose)]),
 };
 
 /** RViz's PoseArray. */
@@ -56,8 +56,8 @@ export const POSE_WITH_COVARIANCE: Drawing = {
   make: (site) =>
     new PosesDrawer(
       site,
-      (message) => [poseMatrix(part(message, 'pose')['pose'])],
-      (message) => numbers(part(message, 'pose')['covariance']),
+      (message) => [poseMatrix(part(message, 'pose').pose)],
+      (message) => numbers(part(message, 'pose').covariance),
     ),
 };
 
@@ -133,15 +133,15 @@ export const POINT_STAMPED: Drawing = {
     return {
       take(value) {
         const { frames, status } = site;
-        const pose = value['pose'];
+        const pose = value.pose;
         if (!Array.isArray(pose))
           return status(
             'Transform',
             'error',
-            `No transform from [${String(value['frame'])}] to [${frames.fixed}]`,
+            `No transform from [${String(value.frame)}] to [${frames.fixed}]`,
           );
         const [x, y, z, qx, qy, qz, qw] = pose as number[];
-        const point = vector(part(value, 'message')['point']).applyQuaternion(
+        const point = vector(part(value, 'message').point).applyQuaternion(
           new THREE.Quaternion(qx, qy, qz, qw),
         );
         points.push(point.add(new THREE.Vector3(x, y, z)));

@@ -27,7 +27,9 @@ export function learnAdded(connection: Connection): Promise<readonly string[]> {
     kinds = kindsOf([...kinds, ...added.displays]);
     return added.problems;
   });
-  asked.catch(() => void (asked = null));
+  asked.catch(() => {
+    asked = null;
+  });
   return asked;
 }
 

@@ -58,7 +58,7 @@ export const IMU: Drawing = {
           turn.premultiply(site.root.quaternion.clone().invert());
         box.quaternion.copy(turn);
         box.visible = site.props.flag('Box properties/Enable box');
-        const acceleration = vector(message['linear_acceleration']);
+        const acceleration = vector(message.linear_acceleration);
         if (!site.props.flag('Acceleration properties/Derotate acceleration'))
           acceleration.applyQuaternion(turn);
         aim(arrow, acceleration, site.props.num('Acceleration properties/Acc. vector scale'));
@@ -130,7 +130,9 @@ export const RANGE: Drawing = {
         cone.material.color.setRGB(...site.props.colour('Color'));
         cone.material.opacity = site.props.num('Alpha');
       },
-      clear: () => void (cone.visible = false),
+      clear: () => {
+        cone.visible = false;
+      },
       counts: () => ({ cones: Number(cone.visible) }),
     };
   },
@@ -163,13 +165,13 @@ export const WRENCH: Drawing = {
         const wrench = part(value, 'message', 'wrench');
         aim(
           force,
-          vector(wrench['force']),
+          vector(wrench.force),
           site.props.num('Force Arrow Scale'),
           site.props.num('Arrow Width'),
         );
         aim(
           torque,
-          vector(wrench['torque']),
+          vector(wrench.torque),
           site.props.num('Torque Arrow Scale'),
           site.props.num('Arrow Width'),
         );
@@ -178,7 +180,10 @@ export const WRENCH: Drawing = {
         tint(force, site.props.colour('Force Color'), site.props.num('Alpha'));
         tint(torque, site.props.colour('Torque Color'), site.props.num('Alpha'));
       },
-      clear: () => void (force.visible = torque.visible = false),
+      clear: () => {
+        force.visible = false;
+        torque.visible = false;
+      },
       counts: () => ({ arrows: Number(force.visible) + Number(torque.visible) }),
     };
   },
@@ -197,7 +202,7 @@ export const GRID_CELLS: Drawing = {
     return {
       take(value) {
         const message = part(value, 'message');
-        const [width, height] = [Number(message['cell_width']), Number(message['cell_height'])];
+        const [width, height] = [Number(message.cell_width), Number(message.cell_height)];
         pool.begin();
         for (const { x, y, z } of list<Point>(message, 'cells'))
           pool.put(matrix.makeScale(width, height, 1).setPosition(x, y, z));

@@ -53,7 +53,7 @@ function collisions({ body, changed }: Subject): THREE.Object3D | null {
 
 function inertias({ body, isStatic }: Subject): THREE.Object3D | null {
   const inertial = body.inertial;
-  if (!inertial || !inertial.box || isStatic) return null;
+  if (!inertial?.box || isStatic) return null;
   const group = new THREE.Group();
   const fill = new THREE.Mesh(unit.box(), flat(INERTIA, 0.3));
   const edges = new THREE.LineSegments(unit.edges(), line(INERTIA, false));

@@ -62,7 +62,7 @@ export class Inverse {
       },
     });
     const outcome = outcomeOf(answer);
-    if (outcome.ok) store.setQuery(QUERY, positionsOf(answer['solution']));
+    if (outcome.ok) store.setQuery(QUERY, positionsOf(answer.solution));
     else if (store.approximate) {
       store.setQuery(QUERY, nearest(store, robot, kinematics, link, pose));
       store.ikProblem = `approximate: ${outcome.text}`;

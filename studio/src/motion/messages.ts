@@ -1,5 +1,5 @@
 /** Messages of MoveIt as the page writes and reads them, in ROS 2's field names. */
-import * as THREE from 'three';
+import type * as THREE from 'three';
 import { list, numbers, part, seconds } from '../displays/message';
 import type { Json, JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
@@ -53,8 +53,8 @@ export interface Outcome {
 /** Read the field `error_code` of a result or response. */
 export function outcomeOf(value: Json | undefined): Outcome {
   const error = part(value, 'error_code');
-  const code = Number(error['val'] ?? 0);
-  const why = typeof error['message'] === 'string' ? error['message'] : '';
+  const code = Number(error.val ?? 0);
+  const why = typeof error.message === 'string' ? error.message : '';
   const name = `${CODES[code] ?? 'unknown code'} (${code})`;
   return { ok: code === SUCCESS, text: why ? `${name}: ${why}` : name, why };
 }
@@ -130,12 +130,12 @@ export function pathOf(trajectories: Json[], start: Json | undefined): PlannedPa
     const names = list<string>(joints, 'joint_names');
     const last = found.points[found.points.length - 1] ?? found.start;
     for (const point of list<JsonObject>(joints, 'points')) {
-      const row = numbers(point['positions']);
+      const row = numbers(point.positions);
       found.points.push({
         ...last,
         ...Object.fromEntries(names.map((name, at) => [name, row[at]])),
       });
-      found.times_s.push(begin + seconds(point['time_from_start']));
+      found.times_s.push(begin + seconds(point.time_from_start));
     }
     begin = found.times_s[found.times_s.length - 1] ?? begin;
   }
@@ -145,6 +145,6 @@ export function pathOf(trajectories: Json[], start: Json | undefined): PlannedPa
 /** Positions of a `RobotState`. */
 export function positionsOf(state: Json | undefined): Positions {
   const joints = part(state, 'joint_state');
-  const values = numbers(joints['position']);
+  const values = numbers(joints.position);
   return Object.fromEntries(list<string>(joints, 'name').map((name, at) => [name, values[at]]));
 }

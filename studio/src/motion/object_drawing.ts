@@ -52,7 +52,7 @@ export class SceneObjects {
     const carried = paint(props.colour('Scene Robot/Attached Body Color'), alpha);
     for (const item of this.store.objects) this.add(item, free, false);
     for (const body of this.store.attached)
-      this.add(part(body, 'object'), carried, true, String(body['link_name']));
+      this.add(part(body, 'object'), carried, true, String(body.link_name));
     this.follow();
     // Handles can be grasped before they are drawn.
     this.root.updateMatrixWorld(true);
@@ -83,16 +83,16 @@ export class SceneObjects {
   }
 
   private add(item: JsonObject, material: THREE.Material, attached: boolean, link = ''): void {
-    const frame = link || String(part(item, 'header')['frame_id'] ?? '').replace(/^\//, '');
+    const frame = link || String(part(item, 'header').frame_id ?? '').replace(/^\//, '');
     const node = new THREE.Group();
     const body = new THREE.Group();
-    poseMatrix(item['pose']).decompose(body.position, body.quaternion, body.scale);
+    poseMatrix(item.pose).decompose(body.position, body.quaternion, body.scale);
     for (const mesh of this.meshes(item, material)) body.add(mesh);
     node.add(body);
-    node.name = String(item['id']);
+    node.name = String(item.id);
     this.root.add(node);
     this.shown.push({ frame, node, attached });
-    if (!attached && item['id'] === this.store.chosen) this.addMarker(item, node, body);
+    if (!attached && item.id === this.store.chosen) this.addMarker(item, node, body);
   }
 
   private addMarker(item: JsonObject, node: THREE.Group, body: THREE.Group): void {
@@ -104,7 +104,7 @@ export class SceneObjects {
         this.site.status('Planning Scene', 'error', problem.message),
       );
     };
-    this.marker = new SixDof(String(item['id']), Math.max(0.15, size * 1.3), {
+    this.marker = new SixDof(String(item.id), Math.max(0.15, size * 1.3), {
       moved: (pose) => {
         pose.decompose(body.position, body.quaternion, body.scale);
         if (performance.now() - this.last > SEND_MS) send();
@@ -112,7 +112,7 @@ export class SceneObjects {
       released: send,
       redraw: () => this.site.view.invalidate(true),
     });
-    this.marker.place(poseMatrix(item['pose']));
+    this.marker.place(poseMatrix(item.pose));
     node.add(this.marker.root);
   }
 
@@ -146,7 +146,7 @@ export class SceneObjects {
 /** A `shape_msgs/SolidPrimitive`: a solid of unit size, and its scale. */
 function primitive(solid: JsonObject): [THREE.BufferGeometry | null, number[]] {
   const sizes = list<number>(solid, 'dimensions');
-  switch (Number(solid['type'])) {
+  switch (Number(solid.type)) {
     case 1:
       return [unit.box(), sizes];
     case 2:

@@ -1,5 +1,5 @@
 /** Objects of the planning scene as messages: made, moved, removed, held. */
-import * as THREE from 'three';
+import type * as THREE from 'three';
 import { list, part } from '../displays/message';
 import type { MotionMesh } from '../generated/messages';
 import type { JsonObject } from '../json';
@@ -54,8 +54,8 @@ function head(id: string, frame: string, pose: THREE.Matrix4): JsonObject {
 /** Moves an object to a pose of its frame. */
 export function moveOf(item: JsonObject, pose: THREE.Matrix4): JsonObject {
   return {
-    id: item['id'],
-    header: { frame_id: part(item, 'header')['frame_id'] ?? '' },
+    id: item.id,
+    header: { frame_id: part(item, 'header').frame_id ?? '' },
     pose: poseMessage(pose),
     operation: MOVE,
   };
@@ -74,8 +74,8 @@ export async function changeObjects(store: MotionStore, objects: JsonObject[]): 
 /** Let the group's tip hold an object, which its gripper may touch, or let go of it. */
 export async function attach(store: MotionStore, id: string, on: boolean): Promise<void> {
   const group = store.robot && groupOf(store.robot, store.group);
-  const held = store.attached.find((body) => part(body, 'object')['id'] === id);
-  const link = held ? String(held['link_name']) : tipOf(group ?? undefined);
+  const held = store.attached.find((body) => part(body, 'object').id === id);
+  const link = held ? String(held.link_name) : tipOf(group ?? undefined);
   const fingers = group?.effectors.find((one) => one.link === link)?.links ?? [];
   const body = {
     link_name: link,
@@ -89,15 +89,15 @@ async function apply(store: MotionStore, scene: JsonObject): Promise<void> {
   const answer = await store.service('apply_planning_scene', 'ApplyPlanningScene', {
     scene: { is_diff: true, ...scene },
   });
-  if (answer['success'] !== true)
+  if (answer.success !== true)
     throw new Error('move_group did not take the change of its scene; its log says why');
 }
 
 /** All names that are taken. */
 export function objectNames(store: MotionStore): string[] {
   return [
-    ...store.objects.map((item) => String(item['id'])),
-    ...store.attached.map((body) => String(part(body, 'object')['id'])),
+    ...store.objects.map((item) => String(item.id)),
+    ...store.attached.map((body) => String(part(body, 'object').id)),
   ];
 }
 
@@ -112,7 +112,7 @@ export function freeName(store: MotionStore, base: string): string {
 /** What an object is made of, in a word. */
 export function kindOf(item: JsonObject): string {
   const solids = list<JsonObject>(item, 'primitives').map(
-    (one) => SHAPES[Number(one['type']) - 1] ?? 'shape',
+    (one) => SHAPES[Number(one.type) - 1] ?? 'shape',
   );
   const meshes = list<JsonObject>(item, 'meshes').map(() => 'Mesh');
   return [...solids, ...meshes].join(', ');

@@ -156,10 +156,10 @@ export class ObjectsTab {
   refresh(): void {
     const { store } = this;
     const rows: [string, string][] = [
-      ...store.objects.map((item): [string, string] => [String(item['id']), kindOf(item)]),
+      ...store.objects.map((item): [string, string] => [String(item.id), kindOf(item)]),
       ...store.attached.map((body): [string, string] => [
-        String(part(body, 'object')['id']),
-        `held by ${String(body['link_name'])}`,
+        String(part(body, 'object').id),
+        `held by ${String(body.link_name)}`,
       ]),
     ];
     const focused = this.list.contains(document.activeElement);
@@ -194,7 +194,7 @@ export class ObjectsTab {
     setText(this.actions.attach, held ? 'Detach' : 'Attach');
     setText(
       this.about,
-      item ? `${this.store.chosen} in ${String(part(item, 'header')['frame_id'])}` : '',
+      item ? `${this.store.chosen} in ${String(part(item, 'header').frame_id)}` : '',
     );
     const values = this.valuesOf(item);
     this.place.forEach((input, at) => {
@@ -207,11 +207,11 @@ export class ObjectsTab {
   /** What the fields say of an object; nothing without one. */
   private valuesOf(item: JsonObject | undefined): number[] {
     if (!item) return PLACE.map(() => NaN);
-    const values = numbersOf(poseMatrix(item['pose']));
+    const values = numbersOf(poseMatrix(item.pose));
     const { typed } = this;
     const isLate =
       typed !== null &&
-      typed.id === item['id'] &&
+      typed.id === item.id &&
       performance.now() < typed.until &&
       typed.values.some((value, at) => Math.abs(value - values[at]) > 1e-6);
     if (isLate) return typed.values;
@@ -220,11 +220,11 @@ export class ObjectsTab {
   }
 
   private item(): JsonObject | undefined {
-    return this.store.objects.find((item) => item['id'] === this.store.chosen);
+    return this.store.objects.find((item) => item.id === this.store.chosen);
   }
 
   private held(): JsonObject | undefined {
-    return this.store.attached.find((body) => part(body, 'object')['id'] === this.store.chosen);
+    return this.store.attached.find((body) => part(body, 'object').id === this.store.chosen);
   }
 
   private choose(id: string): void {
@@ -330,7 +330,7 @@ export class ObjectsTab {
   }
 
   private async clear(): Promise<void> {
-    const all = this.store.objects.map((item) => removalOf(String(item['id'])));
+    const all = this.store.objects.map((item) => removalOf(String(item.id)));
     if (all.length)
       await this.tried(() => changeObjects(this.store, all), `Removed ${all.length} objects.`);
     this.choose('');

@@ -96,7 +96,7 @@ export class MotionPlanningPanel extends BasePanel {
 
   override open(params: JsonObject): void {
     this.planning.open(params);
-    if (typeof params['tab'] === 'string') this.tabs.show(params['tab']);
+    if (typeof params.tab === 'string') this.tabs.show(params.tab);
     this.unseen = true;
     this.lookSoon();
   }

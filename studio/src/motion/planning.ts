@@ -61,9 +61,9 @@ export class Planning {
     this.begin(execute ? 'Planning and executing …' : 'Planning …');
     const began = performance.now();
     await this.act('MoveGroup', ['move_action', 'move_group'], goal, (result, outcome) => {
-      const path = pathOf([result['planned_trajectory'] ?? null], result['trajectory_start']);
+      const path = pathOf([result.planned_trajectory ?? null], result.trajectory_start);
       if (outcome.ok && path.points.length && !execute)
-        this.plan = result['planned_trajectory'] ?? null;
+        this.plan = result.planned_trajectory ?? null;
       if (path.points.length) this.store.setPath(path);
       const took = numberOf(result, 'planning_time') || (performance.now() - began) / 1000;
       if (!outcome.ok) this.fail(outcome.text);
@@ -158,10 +158,10 @@ export class Planning {
   private takeStraight(answer: JsonObject): void {
     const outcome = outcomeOf(answer);
     const percent = `${(100 * numberOf(answer, 'fraction')).toFixed(1)} % of the Cartesian path`;
-    const path = pathOf([answer['solution'] ?? null], answer['start_state']);
+    const path = pathOf([answer.solution ?? null], answer.start_state);
     if (path.points.length > 1) this.store.setPath(path);
     if (outcome.ok && numberOf(answer, 'fraction') >= 1) {
-      this.plan = answer['solution'] ?? null;
+      this.plan = answer.solution ?? null;
       this.end('ok', `Planned ${percent}: ${outcome.text}`);
     } else
       this.fail(
@@ -260,7 +260,7 @@ export async function plannersOf(
   const answer = await store.service('query_planner_interface', 'QueryPlannerInterfaces', {});
   const found: { pipeline: string; planner: string }[] = [];
   for (const item of list<JsonObject>(answer, 'planner_interfaces')) {
-    const pipeline = String(item['pipeline_id'] ?? '');
+    const pipeline = String(item.pipeline_id ?? '');
     const own = new RegExp(`^${store.group}\\[(.*)\\]$`);
     const ids = list<string>(item, 'planner_ids');
     const ofGroup = ids.map((id) => own.exec(id)?.[1]).filter((id): id is string => Boolean(id));

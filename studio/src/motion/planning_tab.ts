@@ -116,12 +116,12 @@ export class PlanningTab {
   /** Take what a layout kept. */
   open(params: JsonObject): void {
     const { options } = this;
-    const kept = isObject(params['options']) ? params['options'] : {};
+    const kept = isObject(params.options) ? params.options : {};
     for (const name of ['time_s', 'attempts', 'velocity', 'acceleration'] as const)
       options[name] = numberOf(kept, name, options[name]);
     options.pipeline = textOf(kept, 'pipeline');
     options.planner = textOf(kept, 'planner');
-    options.cartesian = kept['cartesian'] === true;
+    options.cartesian = kept.cartesian === true;
     this.scaled ||= 'velocity' in kept;
     if (textOf(params, 'group')) this.store.group = textOf(params, 'group');
     this.fill();

@@ -18,7 +18,7 @@ export class Player {
 
   /** Begin with a path. */
   load(path: PlannedPath | null): void {
-    this.path = path && path.points.length ? path : null;
+    this.path = path?.points.length ? path : null;
     this.place_s = 0;
     this.last = 0;
     this.playing = this.path !== null;

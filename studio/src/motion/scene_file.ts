@@ -10,7 +10,7 @@ const NONE = '0 0 0 0';
 export function writeScene(name: string, objects: readonly JsonObject[]): string {
   const lines = [name];
   for (const item of objects) {
-    lines.push(`* ${String(item['id'])}`, ...poseLines(part(item, 'pose')));
+    lines.push(`* ${String(item.id)}`, ...poseLines(part(item, 'pose')));
     const solids = list<JsonObject>(item, 'primitives');
     const meshes = list<JsonObject>(item, 'meshes');
     lines.push(String(solids.length + meshes.length));
@@ -41,7 +41,7 @@ function poseLines(pose: JsonObject): string[] {
 
 /** A cylinder's radius comes before its length, other than in the message. */
 function solidLines(one: JsonObject): string[] {
-  const name = NAMES[Number(one['type'])] ?? 'box';
+  const name = NAMES[Number(one.type)] ?? 'box';
   const sizes = list<number>(one, 'dimensions');
   return [name, (name === 'cylinder' || name === 'cone' ? [sizes[1], sizes[0]] : sizes).join(' ')];
 }

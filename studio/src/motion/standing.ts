@@ -1,5 +1,5 @@
 /** Where the robot stands in the fixed frame. */
-import * as THREE from 'three';
+import type * as THREE from 'three';
 import { arrayMatrix } from '../displays/message';
 import type { Frames } from '../scene/frames';
 import type { MotionStore } from './store';

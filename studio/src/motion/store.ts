@@ -182,10 +182,10 @@ export class MotionStore {
       robot_state: robotState(robot, positions),
     });
     const pairs = list<JsonObject>(answer, 'contacts').map((one): [string, string] => [
-      String(one['contact_body_1']),
-      String(one['contact_body_2']),
+      String(one.contact_body_1),
+      String(one.contact_body_2),
     ]);
-    return { valid: answer['valid'] === true, pairs };
+    return { valid: answer.valid === true, pairs };
   }
 
   /** Who is on the graph now: a move_group that was there may have ended. */
@@ -240,7 +240,7 @@ export class MotionStore {
         {
           onData: (value) => {
             if (isObject(value))
-              this.setPath(pathOf(list<Json>(value, 'trajectory'), value['trajectory_start']));
+              this.setPath(pathOf(list<Json>(value, 'trajectory'), value.trajectory_start));
           },
           onFailed: lost,
           onEnded: (problem) => problem && lost(problem),
@@ -259,8 +259,8 @@ export class MotionStore {
   private takeScene(value: Json): void {
     if (!isObject(value)) return;
     const before = JSON.stringify(this.current);
-    Object.assign(this.current, value['positions']);
-    if (Array.isArray(value['objects'])) {
+    Object.assign(this.current, value.positions);
+    if (Array.isArray(value.objects)) {
       this.objects = list<JsonObject>(value, 'objects');
       this.attached = list<JsonObject>(value, 'attached');
       this.tell('scene');

@@ -80,10 +80,10 @@ export function progress(feedback: JsonObject): Progress {
   copy('number_of_poses_remaining', 'remaining');
   copy('current_waypoint', 'current');
   if ('estimated_time_remaining' in feedback)
-    found.eta_s = seconds(feedback['estimated_time_remaining']);
-  if ('navigation_time' in feedback) found.taken_s = seconds(feedback['navigation_time']);
+    found.eta_s = seconds(feedback.estimated_time_remaining);
+  if ('navigation_time' in feedback) found.taken_s = seconds(feedback.navigation_time);
   const base = 'base_position' in feedback ? 'base_position' : 'current_pose';
-  if (base in feedback) found.position = vector(part(feedback, base, 'pose')['position']);
+  if (base in feedback) found.position = vector(part(feedback, base, 'pose').position);
   return found;
 }
 

@@ -106,7 +106,7 @@ export class Lifecycle {
         request,
         timeout_s: TIMEOUT_S,
       });
-      const refused = isObject(answer) && answer['success'] === false;
+      const refused = isObject(answer) && answer.success === false;
       if (refused)
         this.host.fail(
           new Error(`${about}: ${service} says no. The console tells which node did not follow.`),
@@ -125,7 +125,7 @@ export class Lifecycle {
       const answer = await this.connection
         .call('service.call', { service, request: {}, timeout_s: ASK_MS / 1000 })
         .catch(() => null);
-      const active = isObject(answer) ? answer['success'] === true : null;
+      const active = isObject(answer) ? answer.success === true : null;
       setText(
         element,
         active === null
@@ -134,7 +134,7 @@ export class Lifecycle {
             ? 'active'
             : textOf(answer as JsonObject, 'message') || 'inactive',
       );
-      element.dataset['state'] = active ? 'active' : 'inactive';
+      element.dataset.state = active ? 'active' : 'inactive';
     }
   }
 }

@@ -90,12 +90,12 @@ export class NavigationPanel extends BasePanel {
 
   override open(params: JsonObject): void {
     this.robot = textOf(params, 'robot') || this.robot;
-    const kept = Array.isArray(params['waypoints'])
-      ? (params['waypoints'] as unknown as Waypoint[])
+    const kept = Array.isArray(params.waypoints)
+      ? (params.waypoints as unknown as Waypoint[])
       : null;
     if (kept) this.list.replace(kept);
     this.loops.value = String(numberOf(params, 'loops', Number(this.loops.value)));
-    if (params['mode'] === true) this.modeButton.setAttribute('aria-pressed', 'true');
+    if (params.mode === true) this.modeButton.setAttribute('aria-pressed', 'true');
     this.look();
   }
 

@@ -15,7 +15,7 @@ export interface Waypoint {
 export function waypointOf(pose: JsonObject): Waypoint {
   const { x = 0, y = 0 } = part(pose, 'pose', 'position') as Record<string, number>;
   const { z = 0, w = 1 } = part(pose, 'pose', 'orientation') as Record<string, number>;
-  return { frame: String(part(pose, 'header')['frame_id'] ?? ''), x, y, yaw: 2 * Math.atan2(z, w) };
+  return { frame: String(part(pose, 'header').frame_id ?? ''), x, y, yaw: 2 * Math.atan2(z, w) };
 }
 
 /** As a `geometry_msgs/PoseStamped`; the server fills in the time. */

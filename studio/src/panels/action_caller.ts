@@ -74,7 +74,7 @@ export class ActionCaller extends BasePanel {
   }
 
   override open(params: JsonObject): void {
-    this.texts = params['texts'] ?? {};
+    this.texts = params.texts ?? {};
     const action = textOf(params, 'action');
     if (action) void this.choose(action);
   }

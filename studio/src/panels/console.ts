@@ -76,7 +76,7 @@ export class Console extends BasePanel {
   }
 
   override open(params: JsonObject): void {
-    if (Array.isArray(params['hidden'])) {
+    if (Array.isArray(params.hidden)) {
       this.hiddenLevels.clear();
       for (const level of textsOf(params, 'hidden')) this.hiddenLevels.add(level);
     }
@@ -205,7 +205,7 @@ export class Console extends BasePanel {
     setText(node, line.name);
     setText(message, line.message.replaceAll('\n', ' ⏎ '));
     setText(place, line.place);
-    element.dataset['level'] = line.level;
+    element.dataset.level = line.level;
     const found =
       this.highlight !== '' && line.message.toLowerCase().includes(this.highlight.toLowerCase());
     element.classList.toggle('marked', found);

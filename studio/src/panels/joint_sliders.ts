@@ -93,8 +93,8 @@ export class JointSliders extends BasePanel {
     this.topicInput.value = this.topic;
     // joint_state_publisher_gui's own way from the sliders to it, which means nothing to a person.
     this.topicInput.hidden = this.topic.startsWith('/_gazelle/');
-    if (typeof params['publish'] === 'boolean') this.publishing = params['publish'];
-    if (isObject(params['positions'])) this.kept = params['positions'];
+    if (typeof params.publish === 'boolean') this.publishing = params.publish;
+    if (isObject(params.positions)) this.kept = params.positions;
     void this.load();
   }
 
@@ -131,14 +131,13 @@ export class JointSliders extends BasePanel {
   }
 
   private take(scene: Json): void {
-    const all =
-      isObject(scene) && Array.isArray(scene['joints']) ? scene['joints'].filter(isObject) : [];
+    const all = isObject(scene) && Array.isArray(scene.joints) ? scene.joints.filter(isObject) : [];
     const movable = all.filter((joint) => MOVABLE.has(textOf(joint, 'type')));
     this.mimics = movable.flatMap((joint) =>
-      isObject(joint['mimic']) ? [mimicOf(textOf(joint, 'name'), joint['mimic'])] : [],
+      isObject(joint.mimic) ? [mimicOf(textOf(joint, 'name'), joint.mimic)] : [],
     );
     this.joints = movable
-      .filter((joint) => !isObject(joint['mimic']))
+      .filter((joint) => !isObject(joint.mimic))
       .map((joint) => this.joint(joint));
     this.body.replaceChildren(
       ...this.joints.map((joint) =>

@@ -55,7 +55,7 @@ export class NodeGraph extends BasePanel {
   }
 
   override open(params: JsonObject): void {
-    const choice = params['choice'];
+    const choice = params.choice;
     if (typeof choice === 'object' && choice !== null)
       this.choice = { ...FIRST_CHOICE, ...(choice as Partial<GraphChoice>) };
     this.showControls();

@@ -76,7 +76,7 @@ export class Parameters extends BasePanel {
     if (!Array.isArray(list)) return;
     this.rows = list.map((each) =>
       isObject(each)
-        ? { name: textOf(each, 'name'), value: each['value'] ?? null }
+        ? { name: textOf(each, 'name'), value: each.value ?? null }
         : { name: String(each), value: null },
     );
     this.refresh();

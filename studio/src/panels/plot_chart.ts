@@ -135,7 +135,7 @@ export class PlotChart {
   }
 
   private wheel(event: WheelEvent): void {
-    const { min, max } = this.chart?.scales['x'] ?? {};
+    const { min, max } = this.chart?.scales.x ?? {};
     if (!this.chart || typeof min !== 'number' || typeof max !== 'number') return;
     event.preventDefault();
     const at = this.chart.posToVal(

@@ -142,7 +142,7 @@ export class PluginPanel extends BasePanel implements ViewHost {
     const kind = textOf(spec, 'kind');
     if (kind !== 'row' && kind !== 'column') return this.widget(spec);
     const title = textOf(spec, 'title');
-    const inside = h('div', { class: `own-${kind}` }, ...this.parts(spec['children']));
+    const inside = h('div', { class: `own-${kind}` }, ...this.parts(spec.children));
     if (!title) return inside;
     return h('section', { class: 'own-group', 'aria-label': title }, h('h3', {}, title), inside);
   }
@@ -151,7 +151,7 @@ export class PluginPanel extends BasePanel implements ViewHost {
     const name = textOf(spec, 'name');
     const view = controlFor(spec, (value) => this.act(name, value)) ?? viewFor(spec, this);
     if (!view) return notice(`This page does not know widgets of kind ${textOf(spec, 'kind')}.`);
-    view.element.dataset['widget'] = name;
+    view.element.dataset.widget = name;
     this.widgets.set(name, { spec, view });
     enable(view.element, spec);
     return view.element;
@@ -235,11 +235,11 @@ export class PluginPanel extends BasePanel implements ViewHost {
 }
 
 function enable(element: HTMLElement, spec: JsonObject): void {
-  element.hidden = spec['hidden'] === true;
+  element.hidden = spec.hidden === true;
   const controls = element.querySelectorAll<
     HTMLInputElement | HTMLButtonElement | HTMLSelectElement
   >('input, button, select');
-  for (const control of controls) control.disabled = spec['enabled'] === false;
+  for (const control of controls) control.disabled = spec.enabled === false;
 }
 
 /** Whether two widgets differ in nothing but whether they are enabled and in sight. */

@@ -69,7 +69,7 @@ export class Publisher extends BasePanel {
   }
 
   override open(params: JsonObject): void {
-    const saved = params['publishers'];
+    const saved = params.publishers;
     if (Array.isArray(saved))
       for (const each of saved) if (isObject(each)) this.add(readState(each));
     const topic = textOf(params, 'topic');
@@ -129,7 +129,7 @@ function readState(value: JsonObject): PublisherState {
     topic: textOf(value, 'topic'),
     type: textOf(value, 'type'),
     rate_hz: numberOf(value, 'rate_hz', 1),
-    texts: value['texts'] ?? {},
-    ranges: value['ranges'] ?? {},
+    texts: value.texts ?? {},
+    ranges: value.ranges ?? {},
   };
 }

@@ -180,7 +180,7 @@ export class Reconfigure extends BasePanel {
   private async sendEach(values: JsonObject): Promise<void> {
     for (const [name, value] of Object.entries(values)) {
       const answer = await this.connection.call('node.param_set', { node: this.node, name, value });
-      if (isObject(answer) && answer['successful'] === false) {
+      if (isObject(answer) && answer.successful === false) {
         this.host.fail(
           new Error(
             textOf(answer, 'reason') || `${this.node} refuses ${name} = ${JSON.stringify(value)}.`,

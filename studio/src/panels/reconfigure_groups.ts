@@ -55,9 +55,9 @@ function nodeSpec({ name, type, value, descriptor: about }: NodeParameter): Para
     name,
     type,
     value,
-    min: numberIn(range['from_value']),
-    max: numberIn(range['to_value']),
-    step: numberIn(range['step']),
+    min: numberIn(range.from_value),
+    max: numberIn(range.to_value),
+    step: numberIn(range.step),
     about: [about.description, about.constraints].filter(Boolean).join(' '),
     readOnly: about.read_only,
   };
@@ -68,12 +68,10 @@ function numberIn(value: Json | undefined): number | undefined {
 }
 
 function optionsIn(method: Json | undefined): ParameterSpec['options'] {
-  if (!isObject(method) || !Array.isArray(method['enum'])) return undefined;
-  return method['enum']
-    .filter(isObject)
-    .map((each) => ({
-      name: textOf(each, 'name'),
-      value: each['value'] ?? null,
-      about: textOf(each, 'description'),
-    }));
+  if (!isObject(method) || !Array.isArray(method.enum)) return undefined;
+  return method.enum.filter(isObject).map((each) => ({
+    name: textOf(each, 'name'),
+    value: each.value ?? null,
+    about: textOf(each, 'description'),
+  }));
 }

@@ -61,7 +61,7 @@ export class ServiceCaller extends BasePanel {
 
   override open(params: JsonObject): void {
     const service = textOf(params, 'service') || textsOf(params, 'args')[0];
-    this.texts = params['texts'] ?? {};
+    this.texts = params.texts ?? {};
     if (service) void this.choose(service);
   }
 
@@ -105,8 +105,8 @@ export class ServiceCaller extends BasePanel {
         timeout_s: TIMEOUT_S,
       });
       const response =
-        isObject(value) && isObject(value['response']) && Object.keys(value).length === 1
-          ? value['response']
+        isObject(value) && isObject(value.response) && Object.keys(value).length === 1
+          ? value.response
           : value;
       this.response.classList.remove('bad');
       setText(this.response, asYaml(response) || '(the response has no fields)');
@@ -120,9 +120,7 @@ export class ServiceCaller extends BasePanel {
 }
 
 function requestFields(type: Json): TypeField[] {
-  if (!isObject(type) || !Array.isArray(type['fields'])) return [];
-  const request = (type['fields'] as unknown as TypeField[]).find(
-    (field) => field.name === 'request',
-  );
+  if (!isObject(type) || !Array.isArray(type.fields)) return [];
+  const request = (type.fields as unknown as TypeField[]).find((field) => field.name === 'request');
   return request?.fields ?? [];
 }

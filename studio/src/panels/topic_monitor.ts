@@ -132,9 +132,9 @@ export class TopicMonitor extends BasePanel {
     const open = row.field ? row.field.expanded : on && this.expanded.has(row.path);
     const depth = row.field?.depth ?? 0;
     const key = [row.path, on, branch, open, row.topic?.type].join(' ');
-    if (element.dataset['key'] === key) return;
-    element.dataset['key'] = key;
-    element.dataset['path'] = row.path;
+    if (element.dataset.key === key) return;
+    element.dataset.key = key;
+    element.dataset.path = row.path;
     const [name, type] = element.children as unknown as HTMLElement[];
     const [twist, tick, label] = name.children as unknown as [
       HTMLElement,
@@ -160,7 +160,7 @@ export class TopicMonitor extends BasePanel {
     const row = this.list.rowAt(event.target);
     if (!row || !(event.target instanceof Element)) return;
     if (event.target instanceof HTMLInputElement) {
-      delete event.target.closest<HTMLElement>('[data-key]')?.dataset['key'];
+      delete event.target.closest<HTMLElement>('[data-key]')?.dataset.key;
       if (event.target.checked) this.expanded.add(row.path);
       this.tick(row.path, event.target.checked);
     } else if (event.target.closest('.twist, .label')) {
@@ -212,7 +212,7 @@ export class TopicMonitor extends BasePanel {
   }
 
   private takeMessage(topic: string, value: Json): void {
-    if (isObject(value)) this.messages.set(topic, value['message'] ?? null);
+    if (isObject(value)) this.messages.set(topic, value.message ?? null);
     this.rebuildSoon();
   }
 

@@ -97,7 +97,7 @@ export class TypeBrowser extends BasePanel {
     this.host.touched();
     const type = await this.ask('type.get', { type: name, kind: this.kind });
     if (name !== this.chosen || !isObject(type)) return;
-    this.fields.replaceChildren(...rows(type['fields'] ?? []));
+    this.fields.replaceChildren(...rows(type.fields ?? []));
     setText(this.text, textOf(type, 'text'));
   }
 }
@@ -106,21 +106,17 @@ function rows(fields: Json): HTMLElement[] {
   if (!Array.isArray(fields)) return [];
   return fields.filter(isObject).map((field) => {
     const array =
-      field['array'] === null
-        ? ''
-        : typeof field['array'] === 'number'
-          ? `[${field['array']}]`
-          : '[]';
+      field.array === null ? '' : typeof field.array === 'number' ? `[${field.array}]` : '[]';
     const line = [
       h('span', { class: 'form-name' }, textOf(field, 'name')),
       h('span', { class: 'form-type' }, `${textOf(field, 'type')}${array}`),
     ];
-    if (!Array.isArray(field['fields'])) return h('div', { class: 'type-row' }, ...line);
+    if (!Array.isArray(field.fields)) return h('div', { class: 'type-row' }, ...line);
     return h(
       'details',
-      { open: field['array'] === null },
+      { open: field.array === null },
       h('summary', {}, ...line),
-      h('div', { class: 'form-inside' }, ...rows(field['fields'])),
+      h('div', { class: 'form-inside' }, ...rows(field.fields)),
     );
   });
 }

@@ -77,7 +77,7 @@ export class Frames {
   }
 
   private takeNames(value: Json): void {
-    if (!isObject(value) || !Array.isArray(value['frames'])) return;
+    if (!isObject(value) || !Array.isArray(value.frames)) return;
     this.infos = (value as unknown as FrameNames).frames;
     this.index = new Map(this.infos.map((info, index) => [info.name, index]));
     this.renamed.forEach((listener) => listener());

@@ -1,5 +1,5 @@
 /** The box around what is selected. */
-import * as THREE from 'three';
+import type * as THREE from 'three';
 import type { Assembly } from '../model/assembly';
 import { boxLines } from '../model/overlays';
 import type { WorldStore } from '../world/store';

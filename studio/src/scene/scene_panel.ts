@@ -99,20 +99,20 @@ export class ScenePanel implements Panel, Bench {
   }
 
   open(params: JsonObject): void {
-    if (isObject(params['view'])) {
-      this.view.rig.set(params['view'] as unknown as Partial<ViewState>);
+    if (isObject(params.view)) {
+      this.view.rig.set(params.view as unknown as Partial<ViewState>);
       this.framed = true;
     }
-    if (isObject(params['modes'])) {
-      for (const [mode, on] of Object.entries(params['modes'] as ModeFlags))
+    if (isObject(params.modes)) {
+      for (const [mode, on] of Object.entries(params.modes as ModeFlags))
         this.assembly.setMode(mode as Mode, Boolean(on));
     }
-    if (isObject(params['displays'])) this.loadDisplays(params['displays'] as JsonObject);
+    if (isObject(params.displays)) this.loadDisplays(params.displays as JsonObject);
     else if (!this.displays.displays.length) this.beginDisplays();
-    if (typeof params['file'] === 'string') void openRviz(this, { path: params['file'] });
-    if (typeof params['frame'] === 'string') {
+    if (typeof params.file === 'string') void openRviz(this, { path: params.file });
+    if (typeof params.frame === 'string') {
       this.displays.chosen = true;
-      this.displays.setFixedFrame(params['frame']);
+      this.displays.setFixedFrame(params.frame);
     }
     this.toolbar.refresh();
   }
@@ -127,7 +127,7 @@ export class ScenePanel implements Panel, Bench {
 
   /** Take displays of a layout or of a `.rviz` file. */
   loadDisplays(value: JsonObject): void {
-    this.displays.chosen = Boolean(value['fixed_frame']);
+    this.displays.chosen = Boolean(value.fixed_frame);
     if (this.displays.load(value)) void this.addWaiting();
   }
 

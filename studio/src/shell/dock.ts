@@ -145,7 +145,7 @@ export class Dock {
 
   /** Brings a saved layout back; answers whether it could be read. */
   restore(layout: Json): boolean {
-    if (!isObject(layout) || !isObject(layout['grid']) || !isObject(layout['panels'])) return false;
+    if (!isObject(layout) || !isObject(layout.grid) || !isObject(layout.panels)) return false;
     try {
       this.api.fromJSON(layout as unknown as SerializedDockview);
       return this.api.panels.length > 0;

@@ -137,13 +137,10 @@ export class Layouts {
     try {
       const value = await this.connection.call('perspective.open', file);
       const panels =
-        isObject(value) && Array.isArray(value['panels']) ? value['panels'].filter(isObject) : [];
+        isObject(value) && Array.isArray(value.panels) ? value.panels.filter(isObject) : [];
       this.dock.arrange([]);
       for (const panel of panels)
-        this.dock.showBeside(
-          textOf(panel, 'kind'),
-          isObject(panel['params']) ? panel['params'] : {},
-        );
+        this.dock.showBeside(textOf(panel, 'kind'), isObject(panel.params) ? panel.params : {});
     } catch (problem) {
       this.toasts.fail(problem, name);
     }

@@ -26,7 +26,7 @@ export class LayoutStore {
   async load(name: string): Promise<Json> {
     try {
       const value = await this.connection.call('layout.load', { name });
-      if (value !== null) return isObject(value) && 'value' in value ? value['value'] : value;
+      if (value !== null) return isObject(value) && 'value' in value ? value.value : value;
     } catch {
       // Falls through to the browser's own copy.
     }
@@ -59,7 +59,7 @@ export class LayoutStore {
   tab(): { commands: string[]; layout: Json } | null {
     const kept = parsed(sessionStorage.getItem(TAB));
     return isObject(kept)
-      ? { commands: textsOf(kept, 'commands'), layout: kept['layout'] ?? null }
+      ? { commands: textsOf(kept, 'commands'), layout: kept.layout ?? null }
       : null;
   }
 
@@ -101,6 +101,6 @@ function parsed(text: string | null): Json {
 }
 
 function namesIn(value: Json): string[] {
-  const list = isObject(value) ? value['names'] : value;
+  const list = isObject(value) ? value.names : value;
   return Array.isArray(list) ? list.filter((each): each is string => typeof each === 'string') : [];
 }

@@ -31,7 +31,7 @@ export class PanelFrame implements IContentRenderer {
 
   /** Called by the dock once the tab is there. */
   init(parameters: GroupPanelPartInitParameters): void {
-    const state: unknown = parameters.params['state'];
+    const state: unknown = parameters.params.state;
     this.kept = isObject(state) ? state : {};
     this.visible = parameters.api.isVisible;
     parameters.api.onDidVisibilityChange((event) => this.show(event.isVisible));

@@ -7,7 +7,7 @@ const listeners = new Set<(theme: Theme) => void>();
 
 /** The theme that shows. */
 export function theme(): Theme {
-  return document.documentElement.dataset['theme'] === 'light' ? 'light' : 'dark';
+  return document.documentElement.dataset.theme === 'light' ? 'light' : 'dark';
 }
 
 /** Takes up the person's last choice; dark at first. */
@@ -34,6 +34,6 @@ export function colour(name: string): string {
 }
 
 function apply(next: Theme): void {
-  document.documentElement.dataset['theme'] = next;
+  document.documentElement.dataset.theme = next;
   for (const listener of listeners) listener(next);
 }

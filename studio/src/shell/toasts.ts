@@ -33,7 +33,7 @@ export class Toasts {
   private add(level: string, parts: HTMLElement[], lasts_ms: number): void {
     const key = parts.map((part) => part.textContent).join('\n');
     for (const old of this.root.querySelectorAll<HTMLElement>('.toast'))
-      if (old.dataset['key'] === key) old.remove();
+      if (old.dataset.key === key) old.remove();
     const toast = h(
       'div',
       {

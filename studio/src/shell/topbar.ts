@@ -36,7 +36,7 @@ export function buildTopbar(
   });
   const light = h('span', { class: 'light', role: 'img' });
   connection.onState((state) => {
-    light.dataset['state'] = state;
+    light.dataset.state = state;
     const text = state === 'open' ? 'Connected' : state === 'lost' ? 'Not connected' : 'Connecting';
     light.setAttribute('aria-label', text);
     light.title = text;

@@ -139,7 +139,7 @@ export class WorldControls {
     this.element.hidden = stats === null;
     if (!stats) return;
     const wanted = stats.paused ? 'play' : 'pause';
-    if (this.play.dataset['shows'] !== wanted) this.showPlay(wanted);
+    if (this.play.dataset.shows !== wanted) this.showPlay(wanted);
     setText(this.rtf, stats.paused ? 'paused' : stats.rtf.toFixed(2));
     setText(this.sim, clock(stats.sim_s));
     setText(this.real, clock(stats.real_s));
@@ -148,7 +148,7 @@ export class WorldControls {
 
   private showPlay(shows: 'play' | 'pause'): void {
     const title = shows === 'play' ? 'Play (Space)' : 'Pause (Space)';
-    this.play.dataset['shows'] = shows;
+    this.play.dataset.shows = shows;
     this.play.replaceChildren(icon(shows));
     this.play.title = title;
     this.play.setAttribute('aria-label', title);

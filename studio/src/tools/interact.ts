@@ -1,5 +1,5 @@
 /** Interact: drags, presses and opens the menus of interactive markers. */
-import * as THREE from 'three';
+import type * as THREE from 'three';
 import { FEEDBACK, type Handle } from '../displays/interactive';
 import { BUTTON, isDragged, MENU, type ControlDrag } from '../displays/interactive_controls';
 import { pick } from '../scene/picking';

@@ -206,7 +206,7 @@ export class GraphDrawing {
 
 function idOf(target: EventTarget | null): string | null {
   return target instanceof Element
-    ? (target.closest<SVGElement>('.box')?.dataset['id'] ?? null)
+    ? (target.closest<SVGElement>('.box')?.dataset.id ?? null)
     : null;
 }
 

@@ -35,7 +35,7 @@ export class MessageForm {
   message(): JsonObject {
     const message: JsonObject = {};
     for (const leaf of this.leaves) {
-      if (this.expressionOf(leaf) === null) put(message, leaf.path, valueOf(leaf));
+      if (this.expressionOf(leaf) === null) put(message, leaf.path, leafValue(leaf));
     }
     return message;
   }
@@ -154,7 +154,7 @@ function numberFrom(text: string): number {
   return text.toLowerCase() in named ? 0 : Number(text);
 }
 
-function valueOf(leaf: Leaf): Json {
+function leafValue(leaf: Leaf): Json {
   const text = textIn(leaf.input);
   if (leaf.input.type === 'checkbox') return leaf.input.checked;
   if (leaf.field.array === null && isNumber(leaf.field)) {

@@ -56,7 +56,7 @@ function childrenOf(value: Json, path: string): [string, Json, string][] {
 
 /** The head of an array that the server has cut: `{"…": length, "head": […]}`. */
 function cutItems(value: Json): Json[] | null {
-  return isObject(value) && '…' in value && Array.isArray(value['head']) ? value['head'] : null;
+  return isObject(value) && '…' in value && Array.isArray(value.head) ? value.head : null;
 }
 
 function isBranch(value: Json): boolean {

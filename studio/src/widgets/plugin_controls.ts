@@ -90,7 +90,7 @@ class Typing {
 }
 
 function stepOf(spec: JsonObject, otherwise: number | 'any'): number | 'any' {
-  return typeof spec['step'] === 'number' ? spec['step'] : otherwise;
+  return typeof spec.step === 'number' ? spec.step : otherwise;
 }
 
 function unit(spec: JsonObject): HTMLElement | null {

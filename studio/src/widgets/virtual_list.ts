@@ -93,8 +93,8 @@ export class VirtualList<T> {
   private place(at: number, index: number): void {
     const element = this.pool[at] ?? this.grow();
     if (!element.isConnected) this.canvas.append(element);
-    if (element.dataset['row'] !== String(index)) {
-      element.dataset['row'] = String(index);
+    if (element.dataset.row !== String(index)) {
+      element.dataset.row = String(index);
       element.setAttribute('aria-rowindex', String(index + 1));
       element.style.transform = `translateY(${index * this.maker.height}px)`;
     }

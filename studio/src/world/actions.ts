@@ -149,7 +149,7 @@ export async function openRviz(panel: ScenePanel, file: JsonObject): Promise<voi
   try {
     const value = await panel.connection.call('rviz.open', file);
     if (!isObject(value)) return;
-    panel.open({ displays: value, ...(isObject(value['view']) ? { view: value['view'] } : {}) });
+    panel.open({ displays: value, ...(isObject(value.view) ? { view: value.view } : {}) });
     openPanels(panel, value);
     if (
       panel.displays.displays.some(

@@ -61,7 +61,7 @@ export class JointsPanel extends BasePanel {
   }
 
   override open(params: JsonObject): void {
-    if (typeof params['model'] === 'string') this.choose(params['model']);
+    if (typeof params.model === 'string') this.choose(params.model);
   }
 
   override state(): JsonObject {
@@ -170,8 +170,8 @@ export class JointsPanel extends BasePanel {
     const slider = h('input', {
       type: 'range',
       step: 'any',
-      min: joint.lower ?? -3.1416,
-      max: joint.upper ?? 3.1416,
+      min: joint.lower ?? -Math.PI,
+      max: joint.upper ?? Math.PI,
       value: Number(target.value),
       'aria-label': `${joint.name} ${mode} slider`,
     });
