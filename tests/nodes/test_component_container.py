@@ -93,6 +93,30 @@ def test_a_component_of_a_fixed_transform_is_told_it_by_parameters(bench: Any) -
     bench.eventually(lambda: any(text in line.msg for line in said))
 
 
+@pytest.mark.parametrize(
+    ("plugin", "parameters"),
+    [
+        ("RelayNode", {}),
+        ("ThrottleNode", {"throttle_type": "messages", "msgs_per_sec": 1e6}),
+        ("ThrottleNode", {"throttle_type": "bytes", "bytes_per_sec": 1000, "window": 1.0}),
+        ("DropNode", {"X": 1, "Y": 2}),
+        ("MuxNode", {"input_topics": ["/in", "/other"]}),
+    ],
+)
+def test_components_of_topic_tools_are_told_topics_by_parameters(
+    bench: Any, plugin: str, parameters: dict[str, Any]
+) -> None:
+    bench.start("rclcpp_components/component_container", "--ros-args", "-r", "__node:=box")
+    got = bench.listen("/out", "std_msgs/msg/Int32")
+    topics = {"output_topic": "/out", **({} if plugin == "MuxNode" else {"input_topic": "/in"})}
+    _load(bench, "topic_tools", f"topic_tools::{plugin}", **topics, **parameters)
+    out = bench.node.create_publisher("/in", message_type("std_msgs/msg/Int32"))
+    bench.eventually(lambda: out.matched)
+    for _ in range(2):
+        out.publish(message_type("std_msgs/msg/Int32")(data=7))
+    assert bench.eventually(lambda: got)[0].data == 7
+
+
 def test_compiled_components_are_refused_with_what_there_is(bench: Any) -> None:
     bench.start("rclcpp_components/component_container_mt", "--ros-args", "-r", "__node:=box")
     answer = bench.call(

@@ -6,12 +6,12 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node, Publisher, Subscription
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameter_reading import node_reader, private_parameters
 from gazelle.nodes.parameters import start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 
@@ -24,9 +24,12 @@ PARAMETERS = ParameterTable(
     (
         Parameter("initial_topic", "text", "", "the one at the start; the first one when empty"),
         *refused("topics are listened to all the time", "lazy", unless=False),
-        *refused("words of the command line say it", "input_topics", "output_topic"),
+        Parameter("input_topics", "texts", (), "mux, without words: what is chosen of",
+                  generations=(2,)),
+        Parameter("output_topic", "text", "", "mux, without words: where it comes out",
+                  generations=(2,)),
     ),
-)
+)  # fmt: skip
 
 _NONE = "__none"
 _STRING = "std_msgs/msg/String"
@@ -34,7 +37,8 @@ _STRING = "std_msgs/msg/String"
 
 def run_mux(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish what comes on the selected of several topics: ``mux OUT IN1 [IN2 …]``."""
-    target, *sources = _words(arguments, "mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 [...]]")
+    words = list(arguments.rest) or _by_parameters(arguments)
+    target, *sources = _checked(words, "mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 [...]]")
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
         first = own.text("initial_topic")
@@ -60,7 +64,9 @@ def run_mux(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> in
 
 def run_demux(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish a topic as the selected of several: ``demux IN OUT1 [OUT2 …]``."""
-    source, *targets = _words(arguments, "demux IN_TOPIC OUT_TOPIC1 [OUT_TOPIC2 [...]]")
+    source, *targets = _checked(
+        list(arguments.rest), "demux IN_TOPIC OUT_TOPIC1 [OUT_TOPIC2 [...]]"
+    )
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
         first = own.text("initial_topic")
@@ -165,8 +171,15 @@ def _serve(
     return 0
 
 
-def _words(arguments: NodeArguments, usage: str) -> list[str]:
-    words = list(arguments.rest)
+def _by_parameters(arguments: NodeArguments) -> list[str]:
+    """Return what stands for the words of mux in a component."""
+    unheard, version = Diagnostics(), arguments.generation
+    own = node_reader(PARAMETERS, arguments.params, arguments.name, unheard, generation=version)
+    output = [own.text("output_topic")] if own.has("output_topic") else []
+    return [*output, *own.texts("input_topics")] if output and own.has("input_topics") else []
+
+
+def _checked(words: list[str], usage: str) -> list[str]:
     if len(words) < 2:
         raise LaunchError(f"{len(words)} arguments given\nusage: {usage}")
     return words

@@ -9,19 +9,31 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, MessageInfo, Node, Publisher, RawMessage, Subscription
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
+from gazelle.nodes.parameter_reading import node_reader, private_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters import Parameter, ParameterKind, ParameterTable, refused
 
 __all__ = ["PARAMETERS", "run_drop", "run_relay", "run_throttle"]
 
+_IN_PLACE_OF_WORDS: tuple[tuple[str, ParameterKind, None, str, str], ...] = (
+    ("input_topic", "text", None, "what is passed on", ""),
+    ("output_topic", "text", None, "where; with _relay, _throttle or _drop behind if absent", ""),
+    ("throttle_type", "text", None, "messages or bytes", ""),
+    ("msgs_per_sec", "number", None, "so many messages pass throttle", "Hz"),
+    ("bytes_per_sec", "number", None, "so many bytes pass throttle", "B/s"),
+    ("window", "number", None, "bytes are counted so long", "s"),
+    ("X", "integer", None, "drop leaves out so many", ""),
+    ("Y", "integer", None, "of so many messages", ""),
+)
 PARAMETERS = ParameterTable(
     "relay, throttle and drop",
-    "Pass messages of any type on: all, so many a second, or all but some.",
+    "Pass messages of any type on: all, so many a second, or all but some. Parameters count in the"
+    " place of words where no words are given, as they do for components.",
     ("topic_tools/relay", "topic_tools/throttle", "topic_tools/drop"),
     (
         Parameter("lazy", "flag", False, "listen only while somebody listens to what comes out"),
@@ -29,12 +41,11 @@ PARAMETERS = ParameterTable(
             "wall_clock", "flag", False, "throttle by the machine's time",
             aliases=("use_wall_clock",),
         ),
+        *(Parameter(*row, generations=(2,)) for row in _IN_PLACE_OF_WORDS),
         *refused("messages go the way that publisher and subscriber share", "unreliable",
                  unless=False),
         *refused("the topic is listened to itself", "stealth", unless=False),
         *refused("the topic is listened to itself", "monitor_topic", "monitor_rate"),
-        *refused("words of the command line say it", "input_topic", "output_topic",
-                 "throttle_type", "msgs_per_sec", "bytes_per_sec", "window", "x", "y"),
     ),
 )  # fmt: skip
 
@@ -47,7 +58,8 @@ _THROTTLE = """throttle messages IN_TOPIC MSGS_PER_SEC [OUT_TOPIC]
 
 def run_relay(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish every message again: ``relay IN [OUT]``."""
-    words = _words(arguments, 1, "relay IN_TOPIC [OUT_TOPIC]")
+    given = _given(arguments, "input_topic", "output_topic")
+    words = _checked(given, 1, "relay IN_TOPIC [OUT_TOPIC]")
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
         lazy = own.flag("lazy")
@@ -60,14 +72,17 @@ def run_throttle(arguments: NodeArguments, graph: Graph, stop: threading.Event) 
 
     ``throttle messages IN HZ [OUT]`` or ``throttle bytes IN BYTES_PER_SEC WINDOW [OUT]``.
     """
-    kind = next(iter(arguments.rest), "")
+    by_parameters = next(iter(_given(arguments, "throttle_type")), "")
+    limits_of = ("bytes_per_sec", "window") if by_parameters == "bytes" else ("msgs_per_sec",)
+    words = _given(arguments, "throttle_type", "input_topic", *limits_of, "output_topic")
+    kind = next(iter(words), "")
     if kind not in ("messages", "bytes"):
         raise LaunchError(f"'{kind}' is neither 'messages' nor 'bytes'\nusage: {_THROTTLE}")
     if kind == "messages":
-        _, topic, rate, *out = _words(arguments, 3, _THROTTLE)
+        _, topic, rate, *out = _checked(words, 3, _THROTTLE)
         limits = (_number(rate, _THROTTLE), 0.0)
     else:
-        _, topic, rate, window, *out = _words(arguments, 4, _THROTTLE)
+        _, topic, rate, window, *out = _checked(words, 4, _THROTTLE)
         limits = (_number(rate, _THROTTLE), _number(window, _THROTTLE))
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
@@ -80,7 +95,8 @@ def run_throttle(arguments: NodeArguments, graph: Graph, stop: threading.Event) 
 def run_drop(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Leave out X of every Y messages: ``drop IN X Y [OUT]``."""
     usage = "drop IN_TOPIC X Y [OUT_TOPIC]"
-    topic, x, y, *out = _words(arguments, 3, usage)
+    words = _given(arguments, "input_topic", "X", "Y", "output_topic")
+    topic, x, y, *out = _checked(words, 3, usage)
     dropped, cycle = int(_number(x, usage)), int(_number(y, usage))
     count = [0]
 
@@ -187,8 +203,17 @@ def _print(text: str) -> None:
     sys.stdout.flush()
 
 
-def _words(arguments: NodeArguments, least: int, usage: str) -> list[str]:
-    words = list(arguments.rest)
+def _given(arguments: NodeArguments, *names: str) -> list[str]:
+    """Return the words of a command line; without any, the parameters that stand for them."""
+    if arguments.rest:
+        return list(arguments.rest)
+    # What is wrong with them is told when the node reads all of them.
+    unheard, version = Diagnostics(), arguments.generation
+    own = node_reader(PARAMETERS, arguments.params, arguments.name, unheard, generation=version)
+    return [own.text(name) for name in names if own.has(name)]
+
+
+def _checked(words: list[str], least: int, usage: str) -> list[str]:
     if not least <= len(words) <= least + 1:
         raise LaunchError(f"{len(words)} arguments given\nusage: {usage}")
     return words
