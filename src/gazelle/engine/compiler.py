@@ -71,7 +71,7 @@ class Compiled:
     Attributes:
         model: MuJoCo's model.
         link_names: ``model::link`` in the order of the world.
-        body_ids: body of each link, same order.
+        body_ids: (links,), MuJoCo's body of each link, same order.
         collision_names: ``model::link::collision`` by geom.
         pairs: explicit contact pairs.
         motors: joints that have a motor.

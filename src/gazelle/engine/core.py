@@ -282,6 +282,12 @@ class EngineCore:
     ) -> TimedWrench:
         """Let a wrench about a link's centre of mass act for a time; None for ever.
 
+        Args:
+            link: ``model::link``.
+            force_n: (3,), world frame.
+            torque_nm: (3,), world frame.
+            duration_ns: at least one step.
+
         Raises:
             EngineError: a number is not finite.
         """
@@ -346,6 +352,11 @@ class EngineCore:
 
     def set_tree_velocity(self, body: int, linear_m_s: Array, angular_rad_s: Array) -> None:
         """Move the robot that a body belongs to so that the body's origin has a velocity.
+
+        Args:
+            body: MuJoCo's number.
+            linear_m_s: (3,) of the body's origin, world frame.
+            angular_rad_s: (3,), world frame.
 
         Raises:
             EngineError: it is fixed to the world, or a number is not finite.

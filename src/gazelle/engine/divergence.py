@@ -30,7 +30,7 @@ def find_culprit(model: Any, data: Any, before: tuple[Array, Array, Array], step
     Args:
         model: MuJoCo's model.
         data: its state, already non-finite; left as it is.
-        before: positions, velocities and warm start before the steps.
+        before: ``qpos`` (nq,), ``qvel`` (nv,) and ``qacc_warmstart`` (nv,) before the steps.
         steps: how many were made.
     """
     probe = mujoco.MjData(model)

@@ -220,7 +220,7 @@ class Engine(EngineCore):
             self._must_compile = True
 
     def model_velocity(self, name: str) -> tuple[Array, Array]:
-        """Return linear and angular velocity of the model's frame, world frame."""
+        """Return linear (m/s) and angular (rad/s) velocity of a model's frame, (3,), world frame."""
         _, link = self._canonical(name)
         handle = self.link(scoped(name, link.name))
         linear, angular = handle.velocity_world()
@@ -234,7 +234,13 @@ class Engine(EngineCore):
         linear_m_s: tuple[float, float, float] | Array,
         angular_rad_s: tuple[float, float, float] | Array,
     ) -> None:
-        """Give the canonical link's origin a velocity, world frame; the robot moves along."""
+        """Give the canonical link's origin a velocity, world frame; the robot moves along.
+
+        Args:
+            name: of the model.
+            linear_m_s: (3,), world frame.
+            angular_rad_s: (3,), world frame.
+        """
         _, link = self._canonical(name)
         self.link(scoped(name, link.name)).set_velocity(linear_m_s, angular_rad_s)
 

@@ -25,7 +25,13 @@ _LEAST_KG_M2 = 1e-13
 
 
 class BodyInertia(NamedTuple):
-    """Mass properties about the centre of mass, axes of the link's frame."""
+    """Mass properties about the centre of mass, axes of the link's frame.
+
+    Attributes:
+        mass_kg: mass.
+        center_m: centre of mass in the link's frame.
+        inertia_kg_m2: (3, 3), symmetric.
+    """
 
     mass_kg: float
     center_m: tuple[float, float, float]

@@ -57,13 +57,18 @@ class JointGroup:
     # --- state ---------------------------------------------------------------------------
 
     def read(self, position: Array, velocity: Array) -> None:
-        """Fill two arrays with positions and velocities of now."""
+        """Fill two arrays, (n,) in the order of the joints, with positions and velocities of now.
+
+        They are rad and rad/s, m and m/s of joints that slide.
+        """
         self._index()
         self._positions.take(self._qpos, out=position, mode="clip")
         self._speeds.take(self._dofs, out=velocity, mode="clip")
 
     def effort(self, out: Array) -> None:
         """Fill an array with what acts on each joint: applied effort, motor and lock.
+
+        It is (n,), N·m, N of joints that slide.
 
         Motors and locks count with what they delivered in the last step.
         """
@@ -93,6 +98,9 @@ class JointGroup:
 
     def set_effort(self, values: Array) -> None:
         """Apply efforts, each at most its joint's limit; NaN leaves a joint as it is.
+
+        Args:
+            values: (n,) in the order of the joints, N·m, N of joints that slide.
 
         Raises:
             EngineError: a value is infinite and the joint has no limit.
@@ -132,11 +140,11 @@ class JointGroup:
         the joint is commanded anew, like a motor's command.
 
         Args:
-            places: which of the joints.
-            efforts: on the joint at rest, for each place.
-            slopes: what they lose per speed, positive.
-            low: smallest effort; the joint's own limit counts as well.
-            high: largest effort.
+            places: k of the joints.
+            efforts: (k,), on the joint at rest, N·m or N.
+            slopes: (k,), what they lose per rad/s or m/s, positive.
+            low: (k,), smallest effort; the joint's own limit counts as well.
+            high: (k,), largest effort.
         """
         self._index()
         self._resting_effort = None
@@ -163,6 +171,10 @@ class JointGroup:
         step pass n, so that joints move smoothly. What would be faster than 20 rad/s or m/s is
         put there at once, as Gazebo does. NaN leaves a joint as it is.
 
+        Args:
+            values: (n,) in the order of the joints, rad, m of joints that slide.
+            steps: of the world.
+
         Raises:
             EngineError: a value is infinite, or `steps` is not positive.
         """
@@ -182,6 +194,10 @@ class JointGroup:
 
         An infinite effort is Gazebo's kinematic ``SetVelocity``; finite ones respect the joint's
         own limit as `JointHandle.set_velocity_target` does. NaN leaves a joint as it is.
+
+        Args:
+            values: (n,) in the order of the joints, rad/s, m/s of joints that slide.
+            max_effort: (n,), N·m or N; a joint whose effort is NaN is left as it is.
 
         Raises:
             EngineError: a velocity is infinite.

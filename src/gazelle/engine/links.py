@@ -99,10 +99,10 @@ class LinkHandle:
         """Apply a force and a torque in the world frame; `Engine.end_wrench` ends what it returns.
 
         Args:
-            force_n: world frame.
-            torque_nm: world frame, added to the moment of the force.
-            point_link_m: where the force acts, in the link's frame at this moment; the centre
-                of mass when None. The moment is kept while the wrench lasts, as Gazebo does.
+            force_n: (3,), world frame.
+            torque_nm: (3,), world frame, added to the moment of the force.
+            point_link_m: (3,), where the force acts, in the link's frame at this moment; the
+                centre of mass when None. The moment is kept while the wrench lasts, as Gazebo does.
             duration_ns: how long it acts, at least one step; None for ever
                 (until `clear_wrenches`).
         """
@@ -124,7 +124,7 @@ class LinkHandle:
     def set_velocity(
         self, linear_m_s: Vector3 | Array = _ORIGIN, angular_rad_s: Vector3 | Array = _ORIGIN
     ) -> None:
-        """Give the link's origin a velocity, world frame; the whole robot moves along."""
+        """Give the link's origin a velocity, (3,) each, world frame; all of the robot moves along."""
         self._engine.set_tree_velocity(
             self._index(), np.asarray(linear_m_s, float), np.asarray(angular_rad_s, float)
         )

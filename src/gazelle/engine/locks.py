@@ -137,13 +137,13 @@ class LockBank:
         """Hold joints at targets, reached evenly over some steps.
 
         Args:
-            places: of the locks.
-            targets: rad or m.
-            positions: tells where the joints are.
+            places: of the locks, (n,).
+            targets: (n,), rad or m.
+            positions: tells where the joints are, (n,), rad or m.
             steps: 1 for the end of the next step.
 
         Returns:
-            Which joints must be put to their targets at once, None for none.
+            Which joints must be put to their targets at once, (n,); None for none.
         """
         if not self.active.take(places).all():
             self._engage(places, positions())
@@ -199,7 +199,7 @@ class LockBank:
         self._find_next_end()
 
     def efforts(self, data: Any) -> Array:
-        """Return what each lock delivered in the last step, by place."""
+        """Return what each lock delivered in the last step, (locks,) by place, N·m or N."""
         kind = int(mujoco.mjtConstraint.mjCNSTR_EQUALITY)
         forces = constraint_forces(data, kind, self._model.neq)[self._equalities]
         result: Array = np.where(self.active, forces, 0.0)

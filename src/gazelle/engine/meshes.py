@@ -61,7 +61,12 @@ _OF_SEVERAL_FILES = frozenset({".gltf"})
 
 
 class Piece(NamedTuple):
-    """One convex solid: the hull of points, or the round shape it is a tessellation of."""
+    """One convex solid: the hull of points, or the round shape it is a tessellation of.
+
+    Attributes:
+        points_m: (n, 3), in the collision's frame.
+        round_shape: None where it is a hull.
+    """
 
     points_m: Array
     round_shape: RoundShape | None = None
@@ -143,7 +148,10 @@ def polyline_pieces(shape: Polyline) -> tuple[Piece, ...]:
 
 
 def solid_pieces(shape: Solid) -> tuple[Array, ...]:
-    """Return the points of convex pieces that make up a solid that MuJoCo does not have."""
+    """Return the points of convex pieces that make up a solid that MuJoCo does not have.
+
+    They are (n, 3) each, m, in the solid's frame.
+    """
     part = shape.mesh()
     if shape.is_convex:
         return (part.vertices_m,)

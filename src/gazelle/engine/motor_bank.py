@@ -112,7 +112,7 @@ class MotorBank:
         self._changed = True
 
     def tendons(self, joints: Sequence[str]) -> NDArray[np.intp] | None:
-        """Return the clutch of each joint, −1 for none; None when none has one."""
+        """Return the clutch of each joint, (joints,), −1 for none; None when none has one."""
         found = [self._slots[joint].tendon if joint in self._slots else -1 for joint in joints]
         return np.array(found, dtype=np.intp) if max(found, default=-1) >= 0 else None
 

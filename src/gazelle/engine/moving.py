@@ -36,7 +36,15 @@ def move_root(model: Any, data: Any, bodies: Iterable[int], T_world_world: Pose)
 def set_root_velocity(
     model: Any, data: Any, body: int, point_m: Array, change: tuple[Array, Array]
 ) -> bool:
-    """Add a rigid velocity (linear at a point, angular; world frame) to a body's free root."""
+    """Add a rigid velocity to a body's free root; False where it has none.
+
+    Args:
+        model: MuJoCo's model.
+        data: its state, changed.
+        body: of the tree.
+        point_m: (3,), world frame.
+        change: linear at the point, m/s, and angular, rad/s; (3,) each, world frame.
+    """
     joint = _root_joint(model, body)
     if joint is None:
         return False

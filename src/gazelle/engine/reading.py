@@ -33,7 +33,7 @@ def waking_copy(model: Any, data: Any) -> Any:
 
 
 def joint_reaction(model: Any, data: Any, body: int, point_m: NDArray[np.float64]) -> Wrench:
-    """Return force and torque about a point that a body's parent exerts on it, world frame.
+    """Return force and torque about a point (3,) that a body's parent exerts on it, world frame.
 
     ``cfrc_int`` holds them about the centre of mass of the body's whole tree.
     """
@@ -43,7 +43,7 @@ def joint_reaction(model: Any, data: Any, body: int, point_m: NDArray[np.float64
 
 
 def constraint_forces(data: Any, kind: int, count: int) -> NDArray[np.float64]:
-    """Return the force of the last step by the number of an equality or tendon.
+    """Return the force of the last step, (count,), N or N·m, of each equality or tendon.
 
     Args:
         data: MuJoCo's data.

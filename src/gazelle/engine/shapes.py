@@ -113,7 +113,7 @@ class GeomAssets:
         self._meshes: dict[int, tuple[Array, str]] = {}
 
     def mesh(self, hull_m: Array, name: str) -> str:
-        """Return the name of the mesh with these points; a new one is named after its geom."""
+        """Return the name of the mesh with these points, (n, 3); a new one is named after a geom."""
         known = self._meshes.get(id(hull_m))
         if known is None:
             mesh = self._spec.add_mesh(name=f"mesh {name}")
@@ -125,7 +125,13 @@ class GeomAssets:
     def height_field(
         self, heights: Array, terrain_m: tuple[float, float, float, float], name: str
     ) -> str:
-        """Return the name of a new height field."""
+        """Return the name of a new height field.
+
+        Args:
+            heights: (rows, columns), 0 to 1 of its height, row 0 at −y.
+            terrain_m: half sizes along x and y, height, depth of the base.
+            name: of the geom.
+        """
         field = self._spec.add_hfield(name=f"terrain {name}")
         field.nrow, field.ncol = heights.shape
         field.size = list(terrain_m)

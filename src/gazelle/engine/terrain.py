@@ -17,7 +17,7 @@ def read_terrain(
 ) -> NDArray[np.float64] | None:
     """Return the heights of a heightmap's image, 0 for black to 1 for white, row 0 at −y.
 
-    Gazebo puts the image's top edge at the largest y.
+    They are (rows, columns). Gazebo puts the image's top edge at the largest y.
     """
     if shape.path is None:
         return None

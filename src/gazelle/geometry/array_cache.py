@@ -17,7 +17,7 @@ __all__ = ["keep_arrays", "keeps_arrays", "kept_arrays"]
 
 
 def kept_arrays(file: Path) -> dict[str, NDArray[Any]] | None:
-    """Return the arrays of a file by name; None when it is not there or damaged."""
+    """Return the arrays of a file by name, of any shape; None when it is not there or damaged."""
     try:
         return read_arrays(file)
     except (OSError, ArchiveError):
@@ -25,7 +25,7 @@ def kept_arrays(file: Path) -> dict[str, NDArray[Any]] | None:
 
 
 def keep_arrays(file: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
-    """Write arrays beside and rename, so that a reader never sees half a file.
+    """Write arrays of any shape beside and rename, so that a reader never sees half a file.
 
     A read-only home only costs the time of the next run.
     """

@@ -93,7 +93,7 @@ def is_splitting() -> bool:
 
 
 def convex_hull(vertices_m: NDArray[np.float64]) -> MeshPart:
-    """Return the convex hull of points, faces outwards.
+    """Return the convex hull of points, (n, 3), faces outwards.
 
     Points in one plane or on one line get a hull of a millionth of their size in thickness.
 

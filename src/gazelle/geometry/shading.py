@@ -113,7 +113,7 @@ def _corner_angles(corners_m: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def rounded_normals(normals: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return normals rounded so that sums of the same faces in another order are equal."""
+    """Return normals, (n, 3), rounded so that sums of the same faces in any order are equal."""
     return np.round(normals * _NORMAL_STEPS)
 
 

@@ -36,7 +36,7 @@ class DriftModel:
 
     @property
     def variances(self) -> Array:
-        """Drift and noise together, squared, as hector's covariances have them."""
+        """Drift and noise together, squared, (N,) by axis, as hector's covariances have them."""
         return np.square(self.drift) + np.square(self.gaussian_noise)
 
 

@@ -25,7 +25,7 @@ class NoNoise:
     def apply(
         self, values: NDArray[np.floating] | float, *, dt_s: float = 0.0
     ) -> NDArray[np.float64]:
-        """Return the values."""
+        """Return the values, in their shape."""
         return np.asarray(values, np.float64)
 
 

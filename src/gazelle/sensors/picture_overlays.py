@@ -109,6 +109,8 @@ def equivalent_box(inertial: Inertial) -> tuple[Vector3, Pose] | None:
 def scene_points(scene: RayScene) -> dict[str, NDArray[np.float64]]:
     """Return, by model name, points whose hull holds all that a scene shows of it.
 
+    They are (n, 3), m, in the world.
+
     Flat squares on the ground would be all there is to see of a world: planes are left out.
     """
     found: dict[str, list[NDArray[np.float64]]] = {}

@@ -33,7 +33,7 @@ class Cloud(NamedTuple):
 
     Attributes:
         floats: (rows, columns, 8), of which the first three are x, y and z, m.
-        words: the same memory, of which the fifth is the colour.
+        words: (rows, columns, 8), the same memory, of which the fifth is the colour.
     """
 
     floats: NDArray[np.float32]

@@ -35,10 +35,12 @@ class Surfaces(NamedTuple):
     """What rays may meet; see `ShadingTables`, of which all but the second field are.
 
     Attributes:
-        instance_part: first part of each instance.
-        normal_matrix: (n, 3, 3) of each instance.
-        part_table, part_density, faces, normals, uv, materials, material_texture, material_lit,
-            texels, levels, level_count: as there.
+        instance_part: (I,) first part of each instance.
+        normal_matrix: (I, 3, 3) of each instance.
+        part_table, part_density: (P, 3) and (P,), of each part.
+        faces, normals, uv: (F, 3), (V, 3) and (V, 2), of all surfaces.
+        materials, material_texture, material_lit: (M, 16), (M,) and (M,).
+        texels, levels, level_count: (n,), (T, levels, 3) and (T,).
     """
 
     instance_part: NDArray[np.generic]

@@ -31,11 +31,13 @@ class ShadingTables:
         instance_part: (I,) int32, first row of `part_table` of each instance.
         part_table: (P, 3) int32: first face (−1 for spheres), first vertex, material.
         part_density: (P,) float32 texels per metre of surface.
-        faces, normals, uv: all distinct surfaces', one after the other.
+        faces: (F, 3) int32 vertices of all distinct surfaces, one after the other.
+        normals: (V, 3) float32 of their vertices, in the surface's frame.
+        uv: (V, 2) float32 of their vertices.
         materials: (M, 16) float32.
         material_texture: (M,) int32, −1 for none.
         material_lit: (M,) bool.
-        texels, levels, level_count: see `TextureAtlas.packed`.
+        texels, levels, level_count: (n,), (T, levels, 3) and (T,); see `TextureAtlas.packed`.
         ambient: (3,) float32 of the scene.
         background: (rows, 3) float32.
     """

@@ -54,7 +54,7 @@ class CompiledMjcf:
         return pose_from(self.data.xpos[body], self.data.xquat[body])
 
     def tree(self, root: int) -> NDArray[np.intp]:
-        """Return a body that hangs on the world and all below it."""
+        """Return a body that hangs on the world and all below it, (n,) of MuJoCo's numbers."""
         return np.flatnonzero(self.model.body_rootid == root)
 
     def joints_of(self, body: int) -> range:
@@ -97,7 +97,7 @@ def compiled_mjcf(path: Path, diagnostics: Diagnostics) -> CompiledMjcf | None:
 
 
 def pose_from(position: NDArray[np.float64], quat_wxyz: NDArray[np.float64]) -> Pose:
-    """Return a pose from MuJoCo's numbers."""
+    """Return a pose from MuJoCo's numbers: a position (3,), m, and a quaternion (4,), wxyz."""
     x, y, z = (float(value) for value in position)
     qw, qx, qy, qz = (float(value) for value in quat_wxyz)
     return Pose((x, y, z), (qx, qy, qz, qw))
