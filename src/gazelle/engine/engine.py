@@ -220,7 +220,7 @@ class Engine(EngineCore):
             self._must_compile = True
 
     def model_velocity(self, name: str) -> tuple[Array, Array]:
-        """Return linear (m/s) and angular (rad/s) velocity of a model's frame, (3,), world frame."""
+        """Return linear (m/s) and angular (rad/s) velocity of a model's frame, (3,), world."""
         _, link = self._canonical(name)
         handle = self.link(scoped(name, link.name))
         linear, angular = handle.velocity_world()

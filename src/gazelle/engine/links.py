@@ -124,7 +124,7 @@ class LinkHandle:
     def set_velocity(
         self, linear_m_s: Vector3 | Array = _ORIGIN, angular_rad_s: Vector3 | Array = _ORIGIN
     ) -> None:
-        """Give the link's origin a velocity, (3,) each, world frame; all of the robot moves along."""
+        """Give the link's origin a velocity, (3,) each, world frame; the robot moves along."""
         self._engine.set_tree_velocity(
             self._index(), np.asarray(linear_m_s, float), np.asarray(angular_rad_s, float)
         )

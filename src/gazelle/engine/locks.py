@@ -90,7 +90,7 @@ class LockBank:
         return bool(new)
 
     def places(self, joints: Sequence[str]) -> Indices:
-        """Return the places of installed joints."""
+        """Return the places of installed joints, (joints,)."""
         return np.array([self.installed.index(joint) for joint in joints], dtype=np.intp)
 
     def forget(self, prefix: str) -> None:
@@ -174,7 +174,7 @@ class LockBank:
             self._find_next_end()
 
     def release(self, places: Indices | None = None) -> None:
-        """Let joints move freely; all of them by default."""
+        """Let joints move freely; all of them by default, else those of these places, (n,)."""
         chosen = np.arange(len(self.installed)) if places is None else places
         if not self.active[chosen].any():
             return

@@ -113,7 +113,7 @@ class GeomAssets:
         self._meshes: dict[int, tuple[Array, str]] = {}
 
     def mesh(self, hull_m: Array, name: str) -> str:
-        """Return the name of the mesh with these points, (n, 3); a new one is named after a geom."""
+        """Return the name of the mesh with these points, (n, 3); a new one has a geom's name."""
         known = self._meshes.get(id(hull_m))
         if known is None:
             mesh = self._spec.add_mesh(name=f"mesh {name}")

@@ -27,7 +27,12 @@ class NoiseStream(Protocol):
         """Whether `apply` returns its input, so that a sensor need not ask."""
 
     def apply(self, values: Any, *, dt_s: float = 0.0) -> NDArray[np.float64]:
-        """Return values with noise; `dt_s` is the simulated time since the last call."""
+        """Return values with noise, in their shape.
+
+        Args:
+            values: numbers of the unit of the noise.
+            dt_s: simulated time since the last call.
+        """
 
 
 class NoiseModel(NamedTuple):

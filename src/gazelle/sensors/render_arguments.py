@@ -19,8 +19,8 @@ class View(NamedTuple):
     Attributes:
         position_m: (3,) in the world.
         rotation: (3, 3), columns ahead, left, up in the world.
-        lens: fx, fy, cx, cy, skew, pixels.
-        clip_m: nearest and farthest.
+        lens: (5,) fx, fy, cx, cy, skew, pixels.
+        clip_m: (2,) nearest and farthest.
         mask: of what is seen.
     """
 
@@ -62,7 +62,7 @@ class Lighting(NamedTuple):
     """Where light comes from.
 
     Attributes:
-        lights: (n, `LIGHT_COLUMNS`).
+        lights: (n, columns), `LIGHT_COLUMNS` of them.
         ambient: (3,) rgb.
         background: (m, 3) rgb from the nadir to the zenith.
     """
@@ -76,8 +76,8 @@ class Packet(NamedTuple):
     """Memory for a packet of rays, of one thread.
 
     Attributes:
-        words: `SCRATCH_ROWS` rows of 16.
-        floats: the same memory.
+        words: (`SCRATCH_ROWS`, 16).
+        floats: (`SCRATCH_ROWS`, 16), the same memory.
         address: of it.
         arguments: address of Embree's RTCIntersectArguments.
     """
