@@ -58,7 +58,7 @@ _EKF_ROWS = (
     *refused("the filter starts at once", "disabled_at_startup", unless=False),
     *refused("a jump back in time is not followed; set_pose begins anew", "reset_on_time_jump",
              unless=False),
-    *refused("gravity is 9.80665 m/s²", "gravitational_acceleration"),
+    *refused("gravity is 9.80665 m/s²", "gravitational_acceleration", unless=9.80665),
     *refused("frames have the names that the other parameters give", "tf_prefix",
              "base_link_frame_output"),
 )  # fmt: skip
