@@ -67,7 +67,7 @@ class InterfaceBank:
         self._frozen = True
 
     def state_places(self, names: Iterable[str]) -> Indices:
-        """Return the places of state interfaces; hardware keeps them filled from now on.
+        """Return the places of n state interfaces, (n,); hardware keeps them filled from now on.
 
         Raises:
             KeyError: there is no such interface.
@@ -77,7 +77,7 @@ class InterfaceBank:
         return np.array(places, dtype=np.intp)
 
     def command_places(self, names: Iterable[str]) -> Indices:
-        """Return the places of command interfaces.
+        """Return the places of n command interfaces, (n,).
 
         Raises:
             KeyError: there is no such interface.
@@ -90,6 +90,11 @@ class InterfaceBank:
         """Tell how efforts answer to their joints, at every update of a feedback.
 
         Hardware that has the physics at hand lets light joints feel it within a step.
+
+        Args:
+            places: of n commands, (n,).
+            stiffness: (n,), what each loses per rad or m of its own joint.
+            damping: (n,), what each loses per rad/s or m/s.
         """
         self.stiffness[places], self.damping[places] = stiffness, damping
 

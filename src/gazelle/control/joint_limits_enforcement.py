@@ -59,7 +59,14 @@ class PositionLimits:
         self._last: Array = np.full(len(limits), math.nan)
 
     def enforce(self, command: Array, position: Array, velocity: Array, period_s: float) -> Array:
-        """Return the commands that are allowed; NaN stays NaN."""
+        """Return the positions (N,), rad or m, that are allowed; NaN stays NaN.
+
+        Args:
+            command: positions (N,), rad or m.
+            position: measured (N,).
+            velocity: measured (N,), rad/s or m/s.
+            period_s: since the last call.
+        """
         bounds = self._bounds
         last = np.where(np.isnan(self._last), position, self._last)
         slow, fast = bounds.velocity_bounds(last)
@@ -82,7 +89,14 @@ class VelocityLimits:
         self._last: Array = np.zeros(len(limits))
 
     def enforce(self, command: Array, position: Array, velocity: Array, period_s: float) -> Array:
-        """Return the commands that are allowed; NaN stays NaN."""
+        """Return the velocities (N,), rad/s or m/s, that are allowed; NaN stays NaN.
+
+        Args:
+            command: velocities (N,), rad/s or m/s.
+            position: measured (N,), rad or m.
+            velocity: measured (N,).
+            period_s: since the last call.
+        """
         bounds = self._bounds
         low, high = bounds.velocity_bounds(position)
         # Soft limits count the acceleration from the measured speed, hard ones from the command.
@@ -111,12 +125,24 @@ class EffortLimits:
         self._any_soft = bool(self._bounds.soft.any())
 
     def enforce(self, command: Array, position: Array, velocity: Array, period_s: float) -> Array:
-        """Return the commands that are allowed; NaN stays NaN."""
+        """Return the efforts (N,), N·m or N, that are allowed; NaN stays NaN.
+
+        Args:
+            command: efforts (N,), N·m or N.
+            position: measured (N,), rad or m.
+            velocity: measured (N,), rad/s or m/s.
+            period_s: since the last call.
+        """
         low, high = self.bounds(position, velocity)
         return _saturate(command, low, high)
 
     def bounds(self, position: Array, velocity: Array) -> tuple[Array, Array]:
-        """Return the smallest and largest efforts that are allowed."""
+        """Return the smallest and largest efforts, (N,) each, N·m or N, that are allowed.
+
+        Args:
+            position: measured (N,), rad or m.
+            velocity: measured (N,), rad/s or m/s.
+        """
         bounds = self._bounds
         too_low = (position < bounds.lower) | (velocity < -bounds.velocity)
         too_high = (position > bounds.upper) | (velocity > bounds.velocity)

@@ -15,12 +15,12 @@ Poses = NDArray[np.float64]
 
 
 def wrap_angle(angle_rad: ArrayLike) -> NDArray[np.float64]:
-    """Return the same directions within [−π, π)."""
+    """Return the same directions, in their shape, within [−π, π)."""
     return np.asarray((np.asarray(angle_rad, dtype=float) + np.pi) % (2 * np.pi) - np.pi)
 
 
 def compose(first: ArrayLike, second: ArrayLike) -> Poses:
-    """Return ``first ⊕ second``."""
+    """Return ``first ⊕ second``, shape (…, 3)."""
     a, b = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     cos, sin = np.cos(a[..., 2]), np.sin(a[..., 2])
     turn = wrap_angle(a[..., 2] + b[..., 2])
@@ -32,7 +32,7 @@ def compose(first: ArrayLike, second: ArrayLike) -> Poses:
 
 
 def between(first: ArrayLike, second: ArrayLike) -> Poses:
-    """Return ``second`` in the frame of ``first``: ``first⁻¹ ⊕ second``."""
+    """Return ``second`` in the frame of ``first``, shape (…, 3): ``first⁻¹ ⊕ second``."""
     a, b = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
     cos, sin = np.cos(a[..., 2]), np.sin(a[..., 2])
     dx, dy = b[..., 0] - a[..., 0], b[..., 1] - a[..., 1]
@@ -45,7 +45,7 @@ def between(first: ArrayLike, second: ArrayLike) -> Poses:
 
 
 def inverse(pose: ArrayLike) -> Poses:
-    """Return the pose that composes with `pose` to the identity."""
+    """Return the pose, shape (…, 3), that composes with `pose` to the identity."""
     a = np.asarray(pose, dtype=float)
     return between(a, np.zeros_like(a))
 

@@ -151,7 +151,10 @@ def _nearest(
 
 
 def absolute_error_m(trajectory: Poses, truth: Poses) -> float:
-    """Return the root mean square distance after the best rigid alignment, metres."""
+    """Return the root mean square distance after the best rigid alignment, metres.
+
+    Both are poses (n, 3): x, y (m) and yaw (rad), each in a frame of its own.
+    """
     moved = transform_points(alignment(trajectory, truth), trajectory[:, :2])
     return float(np.sqrt(((moved - truth[:, :2]) ** 2).sum(axis=1).mean()))
 

@@ -56,7 +56,7 @@ class ControllerContext:
         raise ControllerError(self._no_joint(name))
 
     def command_places(self, names: Sequence[str]) -> Indices:
-        """Return the places of command interfaces such as ``joint_1/effort``.
+        """Return the places, (n,), of command interfaces such as ``joint_1/effort``.
 
         Raises:
             ControllerError: one is not there; the message says what is.
@@ -66,7 +66,7 @@ class ControllerContext:
         return self.robot.bank.command_places(names)
 
     def state_places(self, names: Sequence[str]) -> Indices:
-        """Return the places of state interfaces.
+        """Return the places, (n,), of state interfaces.
 
         Raises:
             ControllerError: one is not there; the message says what is.

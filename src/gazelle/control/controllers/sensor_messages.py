@@ -33,7 +33,7 @@ _SHARES = (slice(0, 4), slice(4, 7), slice(7, 10))
 
 
 def sensor_places(context: ControllerContext, sensor: str, interfaces: tuple[str, ...]) -> Indices:
-    """Return the places of a sensor's interfaces.
+    """Return the places, (n,), of a sensor's n interfaces.
 
     Raises:
         ControllerError: the hardware has no such sensor, or it lacks one of them.
@@ -42,13 +42,13 @@ def sensor_places(context: ControllerContext, sensor: str, interfaces: tuple[str
 
 
 def fill_wrench(message: Any, values: Array) -> None:
-    """Put force (N) and torque (N·m) into a ``geometry_msgs/WrenchStamped``."""
+    """Put force (N) and torque (N·m), (6,), into a ``geometry_msgs/WrenchStamped``."""
     set_xyz(message.wrench.force, values[:3])
     set_xyz(message.wrench.torque, values[3:])
 
 
 def fill_imu(message: Any, values: Array) -> None:
-    """Put values in the order of `IMU_INTERFACES` into a ``sensor_msgs/Imu``.
+    """Put values (10,) in the order of `IMU_INTERFACES` into a ``sensor_msgs/Imu``.
 
     What is NaN is not measured: it is 0 and its covariance begins with -1 (REP-145).
     """

@@ -64,7 +64,7 @@ class JointWriter:
             self._send(values, steps)
 
     def hold(self, places: Sequence[int], positions: Array) -> None:
-        """Lock joints where they are until `free`."""
+        """Lock joints until `free` where they are: positions (n,), rad or m, one for each place."""
         self.held[list(places)] = True
         values = np.full(len(self.held), math.nan)
         values[list(places)] = positions
@@ -93,8 +93,8 @@ class FeedbackLaw(NamedTuple):
     """How efforts answer to the motion of their joints; (N,) each.
 
     Attributes:
-        efforts: wanted, before they are limited.
-        velocity: of the joints, as it was when they were computed.
+        efforts: wanted, N·m or N, before they are limited.
+        velocity: of the joints, rad/s or m/s, as it was when they were computed.
         stiffness: what an effort loses per motion since.
         damping: what it loses per change of velocity since.
         low: smallest effort that is allowed.
@@ -122,7 +122,7 @@ class EffortWriter(JointWriter):
         self._fed_back = np.zeros(len(group.names), dtype=bool)
 
     def write(self, values: Array, steps: int = 1) -> None:
-        """Command efforts as they are; see `JointWriter.write`."""
+        """Command efforts (N,) as they are; see `JointWriter.write`."""
         self._end_feedback(self._fed_back)
         super().write(values, steps)
 
@@ -130,7 +130,7 @@ class EffortWriter(JointWriter):
         """Command efforts, light joints by the law that they come from.
 
         Args:
-            values: limited efforts; NaN leaves a joint as it is.
+            values: limited efforts (N,), N·m or N; NaN leaves a joint as it is.
             law: where they come from.
             period_s: until the next command.
             steps: the same in steps.
@@ -154,7 +154,7 @@ class EffortWriter(JointWriter):
         )
 
     def hold(self, places: Sequence[int], positions: Array) -> None:
-        """Lock joints where they are until `free`."""
+        """Lock joints until `free` where they are: positions (n,), rad or m, one for each place."""
         self._fed_back[list(places)] = False
         super().hold(places, positions)
 
@@ -178,7 +178,15 @@ class EffortWriter(JointWriter):
 def pid_law(
     pids: PidBank, efforts: Array, velocity: Array, max_effort: Array, *, is_position: bool
 ) -> FeedbackLaw:
-    """Return the law of efforts that PIDs of positions, or else of velocities, want."""
+    """Return the law of efforts that PIDs of positions, or else of velocities, want.
+
+    Args:
+        pids: of the joints.
+        efforts: what they want (N,), N·m or N.
+        velocity: of the joints (N,), rad/s or m/s.
+        max_effort: of the joints (N,), N·m or N.
+        is_position: the PIDs are of positions.
+    """
     p, d = pids.stiffness_and_damping
     stiffness, damping = (p, d) if is_position else (np.zeros(len(p)), p)
     return FeedbackLaw(efforts, velocity, stiffness, damping, -max_effort, max_effort)

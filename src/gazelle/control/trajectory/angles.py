@@ -16,14 +16,14 @@ _SINGULAR_RAD = 1e-9
 
 
 def shortest_way(start_rad: Array, end_rad: Array) -> Array:
-    """Return the ways from some angles to others, in (-π, π] (``shortest_angular_distance``)."""
+    """Return the ways from angles (N,) to others in (-π, π] (``shortest_angular_distance``)."""
     way: Array = end_rad - start_rad
     wrap_in_place(way, np.ones(way.shape, dtype=np.bool_))
     return way
 
 
 def wrap_in_place(way: Array, is_angle: NDArray[np.bool_]) -> None:
-    """Bring those differences that are angles into (-π, π]."""
+    """Bring those differences, (N,), rad, that are angles, (N,), into (-π, π]."""
     far = is_angle & (np.abs(way) > math.pi)
     if far.any():
         way[far] = math.pi - np.mod(math.pi - way[far], _TURN)
@@ -31,6 +31,8 @@ def wrap_in_place(way: Array, is_angle: NDArray[np.bool_]) -> None:
 
 def turns_to_nearest(from_rad: Array, to_rad: Array, wraps: NDArray[np.bool_]) -> Array:
     """Return what to add to `to_rad` so that joints that wrap take the shorter way; whole turns.
+
+    It and all arguments are (N,).
 
     A way of half a turn keeps its sign, as ``wraparoundJointOffset`` of
     joint_trajectory_controller has it.

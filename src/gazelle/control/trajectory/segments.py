@@ -113,7 +113,7 @@ class Track:
         return JointState(*sampler.state)
 
     def joints(self, columns: Indices) -> Track:
-        """Return the track of some of its joints, given by column."""
+        """Return the track of m of its joints, given by column (m,)."""
         wanted = np.concatenate([columns + k * len(self.places) for k in range(3)])
         segments = [
             segment._replace(
@@ -180,7 +180,7 @@ class SegmentTrajectory:
 
 
 def hold(position: Array, time_ns: int, *, is_of_goal: bool = False) -> SegmentTrajectory:
-    """Return a trajectory that stays at a place."""
+    """Return a trajectory that stays at a place (N,), rad or m."""
     zero = np.zeros(len(position))
     state = JointState(position, zero, zero)
     return _one(Segment.between(time_ns, state, time_ns, state), is_of_goal)
@@ -195,6 +195,8 @@ def ramp_down(
     is_of_goal: bool = False,
 ) -> SegmentTrajectory:
     """Return a trajectory that stops within some time (``stop_trajectory_duration``).
+
+    It begins at positions (N,), rad or m, with velocities (N,), rad/s or m/s.
 
     It is the first half of the quintic that would come back with the opposite velocity.
     """

@@ -64,7 +64,7 @@ class Tolerances:
         return cls.of([0.0] * n_joints, [0.0] * n_joints, 0.0, 0.0)
 
     def of_joints(self, places: Indices) -> Tolerances:
-        """Return those of some of the joints."""
+        """Return those of m of the joints, given by place (m,)."""
         return Tolerances(self.path[:, places], self.goal[:, places], self.goal_time_s)
 
 

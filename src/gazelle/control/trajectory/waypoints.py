@@ -36,13 +36,13 @@ class Waypoints:
     stamp_ns: int
 
     def joints(self, columns: Indices) -> Waypoints:
-        """Return the trajectory of some of its joints, given by column."""
+        """Return the trajectory of m of its joints, given by column (m,)."""
         states = tuple(_columns(state, columns) for state in self.states)
         return Waypoints(self.places[columns], self.times_ns, states, self.stamp_ns)
 
 
 def check_joints(names: Sequence[str], joints: Sequence[str], *, allow_partial: bool) -> Indices:
-    """Return the places of a message's joints in the controller.
+    """Return the places, (n,), of a message's n joints in the controller.
 
     Raises:
         TrajectoryError: joints are missing, unknown or there twice.
@@ -69,7 +69,7 @@ def read_waypoints(trajectory: Any, places: Indices) -> Waypoints:
 
     Args:
         trajectory: trajectory_msgs/JointTrajectory with ROS 2's fields.
-        places: places of its joints in the controller.
+        places: (n,), places of its n joints in the controller.
 
     Raises:
         TrajectoryError: a field has not one value for each joint, a value is not finite, or the

@@ -50,6 +50,8 @@ class OccupancyGrid:
     ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Return column and row of the cells that points lie in; they may be outside the grid.
 
+        Both are int64 of the shape of the points.
+
         Args:
             x_m: one or many x in the map's frame, m.
             y_m: as many y, m.
@@ -64,7 +66,7 @@ class OccupancyGrid:
     def cell_to_world(
         self, column: ArrayLike, row: ArrayLike
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return x and y (m) of the centres of cells in the map's frame."""
+        """Return x and y (m), in the shape of `column`, of centres of cells in the map's frame."""
         ox, oy, yaw = self.origin
         u = (np.asarray(column, float) + 0.5) * self.resolution_m
         v = (np.asarray(row, float) + 0.5) * self.resolution_m
@@ -72,6 +74,6 @@ class OccupancyGrid:
         return ox + c * u - s * v, oy + s * u + c * v
 
     def contains(self, column: ArrayLike, row: ArrayLike) -> NDArray[np.bool_]:
-        """Return which cells are in the grid."""
+        """Return which cells are in the grid, in the shape of `column`."""
         i, j = np.asarray(column), np.asarray(row)
         return (i >= 0) & (j >= 0) & (i < self.width) & (j < self.height)

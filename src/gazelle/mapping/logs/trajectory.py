@@ -13,7 +13,10 @@ __all__ = ["write_carmen", "write_tum"]
 
 
 def write_tum(path: Path, stamps_ns: Iterable[int], poses: Poses) -> None:
-    """Write ``time x y z qx qy qz qw`` in every line, as TUM's tools and evo read it."""
+    """Write ``time x y z qx qy qz qw`` in every line, as TUM's tools and evo read it.
+
+    The poses are (n, 3): x, y (m) and yaw (rad) in the map, one for each stamp.
+    """
     lines = []
     for stamp, (x, y, yaw) in zip(map(int, stamps_ns), poses.tolist(), strict=True):
         _, _, z, w = quat_xyzw_from_yaw(yaw)
@@ -22,7 +25,13 @@ def write_tum(path: Path, stamps_ns: Iterable[int], poses: Poses) -> None:
 
 
 def write_carmen(path: Path, records: Iterable[LogRecord], poses: Poses) -> None:
-    """Write the log anew with other poses: a corrected log of FLASER lines."""
+    """Write the log anew with other poses: a corrected log of FLASER lines.
+
+    Args:
+        path: of the new log.
+        records: n of the old one.
+        poses: (n, 3) of the robot in the map: x, y (m) and yaw (rad).
+    """
     lines = []
     for record, pose in zip(records, poses, strict=True):
         scan = record.scan

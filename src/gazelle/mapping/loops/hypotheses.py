@@ -19,8 +19,8 @@ class Hypothesis:
 
     Attributes:
         tail, head: indices, the older one first.
-        relative: ``tail⁻¹ ⊕ head``.
-        information: its inverse covariance in the frame of the tail.
+        relative: ``tail⁻¹ ⊕ head``, (3,): x, y (m) and yaw (rad).
+        information: its inverse covariance in the frame of the tail, (3, 3).
         score: mean likelihood of the match.
         reach_m: half side of the window it was found in; wide windows find more false ones.
     """

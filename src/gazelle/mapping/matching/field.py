@@ -45,7 +45,10 @@ class Field:
         return Field(kernels.pooled(self.values), self.x_m, self.y_m, 2 * self.cell_m)
 
     def mean(self, points_m: NDArray[np.float64], pose: ArrayLike) -> float:
-        """Return the mean value at points seen from a pose; 1 when all lie on surfaces."""
+        """Return the mean value at points (n, 2), m, seen from a pose (3,) of the field's frame.
+
+        It is 1 when all lie on surfaces.
+        """
         x, y, yaw = np.asarray(pose, dtype=float)
         return float(kernels.mean_value(self.cells, points_m, x, y, yaw))
 

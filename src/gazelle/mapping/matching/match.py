@@ -23,7 +23,7 @@ class Prior(NamedTuple):
     """What is expected of a pose before matching.
 
     Attributes:
-        pose: expected.
+        pose: expected in the field's frame, (3,): x, y (m) and yaw (rad).
         information: inverse covariance in the field's frame, (3, 3).
     """
 
@@ -36,7 +36,7 @@ class Match:
     """A pose that fits.
 
     Attributes:
-        pose: in the field's frame.
+        pose: in the field's frame, (3,): x, y (m) and yaw (rad).
         score: mean likelihood of the points, within [0, 1].
         information: inverse covariance of what the scan alone says, in the field's frame, (3, 3).
         is_doubtful: another pose is about as likely.
@@ -90,7 +90,15 @@ def refined(
     prior: Prior,
     settings: MatchSettings,
 ) -> Match:
-    """Refine a pose that is nearly right, within about a cell."""
+    """Refine a pose that is nearly right, within about a cell.
+
+    Args:
+        field: what is matched with.
+        points_m: (n, 2) in the robot's frame.
+        guess: (3,) in the field's frame: x, y (m) and yaw (rad).
+        prior: what else is known of the pose.
+        settings: of matching.
+    """
     pose, information = kernels.refine(
         field.cells, points_m, guess, prior, settings.point_weight, settings.iterations
     )

@@ -23,7 +23,7 @@ class WideMatch(NamedTuple):
     """The best pose of a window.
 
     Attributes:
-        pose: to a cell.
+        pose: to a cell, (3,) in the field's frame: x, y (m) and yaw (rad).
         value: mean value of the points there.
     """
 
@@ -58,7 +58,14 @@ class WideSearch:
     def around(
         cls, field: Field, points_m: NDArray[np.float64], center: Poses, reach_rad: float
     ) -> WideSearch:
-        """Prepare a search of all turns so far to both sides."""
+        """Prepare a search of all turns so far to both sides.
+
+        Args:
+            field: what is matched with.
+            points_m: (n, 2) in the robot's frame.
+            center: pose (3,) in the field's frame: x, y (m) and yaw (rad).
+            reach_rad: largest turn.
+        """
         return cls(field, points_m, center, _turns(points_m, field.cell_m, reach_rad))
 
     def best(

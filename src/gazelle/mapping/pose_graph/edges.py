@@ -39,7 +39,7 @@ class Edges(NamedTuple):
         )
 
     def only(self, keep: NDArray[np.bool_]) -> Edges:
-        """Return those that are kept."""
+        """Return those of n that are kept, (n,)."""
         parts: list[Any] = [column[keep] for column in self]
         return Edges(*parts)
 

@@ -61,7 +61,10 @@ class LoopCloser:
         return tied
 
     def has_drifted(self, pose: Poses, jump_m: float) -> bool:
-        """Tell whether the robot was near a pose so long ago that drift explains a jump to it."""
+        """Tell whether the robot was near a pose so long ago that drift explains a jump to it.
+
+        The pose is (3,) in the map: x, y (m) and yaw (rad).
+        """
         poses, ways = self._keyframes.poses, self._keyframes.ways_m
         gap_m = max(self._parameters.loop_gap_m, jump_m / self._settings.places.drift_m_per_m)
         old = ways[-1] - ways > gap_m

@@ -31,7 +31,7 @@ class Update(NamedTuple):
     """What a scan changed.
 
     Attributes:
-        pose: of the robot in the map's frame.
+        pose: of the robot in the map's frame, (3,): x, y (m) and yaw (rad).
         is_keyframe: the scan was kept.
         is_matched: it fits the map; otherwise the pose is odometry's.
         has_closed: the map was moved because a place was recognised.
@@ -109,7 +109,7 @@ class Slam:
 
     @property
     def pose(self) -> Poses:
-        """Where the robot is, in the map's frame."""
+        """Where the robot is, in the map's frame, (3,): x, y (m) and yaw (rad)."""
         return self._pose.copy()
 
     def begin(self, pose: ArrayLike) -> None:

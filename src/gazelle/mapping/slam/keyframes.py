@@ -30,7 +30,7 @@ class Keyframe:
         scan: as it came.
         points_m: what is matched, in the robot's frame, (n, 2).
         surface_m: what is matched with, in the robot's frame, (m, 2).
-        ranges_m: float32, of all beams, NaN for those that met nothing.
+        ranges_m: (beams,) float32, of all beams, NaN for those that met nothing.
         way_m: how far the robot had driven.
         max_range_m: beams that are longer are not used.
     """

@@ -18,7 +18,7 @@ __all__ = ["polished"]
 
 
 def polished(keyframes: Keyframes, edges: Edges, parameters: SlamParameters) -> Poses:
-    """Return better poses of all keyframes.
+    """Return better poses (n, 3) of all keyframes: x, y (m) and yaw (rad) in the map.
 
     While driving, a scan is matched with what was seen before. Here each is matched with the
     nearest ones of any time, and tied to some of them; then relations of the drive count less

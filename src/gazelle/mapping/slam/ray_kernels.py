@@ -20,7 +20,7 @@ class BeamCounts(NamedTuple):
 
     Attributes:
         hits: int32 (height, width), how many ended in each.
-        passes: the same, how many reached it.
+        passes: int32 (height, width), how many reached it.
         x_m, y_m: lower left corner.
         cell_m: side of a cell.
     """

@@ -35,7 +35,7 @@ class Track:
         self._lost: list[_Lost] = []
 
     def add(self, stamp_ns: int, pose: Poses) -> None:
-        """Note the pose of one more scan, beside the last keyframe."""
+        """Note the pose, (3,) in the map, m and rad, of one more scan, beside the last keyframe."""
         self.stamps_ns.append(stamp_ns)
         self._anchors.append(0)
         self._offsets.append(pose)
@@ -48,7 +48,7 @@ class Track:
         return compose(self._keyframes.poses[self._anchors], np.array(self._offsets))
 
     def note_lost(self, frame: Keyframe, odometry: Poses) -> None:
-        """The last scan fitted nowhere."""
+        """Note that the last scan fitted nowhere, with the pose (3,) that odometry told then."""
         self._lost.append(_Lost(len(self.stamps_ns) - 1, frame, odometry))
 
     def find_lost(self, tracker: Tracker, pose: Poses, odometry: Poses) -> None:
@@ -56,8 +56,8 @@ class Track:
 
         Args:
             tracker: that found it.
-            pose: where it is now.
-            odometry: what odometry says now.
+            pose: where it is now in the map, (3,): x, y (m) and yaw (rad).
+            odometry: what odometry says now, likewise (3,) in its own frame.
         """
         for lost in reversed(self._lost):
             expected = compose(pose, between(odometry, lost.odometry))

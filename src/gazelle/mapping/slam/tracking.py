@@ -34,7 +34,10 @@ def motion_information(motion: Poses, parameters: SlamParameters) -> NDArray[np.
 
 
 def is_jump(expected: Poses, found: Poses, settings: JumpSettings) -> bool:
-    """Tell whether a pose is farther off than odometry errs while a few scans fit nowhere."""
+    """Tell whether a pose is farther off than odometry errs while a few scans fit nowhere.
+
+    Both poses are (3,) in the map: x, y (m) and yaw (rad).
+    """
     return _is_apart(expected, found, settings.away_m, settings.away_rad)
 
 
@@ -82,8 +85,8 @@ class Tracker:
 
         Args:
             frame: the scan.
-            expected: pose by odometry.
-            motion: how far odometry went since the last scan.
+            expected: pose in the map by odometry, (3,): x, y (m) and yaw (rad).
+            motion: how far odometry went since the last scan, (3,) in the robot's frame then.
         """
         told = self._settings.tracking
         if len(frame.points_m) < told.fewest_points:
@@ -166,7 +169,10 @@ class Tracker:
         return found if again is None or (found and again.is_doubtful) else again
 
     def relocate(self, frame: Keyframe, expected: Poses) -> Match | None:
-        """Return where a lost robot is, among all that was seen around where it may be."""
+        """Return where a lost robot is, among all that was seen around where it may be.
+
+        It may be around a pose (3,) of the map: x, y (m) and yaw (rad).
+        """
         told = self._settings.relocation
         reach = min(told.most_m, told.reach_m + self.lost * told.reach_m_per_scan), math.pi
         reach_m = frame.reach_m + reach[0]

@@ -47,7 +47,10 @@ def surroundings(
     settings: SlamSettings,
     last: int | None = None,
 ) -> Surroundings:
-    """Return what the nearest scans, of any time or of the last ones, saw around a pose."""
+    """Return what the nearest scans, of any time or of the last ones, saw around a pose.
+
+    The pose is (3,) in the map: x, y (m) and yaw (rad).
+    """
     first = 0 if last is None else max(0, len(keyframes) - last)
     far = np.hypot(*(keyframes.poses[first:, :2] - center[:2]).T)
     near = (first + np.argsort(far)[: settings.weighing.nearest]).tolist()
@@ -75,8 +78,8 @@ def weighed(
     Args:
         around: what was seen.
         frame: the scan.
-        expected: pose by odometry.
-        guesses: poses that are considered besides those of the search.
+        expected: pose in the map by odometry, (3,): x, y (m) and yaw (rad).
+        guesses: poses, (3,) each, that are considered besides those of the search.
         reach: half sides of the window, m and rad.
         is_lost: odometry says little of where the robot is.
     """

@@ -44,7 +44,7 @@ class TrajectoryOutput(Protocol):
         ...
 
     def commanded(self) -> dict[str, Array]:
-        """Return the present commands by interface, in the order of the joints it commands."""
+        """Return the present commands by interface, (M,) of the M joints it commands, in order."""
         ...
 
 
@@ -75,13 +75,13 @@ class Forwarding:
         self.commands = _names(names, interfaces)
 
     def start(self, position: Array) -> None:
-        """Command the positions, and no velocities, accelerations or efforts."""
+        """Command the positions (N,), and no velocities, accelerations or efforts."""
         self.stop()
         if "position" in self._places:
             self._bank.commands[self._places["position"]] = self._some(position)
 
     def write(self, desired: Array, effort: Array | None, error: Array, period_ns: int) -> None:
-        """Hand the desired state on."""
+        """Hand the desired state (3, N) and efforts (N,) on; errors (3, N) do not matter."""
         commands = self._bank.commands
         for interface, places in self._places.items():
             row = _ROWS.get(interface)
@@ -97,7 +97,7 @@ class Forwarding:
                 self._bank.commands[places] = 0.0
 
     def commanded(self) -> dict[str, Array]:
-        """Return the present commands."""
+        """Return the present commands, (M,) by interface."""
         return {name: self._bank.commands[places] for name, places in self._places.items()}
 
     def _some(self, values: Array) -> Array:
@@ -161,12 +161,19 @@ class PidOutput:
         self._pids.set_gains(place, replace(self._pids.gains[place], **changes))
 
     def start(self, position: Array) -> None:
-        """Forget errors and integrals, command 0."""
+        """Forget errors and integrals, command 0; positions (N,) are not looked at."""
         self._pids.reset()
         self.stop()
 
     def write(self, desired: Array, effort: Array | None, error: Array, period_ns: int) -> None:
-        """Compute the commands."""
+        """Compute the commands.
+
+        Args:
+            desired: positions, velocities, accelerations (3, N), rad or m.
+            effort: (N,) added to the commands; None for none.
+            error: desired - actual (3, N).
+            period_ns: since the last call.
+        """
         if self._columns is not None:
             desired, error = desired[:, self._columns], error[:, self._columns]
             effort = None if effort is None else effort[self._columns]
@@ -184,7 +191,7 @@ class PidOutput:
         self._bank.commands[self._places[self._interface]] = 0.0
 
     def commanded(self) -> dict[str, Array]:
-        """Return the present commands."""
+        """Return the present commands, (M,) by interface."""
         return {name: self._bank.commands[places] for name, places in self._places.items()}
 
 

@@ -25,9 +25,9 @@ def point(rows: Iterable[Array | None], time_ns: int, effort: Array | None = Non
     """Return a JointTrajectoryPoint of positions, velocities and accelerations; copies them.
 
     Args:
-        rows: up to three of them; None for a field that stays empty.
+        rows: (N,) each, up to three of them; None for a field that stays empty.
         time_ns: ``time_from_start``.
-        effort: as its name says.
+        effort: (N,), N·m, or N of joints that slide.
     """
     message = message_type("trajectory_msgs/JointTrajectoryPoint")()
     fields = ("positions", "velocities", "accelerations")

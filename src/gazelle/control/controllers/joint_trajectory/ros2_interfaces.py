@@ -94,7 +94,7 @@ def command_joints(context: ControllerContext, names: tuple[str, ...]) -> tuple[
 def columns_of(
     context: ControllerContext, commanded: tuple[str, ...], names: tuple[str, ...]
 ) -> Indices | None:
-    """Return which of the joints are commanded, None when all are.
+    """Return which of the joints are commanded, (M,), None when all are.
 
     Raises:
         ControllerError: fewer are commanded, and they are not among the joints.

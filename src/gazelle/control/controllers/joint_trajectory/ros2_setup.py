@@ -107,12 +107,16 @@ class Ros2Setup:
         states.take(self._places, out=actual.reshape(-1)[: len(self._places)], mode="clip")
 
     def state_of(self, actual: Array) -> JointState:
-        """Return what is measured, without what is not."""
+        """Return what is measured, of rows (3, N), without what is not."""
         rows = [actual[row].copy() if row in self._rows else None for row in (1, 2)]
         return JointState(actual[0].copy(), *rows)
 
     def state_at_start(self, actual: Array) -> JointState:
-        """Return where to begin: the last commands where there are any, else what is measured."""
+        """Return where to begin: the last commands where there are any, else what is measured.
+
+        Args:
+            actual: measured positions, velocities, accelerations (3, N), rad or m.
+        """
         state = self.state_of(actual)
         key = "set_last_command_interface_value_as_state_on_activation"
         if self._columns is not None or not self._context.parameters.flag(key):
@@ -130,7 +134,7 @@ class Ros2Setup:
         )
 
     def measured(self, rows: Array) -> list[Array | None]:
-        """Return the rows of what has a state interface, None for the others."""
+        """Return the rows (N,) of (3, N) that have a state interface, None for the others."""
         return [rows[row] if row in self._rows else None for row in range(3)]
 
     def output_point(self) -> Any:
