@@ -31,7 +31,8 @@ export class Player {
   /** `REALTIME`, `3x` or seconds for each state: `0.05 s`. What is not understood is refused. */
   setDisplayTime(text: string): boolean {
     const word = text.trim();
-    if (!/^REALTIME$/i.test(word) && !(Number.parseFloat(word) > 0)) return false;
+    const [, number] = /^(\d*\.?\d+)\s*[xs]?$/i.exec(word) ?? [];
+    if (!/^REALTIME$/i.test(word) && !(Number(number) > 0)) return false;
     const part = this.place_s / (this.duration_s || 1);
     this.mode = word;
     this.place_s = part * this.duration_s;

@@ -24,11 +24,11 @@ export function rate(hz: number | null | undefined): string {
 /** Seconds as minutes and hours once they are many. */
 export function clock(seconds: number): string {
   if (!Number.isFinite(seconds)) return '–';
-  const whole = Math.floor(Math.abs(seconds));
-  const rest = (Math.abs(seconds) - whole).toFixed(3).slice(1);
+  const [digits, rest] = Math.abs(seconds).toFixed(3).split('.');
+  const whole = Number(digits);
   const two = (value: number) => String(value).padStart(2, '0');
   const sign = seconds < 0 ? '-' : '';
-  return `${sign}${two(Math.floor(whole / 3600))}:${two(Math.floor(whole / 60) % 60)}:${two(whole % 60)}${rest}`;
+  return `${sign}${two(Math.floor(whole / 3600))}:${two(Math.floor(whole / 60) % 60)}:${two(whole % 60)}.${rest}`;
 }
 
 /** A field of CSV, quoted where it must be. */
