@@ -60,7 +60,8 @@ def test_the_sdist_holds_what_its_tests_look_at(built: Path) -> None:
 
 def test_the_wheel_works_where_nothing_of_the_repository_is(built: Path, tmp_path) -> None:
     (wheel,) = built.glob("*.whl")
-    assert "gazelle/studio/page/index.html" in zipfile.ZipFile(wheel).namelist()
+    names = zipfile.ZipFile(wheel).namelist()
+    assert {"gazelle/studio/page/index.html", "gazelle/studio/page/built_from.txt"} <= set(names)
     environment = tmp_path / "venv"
     venv.create(environment, with_pip=True, symlinks=sys.platform != "win32")
     python = environment / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")

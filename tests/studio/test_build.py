@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import hashlib
 import shutil
 import subprocess
 from pathlib import Path
@@ -14,6 +15,9 @@ _ROOT = Path(__file__).parents[2]
 _SOURCES = _ROOT / "studio"
 _PAGE = _ROOT / "src" / "gazelle" / "studio" / "page"
 _MOST_BYTES = 500_000
+# What the page is made of; vite.config.ts names the same.
+_FILES = ("index.html", "package-lock.json", "tsconfig.json", "vite.config.ts")
+_FOLDERS = ("src", "public")
 
 
 def test_the_page_transfers_in_less_than_500_kb() -> None:
@@ -27,6 +31,11 @@ def test_the_page_asks_nobody_else_for_anything() -> None:
     assert "https://" not in html
     assert "<script>" not in html
     assert "onclick" not in html
+
+
+def test_the_page_was_built_from_the_sources_that_are_there() -> None:
+    built_from = (_PAGE / "built_from.txt").read_text(encoding="utf-8")
+    assert built_from == f"sha256 {_digest()}\n", "run: cd studio && npm ci && npm run build"
 
 
 @pytest.mark.slow
@@ -46,6 +55,17 @@ def test_the_committed_page_is_what_its_sources_give(tmp_path: Path) -> None:
         if path.read_bytes() != committed[name].read_bytes()
     ]
     assert not differing, "run npm run build in studio/ and commit the page"
+
+
+def _digest() -> str:
+    below = (path for folder in _FOLDERS for path in _files(_SOURCES / folder))
+    paths = {path.relative_to(_SOURCES).as_posix(): path for path in below}
+    paths |= {name: _SOURCES / name for name in _FILES}
+    found = hashlib.sha256()
+    for name, path in sorted(paths.items()):
+        text = path.read_text(encoding="utf-8").replace("\r\n", "\n")
+        found.update(f"{name}\0{text}\0".encode())
+    return found.hexdigest()
 
 
 def _files(folder: Path) -> list[Path]:
