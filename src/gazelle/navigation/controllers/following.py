@@ -23,7 +23,10 @@ def angle_between(a_rad: float, b_rad: float) -> float:
 
 
 def densified(plan: NDArray[np.float64], step_m: float) -> NDArray[np.float64]:
-    """Return a path with points at most so far apart; new points have the direction before them."""
+    """Return a path (m, 3) with points at most so far apart, from poses (n, 3), m and rad.
+
+    New points have the direction before them.
+    """
     if len(plan) < 2:
         return plan
     parts = [plan[:1]]
@@ -106,7 +109,7 @@ class FollowedPlan:
     def local(
         self, pose: Pose, grid: CostGrid, behind_m: float = math.inf, ahead_m: float = math.inf
     ) -> NDArray[np.float64]:
-        """Return the part around the robot that lies in the window of a costmap.
+        """Return the part, (n, 3), around the robot that lies in the window of a costmap.
 
         The window ends half its larger side away from the robot, as ``transformGlobalPlan`` has it.
         """

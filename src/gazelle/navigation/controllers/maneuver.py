@@ -85,7 +85,7 @@ class Maneuvering:
         self._forget()
 
     def set_plan(self, plan: NDArray[np.float64], *, has_moved: bool = False) -> None:
-        """Take a path; see `Controller`. A maneuver towards the same goal goes on."""
+        """Take a path (n, 3); see `Controller`. A maneuver towards the same goal goes on."""
         self._controller.set_plan(plan, has_moved=has_moved)
         held = FollowedPlan(plan, before=self._plan if has_moved else None)
         if self._plan is not None and math.dist(self._plan.goal[:2], held.goal[:2]) > _NOWHERE_M:

@@ -42,7 +42,7 @@ class PursuitController:
         self._plan: FollowedPlan | None = None
 
     def set_plan(self, plan: NDArray[np.float64], *, has_moved: bool = False) -> None:
-        """Take a path; see `Controller`."""
+        """Take a path (n, 3); see `Controller`."""
         self._plan = FollowedPlan(plan, before=self._plan if has_moved else None)
 
     def reset(self) -> None:

@@ -75,7 +75,7 @@ class Distances(NamedTuple):
 
     Attributes:
         path: (height, width), in cells.
-        goal: likewise.
+        goal: (height, width), likewise.
     """
 
     path: NDArray[np.float32]
@@ -132,7 +132,7 @@ class SampleTerms(NamedTuple):
     """How `kernels.score_samples` scores.
 
     Attributes:
-        acceleration: along x and y (m/s²) and around z (rad/s²).
+        acceleration: (3,), along x and y (m/s²) and around z (rad/s²).
         weights: what counts.
         timing: of trajectories.
         growth: of the outline.
@@ -158,7 +158,7 @@ class RolloutTerms(NamedTuple):
     """How `trajectory_kernel.roll_out` scores.
 
     Attributes:
-        acceleration: along x and y (m/s²) and around z (rad/s²).
+        acceleration: (3,), along x and y (m/s²) and around z (rad/s²).
         timing: of trajectories.
         path, goal, obstacles, heading: weights.
         heading_s: at which time path, goal and heading count; negative for the end, and no heading.

@@ -9,7 +9,7 @@ __all__ = ["grid_of_samples", "samples_between"]
 
 
 def samples_between(low: float, high: float, count: int) -> NDArray[np.float64]:
-    """Return evenly spaced velocities, with 0 among them where it lies between.
+    """Return evenly spaced velocities, (n,), with 0 among them where it lies between.
 
     This is ``VelocityIterator`` of base_local_planner.
     """

@@ -61,7 +61,7 @@ class TrajectoryPlanner:
         )  # fmt: skip
 
     def set_plan(self, plan: NDArray[np.float64], *, has_moved: bool = False) -> None:
-        """Take a path; see `Controller`."""
+        """Take a path (n, 3); see `Controller`."""
         held = FollowedPlan(plan, before=self._plan if has_moved else None)
         if self._plan is None or (self._plan.goal != held.goal and not has_moved):
             self._arrival.reset()

@@ -139,7 +139,7 @@ class CostGrid:
     def cell_to_world(
         self, column: ArrayLike, row: ArrayLike
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return x and y (m) of centres of cells."""
+        """Return x and y (m) of centres of cells, in the shape of `column`."""
         return (
             self.origin[0] + (np.asarray(column, float) + 0.5) * self.resolution_m,
             self.origin[1] + (np.asarray(row, float) + 0.5) * self.resolution_m,
@@ -156,7 +156,7 @@ class CostGrid:
 
 
 def occupancy_of_costs(costs: NDArray[np.uint8]) -> NDArray[np.int8]:
-    """Return costs as ``nav_msgs/OccupancyGrid`` shows them: −1, 0, 1 … 98, 99, 100.
+    """Return costs of any shape as ``nav_msgs/OccupancyGrid`` shows them: −1, 0 … 99, 100.
 
     The table is that of ``Costmap2DPublisher``.
     """

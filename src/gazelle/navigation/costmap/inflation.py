@@ -18,7 +18,7 @@ __all__ = ["InflationLayer", "inflated", "inflation_costs"]
 def inflation_costs(
     options: InflationOptions, inscribed_m: float, resolution_m: float
 ) -> NDArray[np.uint8]:
-    """Return the cost by squared distance in cells, up to the radius.
+    """Return the cost by squared distance in cells, up to the radius, as (n,).
 
     The formula is that of ``InflationLayer::computeCost``: 253 within the inscribed radius, beyond
     it 252 · exp(−cost_scaling_factor · (distance − inscribed radius)).

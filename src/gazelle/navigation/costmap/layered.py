@@ -56,7 +56,7 @@ class LayeredCostmap:
                 self._resize(layer)
 
     def update_static_map(self, column: int, row: int, cells: NDArray[np.int8]) -> None:
-        """Give a changed part of the map to the static layers that listen to such."""
+        """Give a changed part of the map, (rows, columns), to the static layers that listen."""
         for layer in self._of(StaticLayer):
             if layer.options.subscribe_to_updates:
                 layer.update_map(column, row, cells)

@@ -17,7 +17,7 @@ __all__ = ["StaticLayer", "costs_of_map"]
 
 
 def costs_of_map(grid: OccupancyGrid, options: StaticOptions) -> NDArray[np.uint8]:
-    """Return the costs of a map's cells, as ``StaticLayer::interpretValue``."""
+    """Return the costs of a map's cells, (height, width), as ``StaticLayer::interpretValue``."""
     values = np.arange(256)
     lethal = max(options.lethal_cost_threshold, 1)
     if options.trinary_costmap:
@@ -64,7 +64,7 @@ class StaticLayer:
         return True
 
     def update_map(self, column: int, row: int, cells: NDArray[np.int8]) -> None:
-        """Take a part of the map, as ``map_msgs/OccupancyGridUpdate`` brings it."""
+        """Take a part of the map, (rows, columns), as ``map_msgs/OccupancyGridUpdate`` has it."""
         if self._map is None:
             return
         window = Window(column, row, column + cells.shape[1], row + cells.shape[0])

@@ -17,7 +17,7 @@ class FlatScan:
 
     Attributes:
         angle_min_rad, angle_max_rad, increment_rad: directions.
-        ranges_m: float32; what nothing was seen in is NaN of pictures, `empty` of clouds.
+        ranges_m: (n,) float32; what nothing was seen in is NaN of pictures, `empty` of clouds.
     """
 
     angle_min_rad: float

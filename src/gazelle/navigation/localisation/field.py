@@ -34,8 +34,8 @@ class LikelihoodMap:
     """Free cells and distances to walls.
 
     Attributes:
-        blocked: int8, 1 for occupied cells, 2 for unknown ones, 0 for free ones.
-        distances_m: float32, to the nearest occupied cell, at most `reach_m`.
+        blocked: (height, width) int8, 1 for occupied cells, 2 for unknown ones, 0 for free ones.
+        distances_m: (height, width) float32, to the nearest occupied cell, at most `reach_m`.
         free: columns and rows of free cells, (n, 2).
         resolution_m: side of a cell.
         origin: of cell (0, 0), m.

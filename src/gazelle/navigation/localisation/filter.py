@@ -75,7 +75,7 @@ class Amcl:
 
     @property
     def weights(self) -> NDArray[np.float64]:
-        """Of the particles, their sum is 1."""
+        """Of the n particles, (n,); their sum is 1."""
         return self._weights
 
     @property

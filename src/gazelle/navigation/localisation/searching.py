@@ -24,7 +24,7 @@ _CAUTION = 3.0
 
 
 def chances_of(fits: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return, by pose, how likely it is, from what `Refiner.log_fits` says; their sum is 1."""
+    """Return how likely each of n poses is, (n,), from `Refiner.log_fits`; their sum is 1."""
     chances = np.exp((fits - fits.max()) / _CAUTION)
     return np.asarray(chances / chances.sum())
 

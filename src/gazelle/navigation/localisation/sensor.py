@@ -19,8 +19,8 @@ class Beams(NamedTuple):
     """The beams of a scan that are looked at.
 
     Attributes:
-        bearings_rad: in the robot's frame.
-        ranges_m: `longest_m` for beams that met nothing.
+        bearings_rad: (n,), in the robot's frame.
+        ranges_m: (n,), `longest_m` for beams that met nothing.
         longest_m: longest range that counts.
         laser: x, y of the lidar in the robot's frame, m.
     """

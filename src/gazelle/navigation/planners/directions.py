@@ -25,7 +25,9 @@ def directed(
     facing: Facing,
     is_there: bool,
 ) -> NDArray[np.float64]:
-    """Return a path with directions, that ends in the goal's pose where it reaches the goal's cell.
+    """Return a path with directions that ends in the goal's pose where it reaches its cell.
+
+    It is (n, 3) in the costmap's frame: x, y (m) and yaw (rad).
 
     NavfnROS leaves directions at 0; here they point along the path, which its followers do not look
     at and people do. Modes are those of ``OrientationFilter`` of global_planner.

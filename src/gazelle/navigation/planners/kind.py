@@ -26,7 +26,7 @@ class Search(NamedTuple):
     """What is searched.
 
     Attributes:
-        costs: of the costmap's cells; the start's cell is free.
+        costs: (height, width) of the costmap's cells; the start's cell is free.
         start, goal: numbers of cells, along rows.
         reach: how far from the goal the path may end, cells.
     """

@@ -19,7 +19,7 @@ _COSTS: NDArray[np.float64] = np.arange(256, dtype=float)
 
 
 def navfn_table(allow_unknown: bool) -> NDArray[np.float32]:
-    """Return 50 + 0.8 · cost, at most 253, as ``NavFn::setCostmap``."""
+    """Return 50 + 0.8 · cost, at most 253, (256,) by cost, as ``NavFn::setCostmap``."""
     table: NDArray[np.float32] = np.minimum(np.floor(50 + 0.8 * _COSTS), 253).astype(np.float32)
     table[INSCRIBED:] = _FORBIDDEN
     if allow_unknown:
@@ -28,7 +28,7 @@ def navfn_table(allow_unknown: bool) -> NDArray[np.float32]:
 
 
 def global_planner_table(options: GlobalPlannerOptions) -> NDArray[np.float32]:
-    """Return neutral_cost + cost_factor · cost, below lethal_cost, as ``Expander::getCost``."""
+    """Return neutral_cost + cost_factor · cost below lethal_cost, (256,), by ``getCost``."""
     lethal = options.lethal_cost
     steps = np.minimum(options.neutral_cost + options.cost_factor * _COSTS, lethal - 1)
     table: NDArray[np.float32] = steps.astype(np.float32)
@@ -41,12 +41,12 @@ def global_planner_table(options: GlobalPlannerOptions) -> NDArray[np.float32]:
 
 
 def smac_table(options: Smac2DOptions) -> NDArray[np.float32]:
-    """Return 1 + cost_travel_multiplier · cost / 252, as ``Node2D::getTraversalCost``."""
+    """Return 1 + cost_travel_multiplier · cost / 252, (256,), by ``getTraversalCost``."""
     return _relative(1 + options.cost_travel_multiplier * _COSTS / 252, options.allow_unknown)
 
 
 def theta_table(options: ThetaStarOptions) -> NDArray[np.float32]:
-    """Return w_traversal_cost · (cost / 252)², as ``ThetaStar::getTraversalCost``."""
+    """Return w_traversal_cost · (cost / 252)², (256,), by ``ThetaStar::getTraversalCost``."""
     # Cheap cells count as 50 there, so that paths do not hug walls for a few millimetres.
     costs = np.maximum(_COSTS, 50) / 252
     return _relative(options.w_traversal_cost * costs * costs, options.allow_unknown)
