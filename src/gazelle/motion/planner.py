@@ -147,7 +147,7 @@ class Planner:
         """Return positions that bring a link to a pose, None when there are none.
 
         Args:
-            pose: in the robot's frame, m.
+            pose: in the robot's frame, m; an array is (4, 4).
             group: whose joints move; the only group when empty.
             link: the group's tip when empty.
             seed: where to start from, positions by joint; the scene's when None.

@@ -50,7 +50,7 @@ class Validity(Protocol):
         ...
 
     def why(self, q: FloatArray) -> str:
-        """Return what forbids `q`: the pair of links that collide, the joint outside its limit.
+        """Return what forbids `q` (n,): links that collide, the joint outside its limit.
 
         Returns an empty string where nothing does.
         """
@@ -82,7 +82,7 @@ class SweptValidity(Validity, Protocol):
 
 @dataclass(frozen=True)
 class JointSpace:
-    """The joints of a planning group with their limits.
+    """The n joints of a planning group with their limits, (n,) each.
 
     Attributes:
         names: names of the joints, in the order of all arrays.
@@ -121,12 +121,12 @@ class JointSpace:
 
     @cached_property
     def low(self) -> FloatArray:
-        """Where samples start: `lower`, -pi for continuous joints, never infinite."""
+        """Where samples start, (n,): `lower`, -pi for continuous joints, never infinite."""
         return np.where(self.continuous, -math.pi, np.maximum(self.lower, -_TURN))
 
     @cached_property
     def high(self) -> FloatArray:
-        """Where samples end: `upper`, pi for continuous joints, never infinite."""
+        """Where samples end, (n,): `upper`, pi for continuous joints, never infinite."""
         return np.where(self.continuous, math.pi, np.minimum(self.upper, _TURN))
 
     @cached_property
@@ -137,7 +137,7 @@ class JointSpace:
 
     @cached_property
     def width(self) -> FloatArray:
-        """How wide the range of samples is."""
+        """How wide the range of samples is, (n,)."""
         return self.high - self.low
 
     @cached_property
@@ -145,7 +145,7 @@ class JointSpace:
         return bool(self.continuous.any())
 
     def between(self, start: FloatArray, goal: FloatArray) -> FloatArray:
-        """Return goal - start, continuous joints the short way round."""
+        """Return goal - start, (n,), continuous joints the short way round."""
         step = goal - start
         if self._turns:
             turned = (step + math.pi) % _TURN - math.pi
@@ -153,15 +153,15 @@ class JointSpace:
         return step
 
     def distance(self, start: FloatArray, goal: FloatArray) -> float:
-        """Return the Euclidean distance, continuous joints the short way round."""
+        """Return the Euclidean distance of two (n,), continuous joints the short way round."""
         return float(np.linalg.norm(self.between(start, goal)))
 
     def sample(self, rng: np.random.Generator) -> FloatArray:
-        """Return a configuration drawn uniformly from within the limits."""
+        """Return a configuration (n,) drawn uniformly from within the limits."""
         return self.low + self.width * rng.random(self.size)
 
     def outside(self, q: FloatArray, tolerance: float = 0.0) -> tuple[str, ...]:
-        """Return one sentence per joint that is outside its limits by more than `tolerance`."""
+        """Return one sentence per joint of `q` (n,) outside its limits by more than `tolerance`."""
         beyond = np.maximum(self.lower - q, q - self.upper)
         wrong = ~self.continuous & ~(beyond <= tolerance)
         return tuple(
@@ -171,15 +171,15 @@ class JointSpace:
         )
 
     def clamped(self, q: FloatArray) -> FloatArray:
-        """Return `q` with every joint that is not continuous moved into its limits."""
+        """Return `q` (n,) with every joint that is not continuous moved into its limits."""
         return np.where(self.continuous, q, np.clip(q, self.lower, self.upper))
 
     def restricted(self, lower: FloatArray, upper: FloatArray) -> JointSpace:
         """Return the space with narrower limits; a continuous joint that gets some is bounded.
 
         Args:
-            lower: new lower limits, -inf where nothing is asked.
-            upper: new upper limits, inf where nothing is asked.
+            lower: (n,), new lower limits, -inf where nothing is asked.
+            upper: (n,), new upper limits, inf where nothing is asked.
 
         Raises:
             ValueError: nothing is left of a joint's range.
@@ -195,7 +195,7 @@ class JointSpace:
         )
 
     def array(self, values: Sequence[float] | FloatArray | dict[str, float]) -> FloatArray:
-        """Return a configuration as an array, from numbers in order or from a value per name.
+        """Return a configuration (n,), from numbers in order or from a value per name.
 
         Raises:
             ValueError: a number is missing, too many or not finite.

@@ -85,7 +85,7 @@ class CollisionModel:
     Attributes:
         model: MuJoCo's.
         owners: by geom.
-        addresses: place in ``qpos`` of every variable of the robot.
+        addresses: (n,), place in ``qpos`` of every variable of the robot.
         mocaps: number of the mocap body of every thing.
     """
 

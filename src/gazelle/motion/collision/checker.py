@@ -87,7 +87,7 @@ class CollisionChecker:
         return other
 
     def is_valid(self, q: FloatArray) -> bool:
-        """Return whether `q` is within the limits and free of collisions."""
+        """Return whether `q` (n,) is within the limits and free of collisions."""
         if not self._is_within(q) or self._constant:
             return False
         verdict = self._sweeper.state(q)
@@ -96,7 +96,7 @@ class CollisionChecker:
         return verdict is Verdict.FREE
 
     def motion_is_valid(self, q0: FloatArray, q1: FloatArray, step: float) -> bool:
-        """Return whether the straight way is free; see `Validity`.
+        """Return whether the straight way between `q0` and `q1`, (n,), is free; see `Validity`.
 
         Wherever there is room, all of it is known to be free, not only states on it.
         """
@@ -114,7 +114,7 @@ class CollisionChecker:
         return SweptMotions(self._lower, self._upper, self._sweeper.arguments.plain)
 
     def why(self, q: FloatArray) -> str:
-        """Return what forbids `q`: joints outside their limits, pairs that collide."""
+        """Return what forbids `q` (n,): joints outside their limits, pairs that collide."""
         reasons: list[str] = []
         if self.group is not None:
             reasons += self.group.space.outside(q, _LIMIT_TOLERANCE)
@@ -122,7 +122,7 @@ class CollisionChecker:
         return "; ".join(reasons)
 
     def contacts(self, q: FloatArray) -> tuple[CollisionContact, ...]:
-        """Return the deepest contact of every pair that collides, the deepest pair first."""
+        """Return the deepest contact at `q` (n,) of every pair that collides, the deepest first."""
         found: dict[tuple[str, str], CollisionContact] = {}
         for contact in (*self._constant, *self._contacts.contacts(q)):
             key = contact.first.name, contact.second.name
@@ -131,7 +131,7 @@ class CollisionChecker:
         return tuple(sorted(found.values(), key=lambda item: -item.depth_m))
 
     def distance_m(self, q: FloatArray, *, most_m: float = 1.0) -> float:
-        """Return the distance to the nearest thing that may not be touched.
+        """Return the distance at `q` (n,) to the nearest thing that may not be touched.
 
         It is negative inside and `most_m` when nothing is nearer.
         """

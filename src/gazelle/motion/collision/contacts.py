@@ -85,7 +85,7 @@ class SceneContacts:
         return other
 
     def touches(self, q: FloatArray) -> bool:
-        """Return whether something touches at `q` that could be elsewhere."""
+        """Return whether something touches at `q` (n,) that could be elsewhere."""
         data = self._data
         data.qpos[self._addresses] = q
         for follower, leader, factor, offset in self._rules:
@@ -95,7 +95,7 @@ class SceneContacts:
         return bool(data.ncon > 0)
 
     def contacts(self, q: FloatArray) -> Iterator[CollisionContact]:
-        """Yield all contacts at `q` of pairs that could be elsewhere."""
+        """Yield all contacts at `q` (n,) of pairs that could be elsewhere."""
         self.touches(q)
         owners = self._built.owners
         for contact in self._data.contact:
@@ -124,7 +124,7 @@ class SceneContacts:
                     yield CollisionContact(one, other, -float(found))
 
     def distance_m(self, q: FloatArray, most_m: float) -> float:
-        """Return the distance to the nearest thing that may not be touched, `most_m` at most."""
+        """Return the distance at `q` (n,) to what may not be touched, `most_m` at most."""
         self.touches(q)
         nearest = most_m
         for first, second in self._pairs():

@@ -147,7 +147,7 @@ class Sweeper:
         return other
 
     def state(self, q: FloatArray) -> Verdict:
-        """Return what is known of a state."""
+        """Return what is known of a state (n,), rad or m."""
         return self._swept(q, np.zeros(len(q)), 1.0)[0]
 
     def motion(self, q0: FloatArray, q1: FloatArray, step: float) -> tuple[Verdict, FloatArray]:

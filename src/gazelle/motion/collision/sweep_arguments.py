@@ -62,11 +62,11 @@ class Bodies(NamedTuple):
     """Links and things, and which of them must not touch.
 
     Attributes:
-        members: of each the solid around all of it, its first solid, and their number.
-        pairs: numbers of links or things that must not touch.
+        members: (bodies, 3), of each the solid around all of it, its first solid, and their number.
+        pairs: (pairs, 2), numbers of links or things that must not touch.
         apart: (pairs, j) whether a joint moves one of both, and not both.
-        axes: directions in which pairs were apart last; written.
-        order: pairs, those that met last first; written.
+        axes: (pairs, 4), directions in which pairs were apart last; written.
+        order: (pairs,), those that met last first; written.
     """
 
     members: IntArray
@@ -80,11 +80,11 @@ class GroupVariables(NamedTuple):
     """Where a group's configuration goes among the positions of a robot.
 
     Attributes:
-        positions: of the whole robot, rad or m; the group's part is written.
-        indices: places of the group in it.
-        followers: places of what mimics.
-        leaders: places in the group of what is mimicked.
-        rules: factor and offset of each.
+        positions: (v,), of the whole robot, rad or m; the group's part is written.
+        indices: (n,), places of the group in it.
+        followers: (m,), places of what mimics.
+        leaders: (m,), places in the group of what is mimicked.
+        rules: (m, 2), factor and offset of each.
     """
 
     positions: FloatArray
@@ -98,8 +98,8 @@ class Motions(NamedTuple):
     """Which joints move, and how far they carry links and things at most.
 
     Attributes:
-        joints: number of the frame each moves with, -1 where it does not turn.
-        lines: axis and a point of it in that frame.
+        joints: (j,), number of the frame each moves with, -1 where it does not turn.
+        lines: (j, 6), axis and a point of it in that frame.
         turns: (j, n) how far each turns for one rad of a variable.
         moves: (bodies, j, n) how far it carries a link or thing at most, m, for one rad or m.
         above: (bodies, j) whether it moves it.
@@ -143,7 +143,7 @@ class SweepArguments(NamedTuple):
         bodies: links and things.
         solids: of them; the frames of the links that move come first.
         work: scratch of (10, 4).
-        doubts: takes the parts of a way, 0 to 1, of states that are not decided.
+        doubts: (d,), takes the parts of a way, 0 to 1, of states that are not decided.
     """
 
     links: LinkTree

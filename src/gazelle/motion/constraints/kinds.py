@@ -31,13 +31,13 @@ class PathConstraint(Protocol):
         """Return by how much the tolerances are exceeded, signed, zeros where they are kept.
 
         Args:
-            q: a configuration.
+            q: a configuration (n,), rad or m.
             share: how much of the tolerances counts; below 1 asks for a margin.
         """
         ...
 
     def why(self, q: FloatArray) -> str:
-        """Return what is exceeded, in words."""
+        """Return what is exceeded at `q` (n,), in words."""
         ...
 
 
@@ -60,13 +60,13 @@ class JointConstraint:
     tolerance_below: float
 
     def excess(self, q: FloatArray, share: float = 1.0) -> FloatArray:
-        """Return how far the joint is outside; see `PathConstraint`."""
+        """Return how far the joint is outside at `q` (n,), as (1,); see `PathConstraint`."""
         off = float(q[self.index]) - self.position
         low, high = -self.tolerance_below * share, self.tolerance_above * share
         return np.array([off - min(max(off, low), high)])
 
     def why(self, q: FloatArray) -> str:
-        """Return the joint, where it is and where it may be."""
+        """Return the joint, where it is at `q` (n,) and where it may be."""
         low, high = self.position - self.tolerance_below, self.position + self.tolerance_above
         return (
             f"joint '{self.joint}' is at {q[self.index]:.4g}, its constraint allows "
@@ -91,13 +91,13 @@ class PositionConstraint:
     offset_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def excess(self, q: FloatArray, share: float = 1.0) -> FloatArray:
-        """Return the way from the nearest region to the point; see `PathConstraint`."""
+        """Return the way, (3,), m, from the nearest region to the point; see `PathConstraint`."""
         point = self._point(q)
         ways = (region.beyond(point, share) for region in self.regions)
         return min(ways, key=lambda way: float(way @ way))
 
     def why(self, q: FloatArray) -> str:
-        """Return the link, where its point is and how far that is outside."""
+        """Return the link, where its point is at `q` (n,) and how far that is outside."""
         point, distance = self._point(q), float(np.linalg.norm(self.excess(q)))
         place = ", ".join(f"{value:.3f}" for value in point)
         return (
@@ -130,14 +130,14 @@ class OrientationConstraint:
     parameterization: Parameterization = Parameterization.XYZ_EULER_ANGLES
 
     def excess(self, q: FloatArray, share: float = 1.0) -> FloatArray:
-        """Return the angles beyond the tolerances; see `PathConstraint`."""
+        """Return the angles, (3,), rad, beyond the tolerances; see `PathConstraint`."""
         error = self._error(q)
         most = np.array(self.tolerance_rad) * share
         beyond: FloatArray = error - np.clip(error, -most, most)
         return beyond
 
     def why(self, q: FloatArray) -> str:
-        """Return the link, its error and what is tolerated."""
+        """Return the link, its error at `q` (n,) and what is tolerated."""
         # Adding zero turns -0.0 into 0.0.
         error = ", ".join(f"{value:.3f}" for value in np.round(self._error(q), 3) + 0.0)
         most = ", ".join(f"{value:.3f}" for value in self.tolerance_rad)

@@ -33,18 +33,18 @@ class Constrained:
     constraints: tuple[PathConstraint, ...]
 
     def is_valid(self, q: FloatArray) -> bool:
-        """Return whether all constraints hold and the robot may be at `q`."""
+        """Return whether all constraints hold and the robot may be at `q` (n,)."""
         return self._hold(q) and self.validity.is_valid(q)
 
     def motion_is_valid(self, q0: FloatArray, q1: FloatArray, step: float) -> bool:
-        """Return whether all constraints hold all along a motion that is free of collisions."""
+        """Return whether all constraints hold all along a free motion from `q0` to `q1`, (n,)."""
         count = max(1, int(np.ceil(np.linalg.norm(q1 - q0) / step)))
         way = (q1 - q0) / count
         holds = all(self._hold(q0 + way * k) for k in range(count, 0, -1))
         return holds and self.validity.motion_is_valid(q0, q1, step)
 
     def why(self, q: FloatArray) -> str:
-        """Return which constraints or what else forbids `q`."""
+        """Return which constraints or what else forbids `q` (n,)."""
         broken = [item.why(q) for item in self.constraints if _exceeds(item, q)]
         return "; ".join(filter(None, [*broken, self.validity.why(q)]))
 
@@ -72,7 +72,7 @@ def narrowed(space: JointSpace, constraints: Sequence[PathConstraint]) -> JointS
 def projection(
     space: JointSpace, constraints: Sequence[PathConstraint]
 ) -> Callable[[FloatArray], FloatArray | None] | None:
-    """Return a function that moves a configuration into the constraints of links.
+    """Return a function that moves a configuration (n,) into the constraints of links.
 
     None where there are none. The function is a damped Gauss-Newton iteration and returns None
     where it does not arrive.

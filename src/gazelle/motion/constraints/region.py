@@ -57,7 +57,7 @@ class Region:
         return np.append(_beyond_radius(local[:2], radius), height)
 
     def sample(self, rng: np.random.Generator) -> FloatArray:
-        """Return a point drawn uniformly from the region, in the planning frame."""
+        """Return a point, (3,), m, drawn uniformly from the region, in the planning frame."""
         if self.kind == "box":
             local = (rng.random(3) - 0.5) * np.array(self.dimensions_m[:3])
         elif self.kind == "sphere":

@@ -28,7 +28,7 @@ def euler_xyz(rotation: FloatArray) -> FloatArray:
 
 
 def rotation_vector(rotation: FloatArray) -> FloatArray:
-    """Return the axis of a rotation times its angle, rad."""
+    """Return the axis of a rotation (3, 3) times its angle, (3,), rad."""
     twice_sine = np.array(
         [
             rotation[2, 1] - rotation[1, 2],
@@ -50,7 +50,7 @@ def rotation_vector(rotation: FloatArray) -> FloatArray:
 
 
 def matrix_of(angles: FloatArray, kind: Parameterization) -> FloatArray:
-    """Return the rotation whose error from none is `angles`; the inverse of `rotation_error`."""
+    """Return the rotation (3, 3) whose error is `angles` (3,); `rotation_error` inverted."""
     if kind is Parameterization.ROTATION_VECTOR:
         angle = float(np.linalg.norm(angles))
         if angle == 0.0:

@@ -74,7 +74,7 @@ class Solver:
         self._check_link(self.tip_link or self.group.tip_links[0])
 
     def at(self, positions: FloatArray) -> Solver:
-        """Return the same solver with the joints outside the group elsewhere."""
+        """Return the same solver with the joints outside the group at a robot's positions (v,)."""
         if np.array_equal(positions[self._outside], self.positions[self._outside]):
             return self
         return Solver(
@@ -86,7 +86,7 @@ class Solver:
         )
 
     def fk(self, q: FloatArray, link: str = "") -> FloatArray:
-        """Return the pose of a link.
+        """Return the pose, (4, 4), of a link in the robot's frame.
 
         Args:
             q: configuration of the group, rad or m.

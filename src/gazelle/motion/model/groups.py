@@ -28,7 +28,7 @@ class JointGroup:
         moved_links: links that its joints move, those of other groups included.
         variables: names of the variables of its active joints: what a configuration of the group
             is made of.
-        indices: their places in the robot's positions.
+        indices: (n,), their places in the robot's positions.
         space: the variables with their limits.
         is_chain: every joint hangs on the one before.
         base_link: link above the first joint; the SRDF's ``base_link`` where the group has one
@@ -60,7 +60,7 @@ class JointGroup:
         return self.tip_links[0] if len(self.tip_links) == 1 else ""
 
     def take(self, positions: FloatArray) -> FloatArray:
-        """Return the group's part of a robot's positions."""
+        """Return the group's part (n,) of a robot's positions (v,)."""
         return np.asarray(positions[self.indices])
 
 

@@ -157,7 +157,7 @@ class RobotModel:
         return variable, 1.0, 0.0
 
     def default_positions(self) -> FloatArray:
-        """Return the positions MoveIt starts with: 0, or the middle of a range without 0."""
+        """Return the positions (v,) MoveIt starts with: 0, or the middle of a range without 0."""
         values = np.zeros(len(self.variables))
         for joint in self.joints:
             for index, limit in enumerate(joint.limits, start=joint.first):
@@ -170,7 +170,7 @@ class RobotModel:
         return self.completed(values)
 
     def positions(self, values: Mapping[str, float], base: FloatArray | None = None) -> FloatArray:
-        """Return positions with some variables set and mimicking joints following.
+        """Return positions (v,) with some variables set and mimicking joints following.
 
         Args:
             values: by variable, rad or m.
@@ -189,17 +189,17 @@ class RobotModel:
         return self.completed(found)
 
     def with_group(self, group: JointGroup, q: FloatArray, base: FloatArray) -> FloatArray:
-        """Return positions with a group at `q` and mimicking joints following."""
+        """Return positions (v,) with a group at `q` (n,) and mimicking joints following."""
         found = np.array(base, dtype=np.float64)
         found[group.indices] = q
         return self.completed(found)
 
     def completed(self, positions: FloatArray) -> FloatArray:
-        """Let mimicking joints follow, in place; returns the array."""
+        """Let mimicking joints follow, in place; returns the array (v,)."""
         for follower, leader, multiplier, offset in self._followers:
             positions[follower] = multiplier * positions[leader] + offset
         return positions
 
     def named(self, positions: FloatArray) -> dict[str, float]:
-        """Return positions by variable."""
+        """Return positions (v,) by variable."""
         return dict(zip(self.variables, positions.tolist(), strict=True))

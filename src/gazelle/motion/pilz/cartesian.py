@@ -26,9 +26,9 @@ class CartesianPath:
 
     Attributes:
         length_m: of the way; a turn by an angle counts as an arc of the equivalent radius.
-        position: gives the position at a part of the way, 0 to 1.
+        position: gives the position (3,), m, at a part of the way, 0 to 1.
         start: 3×3 orientation at the start.
-        turn: rotation vector to the orientation at the end, in the frame of `start`.
+        turn: rotation vector (3,), rad, to the orientation at the end, in the frame of `start`.
     """
 
     length_m: float
@@ -61,7 +61,7 @@ def line(start: FloatArray, goal: FloatArray, radius_m: float) -> CartesianPath:
 def circle(
     start: FloatArray, goal: FloatArray, auxiliary: Auxiliary, radius_m: float
 ) -> CartesianPath:
-    """Return the arc between two poses.
+    """Return the arc between two poses, (4, 4) each.
 
     With a center it is the shorter one; with an interim point the one that passes it.
 

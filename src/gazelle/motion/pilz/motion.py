@@ -20,7 +20,7 @@ _TOLERANCE = 1.01
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """States of joints; times from 0, increasing."""
+    """States of n joints at k times, (k, n) each; times, (k,), from 0, increasing."""
 
     times_s: FloatArray
     positions: FloatArray
@@ -33,18 +33,18 @@ class Motion:
         return float(self.times_s[-1])
 
     def position_at(self, time_s: float) -> FloatArray:
-        """Return the positions at a time; before the start and after the end those there."""
+        """Return the positions (n,) at a time; before the start and after the end those there."""
         position: FloatArray = _at(self.times_s, self.positions, np.array([time_s]))[0]
         return position
 
 
 def grid(duration_s: float) -> FloatArray:
-    """Return evenly spaced times from 0 to a duration, `GRID_S` apart at most."""
+    """Return evenly spaced times (k,) from 0 to a duration, `GRID_S` apart at most."""
     return np.linspace(0.0, duration_s, max(1, math.ceil(duration_s / GRID_S - 1e-9)) + 1)
 
 
 def measured(times_s: FloatArray, positions: FloatArray) -> Motion:
-    """Return the motion through positions, which is at rest at both ends."""
+    """Return the motion through positions (k, n) at times (k,); it is at rest at both ends."""
     if len(times_s) < 3:
         still = np.zeros_like(positions)
         return Motion(times_s, positions, still, still.copy())
@@ -86,7 +86,7 @@ def thinned(space: JointSpace, motion: Motion, period_s: float) -> Trajectory:
 
 
 def check_limits(space: JointSpace, motion: Motion, deceleration: FloatArray) -> None:
-    """Refuse a motion that is faster than a joint may move.
+    """Refuse a motion that is faster than a joint may move or decelerate, (n,).
 
     Raises:
         PlanningError: PLANNING_FAILED, with the joint and the time.

@@ -44,7 +44,7 @@ class Kinematics(Protocol):
         patience: Patience,
         link: str = "",
     ) -> FloatArray | None:
-        """Return a configuration near `seed_q` that brings a link to a pose, or None."""
+        """Return a configuration (n,) near `seed_q` for a link at a pose (4, 4), or None."""
         ...
 
 
@@ -58,7 +58,7 @@ class PilzPlanner:
         link: what LIN and CIRC move, the group's tip when empty.
         cartesian: limits of LIN and CIRC; None where the package has none. They brake with
             max_trans_acc too: max_trans_dec has no effect, as in Pilz.
-        deceleration: of the joints, above zero; `space.acceleration` where None, as in Pilz.
+        deceleration: (n,), of the joints, above zero; `space.acceleration` where None, as in Pilz.
         validity: every trajectory that leaves is checked with it.
         sampling_time_s: time between samples, 0.1 in Pilz.
     """
@@ -72,7 +72,7 @@ class PilzPlanner:
     sampling_time_s: float = 0.1
 
     def plan(self, start: FloatArray, command: Command) -> Trajectory:
-        """Return the trajectory of a command.
+        """Return the trajectory of a command from a configuration (n,), rad or m.
 
         Raises:
             PlanningError: with the error code that Pilz answers.
@@ -82,7 +82,7 @@ class PilzPlanner:
         return thinned(self.space, motion, self.sampling_time_s)
 
     def motion(self, start: FloatArray, command: Command) -> Motion:
-        """Return the motion of a command, its collisions not yet checked."""
+        """Return the motion of a command from `start` (n,), its collisions not yet checked."""
         command.check()
         if outside := self.space.outside(start, tolerance=1e-6):
             reason = "start state joints outside their position limits: " + "; ".join(outside)
@@ -105,7 +105,7 @@ class PilzPlanner:
 
     @property
     def slowing(self) -> FloatArray:
-        """The decelerations of the joints, above zero."""
+        """The decelerations of the joints (n,), above zero."""
         given = self.space.acceleration if self.deceleration is None else self.deceleration
         return np.abs(given)
 
@@ -170,7 +170,7 @@ class PilzPlanner:
         return np.array(rows)
 
     def near(self, pose: FloatArray, seed: FloatArray) -> FloatArray | None:
-        """Return the configuration for a pose that is near another one."""
+        """Return the configuration (n,) for a pose (4, 4) that is near another configuration."""
         q = self.kinematics.ik(pose, seed_q=seed, patience=Patience(attempts=1), link=self.link)
         if q is None:
             return None

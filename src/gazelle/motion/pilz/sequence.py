@@ -20,7 +20,7 @@ __all__ = ["plan_sequence"]
 def plan_sequence(
     planner: PilzPlanner, start: FloatArray, commands: Sequence[Command]
 ) -> Trajectory:
-    """Return one trajectory through all commands.
+    """Return one trajectory through all commands from a configuration (n,), rad or m.
 
     Where a command has a blend radius, the tip leaves its motion when it is that near to the
     command's goal and passes over into the next motion (Pilz' transition window).

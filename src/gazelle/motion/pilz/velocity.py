@@ -46,7 +46,7 @@ class Trapezoid:
         return sum(self.phases_s)
 
     def at(self, times_s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return distances, speeds and accelerations; at the last instant all is at rest."""
+        """Return distances, speeds and accelerations at times (k,); in the end all is at rest."""
         rise, hold, _ = self.phases_s
         end, peak = self.duration_s, self.peak
         t = np.clip(times_s, 0.0, end)

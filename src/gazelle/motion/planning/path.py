@@ -42,7 +42,7 @@ class Path:
         return float(np.linalg.norm(np.diff(self.waypoints, axis=0), axis=1).sum())
 
     def densified(self, step: float) -> FloatArray:
-        """Return the path's states, no two neighbours further than `step` apart."""
+        """Return the path's states (k, n), no two neighbours further than `step` apart."""
         rows = [self.waypoints[:1]]
         for first, last in zip(self.waypoints[:-1], self.waypoints[1:], strict=True):
             count = max(1, int(np.ceil(np.linalg.norm(last - first) / step)))

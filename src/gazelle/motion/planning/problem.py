@@ -35,8 +35,8 @@ class Problem:
     Attributes:
         space: the joints, with limits that path constraints may have narrowed.
         validity: collisions, limits and path constraints in one.
-        start: a valid configuration.
-        goals: valid configurations; planners may find more of them here as time passes.
+        start: a valid configuration (n,), rad or m.
+        goals: valid configurations, (n,) each; planners may find more of them here as time passes.
         rng: the only source of chance.
         settings: ranges and biases.
         step: longest motion that goes unchecked while searching, rad or m.
@@ -71,7 +71,7 @@ class Problem:
         return self.settings.range or min(0.2 * self.space.extent, 1.0)
 
     def sample(self) -> FloatArray:
-        """Return a configuration within the limits, near the path constraints if there are any."""
+        """Return a configuration (n,) within the limits, near the path constraints if any."""
         q = self.space.sample(self.rng)
         if self.project is None:
             return q
@@ -97,7 +97,7 @@ class Problem:
         return len(self.goals) >= most or self._drawn >= _TRIES_PER_GOAL * most
 
     def another_goal(self) -> FloatArray | None:
-        """Return a goal that was not known before; None where none was drawn."""
+        """Return a goal (n,) that was not known before; None where none was drawn."""
         if self.source is None or self.has_no_more_goals:
             return None
         self._drawn += 1
@@ -112,7 +112,7 @@ class Problem:
         return q
 
     def towards(self, q: FloatArray, target: FloatArray, most: float) -> tuple[Waypoints, bool]:
-        """Go from `q` in the direction of `target`, `most` far at most.
+        """Go from `q` in the direction of `target`, (n,) both, `most` far at most.
 
         Returns:
             the waypoints gone to (none where an obstacle is next) and whether the last is `target`.
@@ -131,7 +131,7 @@ class Problem:
         return [end], arrives
 
     def connect(self, q: FloatArray, target: FloatArray) -> Waypoints | None:
-        """Return the waypoints of a motion from `q` to `target`, None where it is not allowed."""
+        """Return the waypoints of a motion from `q` to `target`, (n,); None where not allowed."""
         waypoints, arrives = self.towards(q, target, np.inf)
         return waypoints if arrives else None
 

@@ -52,8 +52,8 @@ def plan(
     Args:
         space: joints and their limits.
         validity: says where the robot may be.
-        start: where the path begins, rad or m. Up to 0.1 outside the limits it is led back into
-            them first, as MoveIt's FixStartStateBounds does.
+        start: where the path begins (n,), rad or m. Up to 0.1 outside the limits it is led back
+            into them first, as MoveIt's FixStartStateBounds does.
         goals: configurations to reach, any of them, or a function that draws one.
         search: how it is looked for.
         constraints: what must hold all along the path.

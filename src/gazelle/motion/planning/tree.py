@@ -86,7 +86,7 @@ class Tree:
             self._difference = np.empty_like(self._nodes)
 
     def add(self, q: FloatArray, parent: int) -> int:
-        """Add a node and return its index; `parent` -1 makes it a root."""
+        """Add a node `q` (n,) and return its index; `parent` -1 makes it a root."""
         count = self._count
         if count == len(self._nodes):
             self._nodes = np.concatenate([self._nodes, np.empty_like(self._nodes)])
@@ -98,7 +98,7 @@ class Tree:
         return count
 
     def squared_distances(self, q: FloatArray) -> FloatArray:
-        """Return the squared distance of every node to `q`, continuous joints the short way."""
+        """Return the squared distance of each node to `q` (n,), (k,), going the short way round."""
         count = self._count
         difference = np.subtract(self._nodes[:count], q, out=self._difference[:count])
         for joint in self._turning:
@@ -108,7 +108,7 @@ class Tree:
         return squared
 
     def nearest(self, q: FloatArray) -> int:
-        """Return the index of the node nearest to `q`."""
+        """Return the index of the node nearest to `q` (n,)."""
         return int(nearest(self._nodes, self._count, self._space.continuous, q)[0])
 
     def drawn(self, chances: FloatArray) -> tuple[FloatArray, int]:
@@ -129,7 +129,7 @@ class Tree:
         self._domains[index] = domain
 
     def branch(self, index: int) -> list[FloatArray]:
-        """Return the nodes from the root to `index`."""
+        """Return the nodes, (n,) each, from the root to `index`."""
         nodes = []
         while index >= 0:
             nodes.append(self._nodes[index].copy())

@@ -36,7 +36,7 @@ def first_fault(
 
 
 def ends_of(first: FloatArray, last: FloatArray) -> tuple[bytes, bytes]:
-    """Return what a motion is known by among others."""
+    """Return what a motion between configurations (n,) is known by among others."""
     return first.tobytes(), last.tobytes()
 
 
@@ -47,7 +47,7 @@ def first_faulty_motion(
     step: float = FINE_STEP,
     checked: Container[tuple[bytes, bytes]] = (),
 ) -> FloatArray | None:
-    """Return both ends of the first motion of a line that is not allowed; see `first_fault`.
+    """Return both ends (2, n) of the first motion that is not allowed; see `first_fault`.
 
     Both ends are the same where a state itself is not.
 
@@ -73,7 +73,7 @@ def first_faulty_motion(
 def why_faulty(
     space: JointSpace, validity: Validity, motion: FloatArray, step: float = FINE_STEP
 ) -> str:
-    """Return what is wrong with a motion that `first_faulty_motion` found."""
+    """Return what is wrong with a motion (2, n) that `first_faulty_motion` found."""
     first, last = motion
     if beyond := space.outside(first, tolerance=_TOLERANCE):
         return beyond[0]

@@ -24,7 +24,7 @@ class PlanningScene:
 
     Attributes:
         robot: the robot.
-        positions: of all its variables, rad or m.
+        positions: (v,), of all its variables, rad or m.
         objects: things around it by name.
         attached: things it carries by name.
         allowed: pairs that may touch.
@@ -45,7 +45,7 @@ class PlanningScene:
         return cls(robot, robot.default_positions(), allowed=allowed)
 
     def with_positions(self, positions: FloatArray | Mapping[str, float]) -> PlanningScene:
-        """Return the scene with the robot elsewhere; positions by name change only those named.
+        """Return the scene with the robot at positions (v,); names change only those named.
 
         Raises:
             NotFoundError: the robot has no such joint.

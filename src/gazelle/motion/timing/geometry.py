@@ -23,7 +23,7 @@ _SHORTEST = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """A straight line; `direction` has length 1."""
+    """A straight line from `start` (n,); `direction` (n,) has length 1."""
 
     start: FloatArray
     direction: FloatArray
@@ -37,7 +37,7 @@ class Line:
 
 @dataclass(frozen=True, eq=False)
 class Arc:
-    """A circular arc from ``center + radius x`` in the direction of y; x and y have length 1."""
+    """A circular arc from ``center + radius x`` towards y; x and y, (n,), have length 1."""
 
     center: FloatArray
     x: FloatArray
@@ -59,7 +59,7 @@ Piece = list[Line | Arc]
 
 
 def distinct(waypoints: FloatArray) -> FloatArray:
-    """Return the waypoints without those that repeat the one before."""
+    """Return the waypoints (k, n) without those that repeat the one before."""
     kept = [waypoints[0]]
     for q in waypoints[1:]:
         if float(np.linalg.norm(q - kept[-1])) > _SHORTEST:
@@ -70,7 +70,9 @@ def distinct(waypoints: FloatArray) -> FloatArray:
 def corner_arc(
     before: FloatArray, corner: FloatArray, after: FloatArray, tolerance: float
 ) -> Arc | None:
-    """Return the arc that rounds a corner, None where it is straight, too sharp or to be hit.
+    """Return the arc that rounds a corner between points, (n,) each.
+
+    None where the corner is straight, too sharp or to be hit.
 
     An arc takes at most half of either line, so that arcs of neighbouring corners never meet.
     """

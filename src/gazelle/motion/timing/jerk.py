@@ -44,7 +44,7 @@ class Smoothed:
         return self._duration_s + self._window_s
 
     def at(self, times_s: FloatArray) -> States:
-        """Return positions, velocities and accelerations at times."""
+        """Return positions, velocities and accelerations, (k, n) each, at times (k,)."""
         before = times_s - self._window_s
         window = self._window_s
         return States(
@@ -100,7 +100,7 @@ class Smoothed:
 
 
 def seven_phases(line: Line, limits: Limits, times_s: FloatArray) -> tuple[States, float]:
-    """Return the fastest motion along a line, at some times, and how long it takes."""
+    """Return the fastest motion along a line, (k, n) at times (k,), and how long it takes."""
     share = np.maximum(np.abs(line.direction), _TINY)
     most = [
         float((limit / share).min())

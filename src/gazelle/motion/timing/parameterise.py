@@ -43,7 +43,7 @@ def parameterise(
     TimeOptimalTrajectoryGeneration does.
 
     Args:
-        path: straight motions between waypoints.
+        path: straight motions between waypoints, (k, n) as an array.
         space: limits of velocity, acceleration and jerk.
         velocity_scaling: MoveIt's max_velocity_scaling_factor.
         acceleration_scaling: MoveIt's max_acceleration_scaling_factor.

@@ -29,7 +29,7 @@ def times_of(stops_s: FloatArray, period_s: float) -> FloatArray:
     A sample of the period that lies less than a thousandth of it from a stop is left out.
 
     Args:
-        stops_s: increasing; the last one is the end.
+        stops_s: (m,), increasing; the last one is the end.
         period_s: above zero.
     """
     regular = np.arange(math.ceil(float(stops_s[-1]) / period_s)) * period_s
@@ -38,7 +38,7 @@ def times_of(stops_s: FloatArray, period_s: float) -> FloatArray:
 
 
 def states_at(spans: Sequence[Span], times_s: FloatArray) -> States:
-    """Return the states of a motion along spans; times beyond its end give its end."""
+    """Return the states (k, n) along spans at times (k,); times beyond its end give its end."""
     ends = np.cumsum([span.duration_s for span in spans])
     chosen = np.minimum(np.searchsorted(ends, times_s, side="right"), len(spans) - 1)
     size = len(spans[0].segment.states(np.zeros(1))[0][0])

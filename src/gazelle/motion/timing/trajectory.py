@@ -37,7 +37,7 @@ class Trajectory:
         return float(self.times_s[-1])
 
     def at(self, time_s: float) -> FloatArray:
-        """Return the positions at a time, by the quintic spline that trajectory controllers use.
+        """Return the positions (n,) at a time, by the quintic spline that controllers use.
 
         Times before the first and after the last sample give these.
         """
