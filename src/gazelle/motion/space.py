@@ -42,7 +42,7 @@ class Validity(Protocol):
         ...
 
     def motion_is_valid(self, q0: FloatArray, q1: FloatArray, step: float) -> bool:
-        """Return whether the robot may move straight from `q0` to `q1`.
+        """Return whether the robot may move straight from `q0` to `q1`, shape (n,).
 
         Checks `q1` and states between, no two neighbours further than `step` (Euclidean, rad or
         m) apart. `q0` is known to be valid.
