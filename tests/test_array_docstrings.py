@@ -11,7 +11,19 @@ import pytest
 
 SOURCE = Path(__file__).parents[1] / "src" / "gazelle"
 # Layers whose docstrings are complete; the others are still to be done.
-DONE = ("control", "engine", "geometry", "mapping", "motion", "navigation", "noise", "sensors")
+DONE = (
+    "control",
+    "description",
+    "documents",
+    "engine",
+    "geometry",
+    "interfaces",
+    "mapping",
+    "motion",
+    "navigation",
+    "noise",
+    "sensors",
+)
 _ARRAYS = {"Array", "BoolArray", "FloatArray", "Indices", "IntArray", "NDArray", "Poses", "ndarray"}
 _SHAPE = re.compile(
     r"\([\w`.…*+/ −-]+,[\w`.…*+/ ,−-]*\)|[\w)] ?× ?[\w(]|\bshapes?\b", re.IGNORECASE

@@ -22,7 +22,7 @@ class ArchiveError(ValueError):
 
 
 def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
-    """Return the arrays of an ``.npz`` by their names; objects of Python are never made.
+    """Return the arrays of an ``.npz`` by name, of any shape; objects of Python are never made.
 
     Raises:
         OSError: the file cannot be read.

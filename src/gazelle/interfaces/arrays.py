@@ -16,7 +16,7 @@ __all__ = ["is_array", "is_array_item"]
 
 
 def is_array(value: Any) -> TypeGuard[np.ndarray[Any, Any]]:
-    """Tell whether a value is a numpy array."""
+    """Tell whether a value is a numpy array, of whatever shape."""
     return isinstance(value, _kind("ndarray"))
 
 

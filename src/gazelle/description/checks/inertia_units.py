@@ -76,7 +76,7 @@ def equivalent_box_m(
 
 
 def box_fit(body: MassProperties, points_m: NDArray[np.float64]) -> Fit:
-    """Compare the equivalent box with the points' extent along its axes."""
+    """Compare the equivalent box with the extent along its axes of points (n, 3), m."""
     edges, axes = equivalent_box_m(body)
     x, y, z = np.ptp(points_m @ axes, axis=0).tolist()
     bounds = (x, y, z)
@@ -91,7 +91,7 @@ def _exceeds(edges: Iterable[float], bounds: Iterable[float]) -> bool:
 
 
 def is_inside(point_m: Iterable[float], points_m: NDArray[np.float64]) -> bool:
-    """Return whether a point lies in the points' bounding box, with a little slack."""
+    """Return whether a point lies in the bounding box of points (n, 3), with a little slack."""
     low, high = points_m.min(axis=0), points_m.max(axis=0)
     slack = 0.02 * float((high - low).max()) + _SLACK_M
     place = np.asarray(tuple(point_m))

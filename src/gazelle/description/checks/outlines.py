@@ -36,12 +36,12 @@ class Outline(NamedTuple):
 
     @property
     def low_m(self) -> Array:
-        """Lower corner of the bounding box."""
+        """Lower corner of the bounding box, (3,)."""
         return np.asarray(self.points_m.min(axis=0))
 
     @property
     def high_m(self) -> Array:
-        """Upper corner of the bounding box."""
+        """Upper corner of the bounding box, (3,)."""
         return np.asarray(self.points_m.max(axis=0))
 
 

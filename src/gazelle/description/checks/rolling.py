@@ -26,7 +26,7 @@ class Wheel(NamedTuple):
         joint: its axle.
         link: what turns.
         is_caster: it swivels freely, nothing drives it.
-        axis: unit vector of the axle in the model's frame.
+        axis: (3,), unit vector of the axle in the model's frame.
     """
 
     joint: Joint
@@ -54,7 +54,7 @@ def wheels_of(model: Model) -> tuple[Wheel, ...]:
 
 
 def axis_in_model(joint: Joint) -> NDArray[np.float64]:
-    """Return the unit vector of a joint's axis in the model's frame; zeros without an axis."""
+    """Return the unit vector, (3,), of a joint's axis in the model's frame; zeros without one."""
     if joint.axis is None:
         return np.zeros(3)
     axis = np.asarray(joint.T_model_joint.rotate(joint.axis.xyz), dtype=np.float64)

@@ -126,7 +126,7 @@ def mesh_of(shape: MeshShape) -> Mesh | None:
 
 
 def stl_bytes(vertices_m: NDArray[np.float64], faces: NDArray[np.int32]) -> bytes:
-    """Return triangles as a binary STL file."""
+    """Return triangles as a binary STL file: faces (f, 3) of vertices (n, 3)."""
     corners = np.asarray(vertices_m, dtype=np.float64)[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
