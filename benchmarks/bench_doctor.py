@@ -19,7 +19,7 @@ start = time.perf_counter()
 import gazelle.control.controllers.registry, gazelle.simulator.plugins.registry
 from gazelle.doctor import Options, examine
 gazelle.simulator.plugins.registry.all_tables()
-import gazelle.engine, gazelle.engine.library, gazelle.sensors, scipy.spatial
+import gazelle.engine, gazelle.engine.mujoco_library, gazelle.sensors, scipy.spatial
 from gazelle.diagnostics.catalogue import all_entries
 all_entries()
 import gazelle.simulator, xacro, collada, PIL.Image

@@ -13,7 +13,7 @@ import numpy as np
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.logs import read_log
-from gazelle.mapping.relations import absolute_error_m, relation_errors
+from gazelle.mapping.relative_pose_error import absolute_error_m, relation_errors
 from gazelle.mapping.slam import Slam
 
 

@@ -229,7 +229,7 @@ class Launched:
 
     def call(self, service: str, type_name: str, **fields: Any) -> Any:
         """Call a service and return its response; a world's also where it is hidden."""
-        from gazelle.graph.world import offered_name
+        from gazelle.graph.gazebo_names import offered_name
         from gazelle.interfaces import fill, service_type
 
         kind = service_type(type_name)

@@ -24,7 +24,7 @@ import numpy as np
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.logs import LogRecord, read_log
 from gazelle.mapping.poses import Poses, between, compose
-from gazelle.mapping.relations import absolute_error_m
+from gazelle.mapping.relative_pose_error import absolute_error_m
 from gazelle.mapping.slam import Slam
 
 MOST_SHARE = 0.01

@@ -28,7 +28,7 @@ from gazelle.description.model import Cylinder, MeshShape
 from gazelle.geometry import Pose
 from gazelle.interfaces.poses import twist_message
 from gazelle.mapping.poses import between, compose, transform_points
-from gazelle.mapping.relations import alignment
+from gazelle.mapping.relative_pose_error import alignment
 from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam import Slam, SlamResult
 from gazelle.nodes.slam.scan_messages import scan_of

@@ -10,7 +10,7 @@ from gazelle.description.loader import load_models, load_world
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents.names import exists, is_file, is_folder, names_matching
 from gazelle.errors import UserFileError
-from gazelle.launch.xml1.loader import load_launch_text
+from gazelle.launch.ros1.loader import load_launch_text
 from gazelle.workspace import Workspace
 
 _LONG = "a" * 5000

@@ -324,7 +324,7 @@ def test_velocity_of_a_link_is_that_of_its_origin(build):
 
 def test_warnings_of_the_library_become_findings(build, tmp_path, monkeypatch):
     """MuJoCo would print them and write a file."""
-    from gazelle.engine.library import mujoco
+    from gazelle.engine.mujoco_library import mujoco
 
     monkeypatch.chdir(tmp_path)
     engine = build.engine(build.block())

@@ -73,7 +73,7 @@ def test_idle_slambot_does_not_move(slambot):
 
 
 def test_idle_slambot_does_not_move_without_sleep_either(slambot):
-    from gazelle.engine.library import mujoco
+    from gazelle.engine.mujoco_library import mujoco
 
     slambot.model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
     start = slambot.model_pose("slam_robot")
@@ -114,7 +114,7 @@ def test_slambot_stops_when_its_wheels_do(slambot):
 
 
 def test_slambots_tessellated_wheels_are_cylinders(slambot):
-    from gazelle.engine.library import mujoco
+    from gazelle.engine.mujoco_library import mujoco
 
     kinds = {
         slambot._compiled.collision_names[i].split("::")[1]: int(slambot.model.geom_type[i])

@@ -28,7 +28,7 @@ from gazelle.errors import GazelleError
 from gazelle.geometry.loading import load_mesh_reported
 from gazelle.interfaces.definition import Generation
 from gazelle.interfaces.parser import parse_message, split_parts
-from gazelle.launch.xml1.loader import load_launch_files
+from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.workspace import Workspace
 from gazelle.workspace.manifest import ManifestError, quick_name, read_manifest
 

@@ -15,8 +15,8 @@ from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.moveit.config import typed_config
-from gazelle.description.moveit.places import read_yaml
 from gazelle.description.moveit.settings import Settings as MoveItSettings
+from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.following import follow
@@ -35,16 +35,16 @@ from gazelle.nodes.filters.ekf import config_of, matrix_of
 from gazelle.nodes.filters.laser_filters import chain_of
 from gazelle.nodes.filters.tables import ekf_table
 from gazelle.nodes.joy.options import read_options
+from gazelle.nodes.nav2.behavior_trees.loading import read_trees
 from gazelle.nodes.nav2.collision.reading import read_sources, read_zones, report_others
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.nav2.tables import controller_table, planner_table
-from gazelle.nodes.nav2.trees.loading import read_trees
-from gazelle.nodes.navigation.assembling import assemble
+from gazelle.nodes.navigation.costmap_setup import assemble
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.ros_gz.rows import read_file
-from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua.configuration import read_configuration
 from gazelle.nodes.slam.options import options_of
+from gazelle.nodes.slam.ros_packages import FLAVOURS
 from gazelle.nodes.teleop.joystick import read_driving
 from gazelle.nodes.twist_mux.inputs import read_inputs
 from gazelle.parameters.trees import nested

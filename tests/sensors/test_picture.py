@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from gazelle.description.forward_kinematics import posed_model
 from gazelle.description.model import (
     Box,
     Collision,
@@ -22,7 +23,6 @@ from gazelle.description.model import (
     Visual,
     World,
 )
-from gazelle.description.posing import posed_model
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose, box_mass_properties

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from gazelle.control.bank import InterfaceBank
 from gazelle.control.controller_manager import ControllerManager
+from gazelle.control.interface_values import InterfaceBank
 from gazelle.control.ports import LiveParameter
 from gazelle.control.robot import Robot
 from gazelle.control.sources.store import StoreSource

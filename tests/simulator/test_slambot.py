@@ -14,7 +14,7 @@ import pytest
 from tests.shared_files import skip_module_without_shared
 
 from gazelle.geometry import Pose
-from gazelle.graph.world import shown_transport_name
+from gazelle.graph.gazebo_names import shown_transport_name
 from gazelle.interfaces import service_type
 from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Simulation

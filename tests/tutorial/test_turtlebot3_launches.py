@@ -8,7 +8,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.launch.executables import find_executable
-from gazelle.launch.xml1.loader import load_launch_files
+from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.workspace import Workspace
 
 pytestmark = pytest.mark.tutorial

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.simulator.sources import world_from
+from gazelle.simulator.description_sources import world_from
 from gazelle.workspace.originals import original_models, original_worlds
 from gazelle.workspace.originals_page import originals_markdown
 from gazelle.workspace.search_path import BUILTIN

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from typing import NoReturn
 
-from gazelle.ending import end_at_interrupts, end_with, raise_interrupts
-from gazelle.starting import collect_garbage_rarely
+from gazelle.process_exit import end_at_interrupts, end_with, raise_interrupts
+from gazelle.process_start import collect_garbage_rarely
 
 __all__ = ["run"]
 
@@ -22,7 +22,7 @@ def run() -> NoReturn:
     raise_interrupts()
     if "GAZELLE_PARENT_PID" in os.environ:
         # Started by a launch: most commands are not, and do without the module.
-        from gazelle.parent import end_with_parent
+        from gazelle.parent_process import end_with_parent
 
         end_with_parent()
     end_with(main)

@@ -9,8 +9,8 @@ from importlib import import_module
 from gazelle._version import __version__
 from gazelle.cli.commands import COMMANDS
 from gazelle.cli.error_text import error_text
-from gazelle.ending import drop_output
 from gazelle.errors import GazelleError, UserFileError, file_refusal_text
+from gazelle.process_exit import drop_output
 
 __all__ = ["main"]
 

@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Mapping, Sequence
 
-from gazelle.compat.telling import warn_once
+from gazelle.compat.told_once import warn_once
 
 __all__ = [
     "DEFAULT_MASTER_PORT",

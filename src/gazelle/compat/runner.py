@@ -8,8 +8,8 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType, TracebackType
 
-from gazelle.ending import end_at_interrupts, end_with, raise_interrupts
-from gazelle.starting import collect_garbage_rarely
+from gazelle.process_exit import end_at_interrupts, end_with, raise_interrupts
+from gazelle.process_start import collect_garbage_rarely
 
 __all__ = ["main", "run_script"]
 
@@ -23,7 +23,7 @@ def main(words: list[str]) -> int:
     collect_garbage_rarely()
     from gazelle.compat.finder import install
     from gazelle.launch.environment import drop_in_folder
-    from gazelle.parent import end_with_parent
+    from gazelle.parent_process import end_with_parent
 
     end_with_parent()
     sys.excepthook = _tell

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gazelle.control.bank import Array
+from gazelle.control.interface_values import Array
 from gazelle.control.robot import JointLimits
 
 __all__ = ["EffortLimits", "PositionLimits", "VelocityLimits"]

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from gazelle.control.bank import InterfaceBank
 from gazelle.control.hardware_lifecycle import HardwareLifecycle
+from gazelle.control.interface_values import InterfaceBank
 from gazelle.description.model import Model
 
 __all__ = ["HardwareComponent", "JointLimits", "JointResource", "Robot"]

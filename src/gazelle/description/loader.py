@@ -13,7 +13,7 @@ from gazelle.description.leniency import lenient_document, lenient_robot
 from gazelle.description.model import Model, World
 from gazelle.description.sdf import SdfDocument, read_model_file, read_sdf, read_world_file
 from gazelle.description.source_maps import placed
-from gazelle.description.text_place import TEXT_NAME, place_of_text, read_text
+from gazelle.description.text_origin import TEXT_NAME, place_of_text, read_text
 from gazelle.description.urdf import read_urdf
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan

@@ -15,12 +15,12 @@ from gazelle.engine.inertia import (
     body_inertia,
 )
 from gazelle.engine.joints import add_joint, add_mimic, add_root_joint, has_parallel_axes
-from gazelle.engine.library import mujoco
-from gazelle.engine.names import part_of, scoped
+from gazelle.engine.mujoco_library import mujoco
+from gazelle.engine.scoped_names import part_of, scoped
 from gazelle.engine.shapes import GeomAssets, add_geom, geom_shapes
 from gazelle.engine.tree import KinematicTree, TreeLink, kinematic_tree
-from gazelle.engine.tyres import add_tyre
-from gazelle.engine.wheel_grip import with_wheel_grip
+from gazelle.engine.wheel_friction import with_wheel_grip
+from gazelle.engine.wheel_slip import add_tyre
 from gazelle.geometry import IDENTITY_POSE
 
 __all__ = ["BuiltGeom", "SpecBuilder", "VelocityDecay", "mesh_collisions"]

@@ -23,7 +23,7 @@ from gazelle.engine.collision_groups import (
     assign_groups,
     may_touch,
 )
-from gazelle.engine.names import scoped
+from gazelle.engine.scoped_names import scoped
 from gazelle.engine.surfaces import (
     HARD_SOLIMP,
     MIN_MU,

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engine.library import mujoco
+from gazelle.engine.mujoco_library import mujoco
 
 __all__ = ["Culprit", "find_culprit"]
 

@@ -12,19 +12,19 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import JointType, Model, World
 from gazelle.engine.compiler import Compiled
+from gazelle.engine.contacts import read_contacts
 from gazelle.engine.core import EngineCore
 from gazelle.engine.divergence import Culprit, find_culprit
 from gazelle.engine.finite import require_finite, require_finite_pose
-from gazelle.engine.library import drained_warnings, mujoco
 from gazelle.engine.library_warnings import report_library_warnings
-from gazelle.engine.locks import LockBank
 from gazelle.engine.motor_bank import POSITION_STEPS, MotorBank
-from gazelle.engine.names import scoped
+from gazelle.engine.mujoco_library import drained_warnings, mujoco
+from gazelle.engine.position_locks import LockBank
 from gazelle.engine.records import Contact, Snapshot
+from gazelle.engine.scoped_names import scoped
 from gazelle.engine.state import hash_state, set_initial_positions
-from gazelle.engine.touching import read_contacts
-from gazelle.engine.tyres import CENTRING_STEPS, Slip, TyreBank
 from gazelle.engine.welds import WeldBank
+from gazelle.engine.wheel_slip import CENTRING_STEPS, Slip, TyreBank
 from gazelle.engine.wrenches import WrenchTable
 from gazelle.errors import EngineError, SimulationDivergedError
 from gazelle.geometry import Pose, cross

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engine.library import mujoco
+from gazelle.engine.derived_state import constraint_forces
 from gazelle.engine.motors import UNLIMITED_EFFORT, MotorCommand
-from gazelle.engine.reading import constraint_forces
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.errors import EngineError
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import Joint, JointAxis, JointType
-from gazelle.engine.library import mujoco
-from gazelle.engine.names import joint_part, root_joint, scoped
+from gazelle.engine.mujoco_library import mujoco
+from gazelle.engine.scoped_names import joint_part, root_joint, scoped
 from gazelle.geometry import Pose
 
 __all__ = [

@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.engine.library import drained_warnings, mujoco
+from gazelle.engine.mujoco_library import drained_warnings, mujoco
 
 __all__ = ["report_library_warnings"]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engine.library import mujoco
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.records import Acceleration, Velocity
 from gazelle.engine.wrenches import TimedWrench
 from gazelle.geometry import Pose, cross

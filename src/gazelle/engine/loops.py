@@ -9,8 +9,8 @@ import numpy as np
 from gazelle.description.model import Joint, JointAxis, JointType, Model
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.joints import add_joint, couple, equality_solver
-from gazelle.engine.library import mujoco
-from gazelle.engine.names import bridge, scoped
+from gazelle.engine.mujoco_library import mujoco
+from gazelle.engine.scoped_names import bridge, scoped
 from gazelle.engine.tree import WORLD, KinematicTree
 from gazelle.geometry import Pose
 

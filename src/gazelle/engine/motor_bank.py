@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.engine.compiler import SLEEP_TOLERANCE_M_S, Compiled
-from gazelle.engine.library import mujoco
 from gazelle.engine.motors import TIGHT, UNLIMITED_EFFORT, MotorCommand, clutch_impedance
-from gazelle.engine.names import rotor_joint, tendon
+from gazelle.engine.mujoco_library import mujoco
+from gazelle.engine.scoped_names import rotor_joint, tendon
 
 __all__ = ["POSITION_STEPS", "MotorBank"]
 

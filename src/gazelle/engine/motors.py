@@ -17,8 +17,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.engine.library import mujoco
-from gazelle.engine.names import rotor_body, rotor_joint, tendon
+from gazelle.engine.mujoco_library import mujoco
+from gazelle.engine.scoped_names import rotor_body, rotor_joint, tendon
 
 __all__ = [
     "TIGHT",

@@ -24,8 +24,8 @@ from gazelle.description.model import (
     Sphere,
 )
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import mujoco
 from gazelle.engine.meshes import Piece, convex_pieces, polyline_pieces, solid_pieces
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.terrain import read_terrain
 from gazelle.geometry import Pose, quat_xyzw_from_rpy
 

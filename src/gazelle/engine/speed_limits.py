@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import Joint, World
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import mujoco
-from gazelle.engine.names import joint_part, scoped
+from gazelle.engine.mujoco_library import mujoco
+from gazelle.engine.scoped_names import joint_part, scoped
 
 __all__ = ["SpeedLimits"]
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType, Mimic, Model, World
 from gazelle.engine.compiler import Compiled
-from gazelle.engine.library import mujoco
-from gazelle.engine.names import joint_part, scoped
+from gazelle.engine.mujoco_library import mujoco
+from gazelle.engine.scoped_names import joint_part, scoped
 
 __all__ = [
     "carry_over",

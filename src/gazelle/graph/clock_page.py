@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from gazelle.folders import runtime_folder
-from gazelle.leftovers import own_prefix, sweep
+from gazelle.temporary_files import own_prefix, sweep
 
 __all__ = ["ClockPage", "PageView", "Reading", "machine_name"]
 

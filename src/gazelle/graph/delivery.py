@@ -10,10 +10,10 @@ from contextlib import suppress
 from queue import Empty, SimpleQueue
 from typing import Any, NamedTuple
 
-from gazelle.ending import called_by_library
 from gazelle.errors import GazelleError
 from gazelle.graph.allocator import return_large_blocks
 from gazelle.graph.console import Level, LogRecord, print_record
+from gazelle.process_exit import called_by_library
 
 __all__ = ["Bound", "Mailbox"]
 

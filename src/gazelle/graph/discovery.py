@@ -8,9 +8,9 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.ending import called_by_library
 from gazelle.errors import GraphError
 from gazelle.graph.keys import Entity, Kind, entity_gid, token_selector
+from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:
     import zenoh

@@ -22,6 +22,7 @@ from gazelle.graph.config import client_config, domain_of, peer_config, port_of
 from gazelle.graph.console import print_record
 from gazelle.graph.control import Control, ask_process, shut_down_node, wait_for_processes
 from gazelle.graph.discovery import Discovery
+from gazelle.graph.duplicate_nodes import TAKEN_OVER, Namesakes
 from gazelle.graph.errors import NoGraphError, PortTakenError, coded
 from gazelle.graph.hub import HubKeeper
 from gazelle.graph.in_flight import CallsInFlight
@@ -30,7 +31,6 @@ from gazelle.graph.keys import Entity, Kind
 from gazelle.graph.local_topic import LocalTopics
 from gazelle.graph.locators import name_of_hub, own_endpoint, share, somebody_listens
 from gazelle.graph.names import anonymous_name, check_node_name, join, resolve
-from gazelle.graph.namesakes import TAKEN_OVER, Namesakes
 from gazelle.graph.node import Node
 from gazelle.graph.parameters import ParameterShare, ParameterStore, global_parameters
 from gazelle.graph.stamps import StampWatch

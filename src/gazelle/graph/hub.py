@@ -9,12 +9,12 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.ending import called_by_library
 from gazelle.errors import GraphError
 from gazelle.graph.closing import close_session
 from gazelle.graph.config import hub_config
 from gazelle.graph.locators import claim_hub, hub_endpoint, share, sweep_sockets
-from gazelle.graph.relink import Relinker
+from gazelle.graph.reconnection import Relinker
+from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:
     import zenoh

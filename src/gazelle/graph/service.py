@@ -11,9 +11,9 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import nearest_names
-from gazelle.ending import called_by_library
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import wire
+from gazelle.graph.duplicate_requests import Answer, Repeats
 from gazelle.graph.errors import (
     ServiceCallError,
     ServiceRefusedError,
@@ -21,6 +21,7 @@ from gazelle.graph.errors import (
     ServiceUnavailableError,
     coded,
 )
+from gazelle.graph.gazebo_names import other_version_hint
 from gazelle.graph.keys import (
     Attachment,
     Entity,
@@ -31,10 +32,9 @@ from gazelle.graph.keys import (
     token,
 )
 from gazelle.graph.names import is_hidden
-from gazelle.graph.relink import hub_knows
-from gazelle.graph.repeats import Answer, Repeats
-from gazelle.graph.turns import InTurn, Turn, Turns
-from gazelle.graph.world import other_version_hint
+from gazelle.graph.ordered_requests import InTurn, Turn, Turns
+from gazelle.graph.reconnection import hub_knows
+from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph

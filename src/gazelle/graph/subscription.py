@@ -7,12 +7,12 @@ import traceback
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gazelle.ending import called_by_library
 from gazelle.errors import GazelleError
 from gazelle.graph import wire
 from gazelle.graph.delivery import Bound, Mailbox
 from gazelle.graph.errors import coded
 from gazelle.graph.keys import Attachment, Entity, token, topic_selector, type_in_key
+from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from gazelle.ending import end_at_interrupts
+from gazelle.process_exit import end_at_interrupts
 
 __all__ = ["main"]
 
@@ -13,7 +13,7 @@ __all__ = ["main"]
 def main(words: list[str]) -> int:
     """Replace this process by the command; the parent-death signal survives exec."""
     end_at_interrupts()
-    from gazelle.parent import end_with_parent
+    from gazelle.parent_process import end_with_parent
 
     end_with_parent()
     try:

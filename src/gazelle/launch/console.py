@@ -8,10 +8,10 @@ from datetime import datetime
 from typing import Any, TextIO
 
 from gazelle.documents.yaml import dump_yaml
-from gazelle.ending import drop_output, when_nobody_reads
 from gazelle.launch.config import LaunchConfig
 from gazelle.log_files import LogStream
 from gazelle.parameters.trees import leaves_at
+from gazelle.process_exit import drop_output, when_nobody_reads
 
 __all__ = ["Console", "dump_text", "summary"]
 

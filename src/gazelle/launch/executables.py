@@ -149,7 +149,7 @@ def _report_missing(
     span: SourceSpan | None,
     ros_version: int,
 ) -> None:
-    from gazelle.node_specs.elsewhere import missing_node, missing_package
+    from gazelle.node_specs.unavailable_packages import missing_node, missing_package
 
     existing, found = set(builtin_executables(package)), None
     try:

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from gazelle.ending import interrupts_held
 from gazelle.launch.config import NodeTag
 from gazelle.launch.executables import Executable
-from gazelle.parent import PARENT_VARIABLE
+from gazelle.parent_process import PARENT_VARIABLE
+from gazelle.process_exit import interrupts_held
 
 __all__ = ["LaunchedProcess", "code_text", "end_text", "node_words", "start_process"]
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from gazelle.description.text_place import (
+from gazelle.description.text_origin import (
     TEXT_FILES_VARIABLE,
     TEXT_NAME,
     copy_name,
@@ -22,7 +22,7 @@ from gazelle.documents.yaml import dump_yaml
 from gazelle.errors import GraphError, LaunchError
 from gazelle.folders import ros_home
 from gazelle.graph import Graph, NoGraphError
-from gazelle.graph.world import offered_name
+from gazelle.graph.gazebo_names import offered_name
 from gazelle.interfaces import service_type
 from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.console import Console, summary

@@ -27,7 +27,7 @@ from gazelle.launch.process import (
     node_words,
     start_process,
 )
-from gazelle.launch.stopped import StoppedProcess
+from gazelle.launch.stopped_processes import StoppedProcess
 
 __all__ = ["StopTimes", "Supervisor"]
 

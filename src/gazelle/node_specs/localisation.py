@@ -169,10 +169,10 @@ LOCALISATION = (
         package="depthimage_to_laserscan",
         executable="depthimage_to_laserscan",
         ros=ROS_1,
-        entry="gazelle.nodes.filters.flattening:run_depth",
+        entry="gazelle.nodes.filters.scan_projection:run_depth",
         does="makes scans of depth pictures",
         is_light=True,
-        parameters="gazelle.nodes.filters.flattening:DEPTH_PARAMETERS",
+        parameters="gazelle.nodes.filters.scan_projection:DEPTH_PARAMETERS",
         topics=(
             publishes("scan", "sensor_msgs/msg/LaserScan"),
             listens("camera_info", "sensor_msgs/msg/CameraInfo"),
@@ -184,10 +184,10 @@ LOCALISATION = (
         package="depthimage_to_laserscan",
         executable="depthimage_to_laserscan_node",
         ros=ROS_2,
-        entry="gazelle.nodes.filters.flattening:run_depth",
+        entry="gazelle.nodes.filters.scan_projection:run_depth",
         does="makes scans of depth pictures, ROS 2's name",
         is_light=True,
-        parameters="gazelle.nodes.filters.flattening:DEPTH_PARAMETERS",
+        parameters="gazelle.nodes.filters.scan_projection:DEPTH_PARAMETERS",
         name="depthimage_to_laserscan",
         topics=(
             publishes("scan", "sensor_msgs/msg/LaserScan"),
@@ -199,10 +199,10 @@ LOCALISATION = (
     NodeSpec(
         package="pointcloud_to_laserscan",
         executable="pointcloud_to_laserscan_node",
-        entry="gazelle.nodes.filters.flattening:run_clouds",
+        entry="gazelle.nodes.filters.scan_projection:run_clouds",
         does="makes scans of point clouds",
         is_light=True,
-        parameters="gazelle.nodes.filters.flattening:CLOUD_PARAMETERS",
+        parameters="gazelle.nodes.filters.scan_projection:CLOUD_PARAMETERS",
         name="pointcloud_to_laserscan",
         topics=(
             publishes("scan", "sensor_msgs/msg/LaserScan"),

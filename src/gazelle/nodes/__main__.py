@@ -7,9 +7,9 @@ import signal
 import sys
 from pathlib import Path
 
-from gazelle.ending import StopEvent, at_stop_signal, end_at_interrupts, end_with
 from gazelle.library_warnings import shorten_library_warnings
-from gazelle.starting import collect_garbage_rarely, want_one_blas_thread
+from gazelle.process_exit import StopEvent, at_stop_signal, end_at_interrupts, end_with
+from gazelle.process_start import collect_garbage_rarely, want_one_blas_thread
 
 __all__ = ["main"]
 
@@ -20,7 +20,7 @@ _PATIENCE_S = 3.0
 def main(words: list[str]) -> int:
     """Run a node, or a host of nodes, in this process."""
     end_at_interrupts()
-    from gazelle.parent import end_with_parent
+    from gazelle.parent_process import end_with_parent
 
     end_with_parent()
     if words and words[0] == "--host":

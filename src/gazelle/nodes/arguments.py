@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from gazelle.graph.names import join, parse_command_line
-from gazelle.nodes.ros2_words import file_params, split_words
+from gazelle.nodes.ros2_arguments import file_params, split_words
 
 __all__ = ["ABSENT_NODES", "NodeArguments", "read_arguments"]
 

@@ -11,7 +11,7 @@ from typing import Any
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError
 from gazelle.graph import Entity, Graph, Kind, Node
-from gazelle.graph.world import is_loading
+from gazelle.graph.gazebo_names import is_loading
 from gazelle.interfaces import message_type, ros1_service_type, service_type
 from gazelle.interfaces.stamps import set_stamp
 

@@ -24,7 +24,7 @@ from gazelle.nodes.move_base.local import local_planner_tables
 from gazelle.nodes.move_base.planner import planner_tables
 from gazelle.nodes.move_base.tables import CLEAR, ROTATE, SLOW
 from gazelle.nodes.nav2 import tables as nav2
-from gazelle.nodes.navigation.assembling import costmap_table, layer_table
+from gazelle.nodes.navigation.costmap_setup import costmap_table, layer_table
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.trees import flattened, nested, values_only
 

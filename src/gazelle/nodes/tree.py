@@ -12,7 +12,7 @@ from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, JointType, Model
 from gazelle.description.sdf import read_sdf
 from gazelle.description.sdf.robot_frames import with_links_at_joints
-from gazelle.description.text_place import place_of_text, read_text
+from gazelle.description.text_origin import place_of_text, read_text
 from gazelle.description.urdf import read_urdf
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics

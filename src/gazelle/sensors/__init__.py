@@ -20,6 +20,19 @@ from gazelle.sensors.contact import ContactRecord, link_wrenches, watched_contac
 from gazelle.sensors.depth import POINT_DTYPE, depth_image, point_cloud
 from gazelle.sensors.distortion import distort, is_distorting
 from gazelle.sensors.embree import EmbreeError
+from gazelle.sensors.environment import (
+    AltimeterRecord,
+    GeodeticPosition,
+    MagnetometerRecord,
+    PressureRecord,
+    air_pressure_pa,
+    altitude_change_m,
+    classic_origin,
+    enu_vector,
+    geodetic_position,
+    local_position,
+    magnetic_field,
+)
 from gazelle.sensors.force_torque import JointLoad, WrenchRecord, force_torque_reading
 from gazelle.sensors.gps import (
     GpsRecord,
@@ -34,21 +47,8 @@ from gazelle.sensors.lidar import LidarRecord, ScanAngles, scan, scan_angles, sc
 from gazelle.sensors.noise import noise_stream, picture_noise
 from gazelle.sensors.ray_scene import RayScene
 from gazelle.sensors.sonar import SonarRecord, sonar_range
-from gazelle.sensors.surroundings import (
-    AltimeterRecord,
-    GeodeticPosition,
-    MagnetometerRecord,
-    PressureRecord,
-    air_pressure_pa,
-    altitude_change_m,
-    classic_origin,
-    enu_vector,
-    geodetic_position,
-    local_position,
-    magnetic_field,
-)
 from gazelle.sensors.vector_noise import VectorNoise
-from gazelle.sensors.warming import warm_up
+from gazelle.sensors.warm_up import warm_up
 
 __all__ = [
     "NOISE_MODELS",

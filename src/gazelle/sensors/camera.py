@@ -165,7 +165,7 @@ class _Exposure:
             self._all_bands(threads, 2)
 
     def _all_bands(self, threads: int, samples: int) -> None:
-        from gazelle.sensors.kernels import SCRATCH_ROWS, render_rows
+        from gazelle.sensors.camera_kernels import SCRATCH_ROWS, render_rows
 
         want_rgb, want_depth = self.rgb is not None, self.depth is not None
         rgb = np.empty((1, 1, 3), np.uint8) if self.rgb is None else self.rgb

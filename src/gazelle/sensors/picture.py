@@ -91,7 +91,7 @@ def take_picture(
     shown under their own. Overlays shine through visuals in a weaker colour.
 
     Args:
-        world: with joints where they are to be shown, see `gazelle.description.posing`.
+        world: with joints where they are to be shown, see `gazelle.description.forward_kinematics`.
         show: of `SHOWN`.
         views: of `gazelle.sensors.picture_views.VIEWS`; several share the picture in a grid.
         T_world_camera: in place of views, looks along +x.

@@ -14,8 +14,9 @@ from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, brief, did_yo
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph import offer_loggers
 from gazelle.graph.aside import aside_path, write_aside
+from gazelle.graph.gazebo_names import SHOWN_SPACE, world_space
 from gazelle.graph.node_parameters import Descriptor, NodeParameters
-from gazelle.graph.world import SHOWN_SPACE, world_space
+from gazelle.simulator.description_sources import world_from
 from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
 from gazelle.simulator.plugins.gz_systems import TABLE as GZ_SYSTEMS
 from gazelle.simulator.plugins.registry import known_names, plain_name
@@ -27,7 +28,6 @@ from gazelle.simulator.server_parameters import (
     read_server_parameters,
     report_unread,
 )
-from gazelle.simulator.sources import world_from
 from gazelle.simulator.viewing import offer_views
 from gazelle.simulator.world_server import ServerSettings, WorldServer
 from gazelle.workspace import Workspace

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.simulator.pace import Mode
+from gazelle.simulator.real_time_pacing import Mode
 
 __all__ = ["HELP", "ServerOptions", "read_server_options"]
 

@@ -15,6 +15,7 @@ from gazelle.diagnostics.nearest import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.simulator.control_registry import ControlRegistry
+from gazelle.simulator.description_sources import Source, loaded_from, models_from, world_from
 from gazelle.simulator.handles import (
     JointOfSimulation,
     LinkOfSimulation,
@@ -22,10 +23,9 @@ from gazelle.simulator.handles import (
     SensorOfSimulation,
 )
 from gazelle.simulator.local_node import LocalNode
-from gazelle.simulator.names import full_name
+from gazelle.simulator.name_lookup import full_name
 from gazelle.simulator.parameter_input import Parameters, give_parameters
 from gazelle.simulator.ports import NodePort, SubscriptionPort
-from gazelle.simulator.sources import Source, loaded_from, models_from, world_from
 from gazelle.simulator.world_server import ServerSettings, WorldServer
 from gazelle.workspace import Workspace
 

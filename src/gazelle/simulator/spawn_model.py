@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 from gazelle.documents.names import exists, is_file
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
-from gazelle.graph.world import SHOWN_SPACE, first_there, is_loading, world_names
+from gazelle.graph.gazebo_names import SHOWN_SPACE, first_there, is_loading, world_names
 from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import pose_message
 from gazelle.simulator.plugins.context import join_names

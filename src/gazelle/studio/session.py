@@ -15,7 +15,7 @@ from gazelle.studio.frames import Frames
 from gazelle.studio.graph_view.parts import graph_parts
 from gazelle.studio.once import closed_with
 from gazelle.studio.pages import Pages
-from gazelle.studio.plugins.shows import Desk
+from gazelle.studio.plugins.shown_panels import Desk
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.robot import RobotContext
 from gazelle.studio.taps import Taps

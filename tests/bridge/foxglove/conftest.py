@@ -15,7 +15,7 @@ import pytest
 from tests.patience import eventually
 
 from gazelle.bridge.foxglove import Allow, FoxgloveBridge, SdkViewers
-from gazelle.bridge.foxglove.viewers import Connections, Requests, ServiceOffer, Viewers
+from gazelle.bridge.foxglove.server_interface import Connections, Requests, ServiceOffer, Viewers
 from gazelle.graph import Graph
 from gazelle.workspace import Workspace
 

@@ -9,7 +9,7 @@ import pytest
 from tests.bridge.foxglove.conftest import PlainChannel, PlainViewers
 
 from gazelle.bridge.foxglove import FoxgloveBridge
-from gazelle.bridge.foxglove.viewers import Requests
+from gazelle.bridge.foxglove.server_interface import Requests
 from gazelle.graph import Graph, ServiceRefusedError
 from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.interfaces import from_cdr, message_type, service_type, to_cdr

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from gazelle.geometry import Pose
-from gazelle.graph.world import hidden_transport_name, shown_transport_name
+from gazelle.graph.gazebo_names import hidden_transport_name, shown_transport_name
 from gazelle.simulator import Simulation
 
 Run = Callable[..., Any]

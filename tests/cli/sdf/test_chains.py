@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.cli.sdf.gz import main
+from gazelle.cli.gz.command import main
 
 _PART = """<link name="b{1}"><pose relative_to="b{0}">0 0 1 0 0 0</pose></link>
 <joint name="j{1}" type="fixed"><parent>b{0}</parent><child>b{1}</child></joint>"""

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from gazelle.control.bank import InterfaceBank
 from gazelle.control.controller_manager import ControllerManager
+from gazelle.control.interface_values import InterfaceBank
 from gazelle.control.robot import JointResource, Robot
 from gazelle.control.sources.store import StoreSource
 from gazelle.description.model import Model

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from tests.shared_files import SHARED
 
+from gazelle.description.forward_kinematics import movable_joints, posed_model
 from gazelle.description.loader import load_models
 from gazelle.description.model import Inertial, Model
-from gazelle.description.posing import movable_joints, posed_model
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose

@@ -12,7 +12,7 @@ from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.conversion import Beside, to_urdf
 from gazelle.description.conversion.single_axes import CARRIER_SHARE
-from gazelle.description.posing import posed_model
+from gazelle.description.forward_kinematics import posed_model
 from gazelle.description.sdformat import Release
 from gazelle.diagnostics import Diagnostics
 

@@ -28,7 +28,7 @@ from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
 from gazelle.control.sources.ros_arguments import read_ros_arguments
 from gazelle.control.sources.yaml_file import read_parameter_file
-from gazelle.description.moveit.places import read_yaml
+from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.launch.parameter_places import parameter_places
@@ -38,6 +38,7 @@ from gazelle.documents.yaml import YamlError
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph.names import parse_command_line
 from gazelle.launch.config import LaunchConfig
+from gazelle.launch.ros1.loader import load_launch_text
 from gazelle.launch.ros2.actions.loops import ForEach
 from gazelle.launch.ros2.context import LaunchContext
 from gazelle.launch.ros2.faults import diagnose
@@ -46,7 +47,6 @@ from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.nav2 import RewrittenYaml
 from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterFile, ParameterValue
 from gazelle.launch.ros2.utilities.type_utils import coerce_to_type
-from gazelle.launch.xml1.loader import load_launch_text
 from gazelle.mapping.grids.map_file import read_map_file
 from gazelle.nodes.controller_spawner import controllers_in_file
 from gazelle.nodes.ros_gz.rows import read_file as read_bridge_rows

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from gazelle.description.conversion import Beside, to_sdf, to_urdf
+from gazelle.description.forward_kinematics import posed_model
 from gazelle.description.loader import load_models, load_world
 from gazelle.description.model import Box, Capsule, JointType, MeshShape, Model, World
-from gazelle.description.posing import posed_model
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf import is_mjcf, read_mjcf
 

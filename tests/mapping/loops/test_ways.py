@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
-from gazelle.mapping.loops.way_kernels import shortest_ways
+from gazelle.mapping.loops.shortest_path_kernels import shortest_ways
 
 
 def test_ways_are_those_of_scipy() -> None:

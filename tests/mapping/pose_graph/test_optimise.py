@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.pose_graph.constraints import Edges
 from gazelle.mapping.pose_graph.optimise import optimise, residuals
 from gazelle.mapping.poses import between, compose
-from gazelle.mapping.relations import absolute_error_m
+from gazelle.mapping.relative_pose_error import absolute_error_m
 
 INFORMATION = np.diag([400.0, 400.0, 2500.0])
 
@@ -59,6 +59,6 @@ def test_one_false_loop_closure_does_not_tear_the_map() -> None:
 
 
 def test_no_edges_leave_poses_alone() -> None:
-    from gazelle.mapping.pose_graph.edges import no_edges
+    from gazelle.mapping.pose_graph.constraints import no_edges
 
     np.testing.assert_array_equal(optimise(_circle(5), no_edges()), _circle(5))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from tests.mapping import buildings as b
 
-from gazelle.mapping.relations import absolute_error_m
+from gazelle.mapping.relative_pose_error import absolute_error_m
 from gazelle.mapping.slam import SlamParameters
 
 

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from gazelle.description.forward_kinematics import posed_model
 from gazelle.description.moveit import KinematicsSettings
-from gazelle.description.posing import posed_model
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.motion.kinematics import Patience, Solver, link_poses

@@ -12,8 +12,8 @@ from gazelle.errors import LaunchError
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
 from gazelle.nodes.filters.ekf import config_of, matrix_of
-from gazelle.nodes.filters.flattening import depth_of_image
 from gazelle.nodes.filters.measuring import differential, measure_imu, measure_pose
+from gazelle.nodes.filters.scan_projection import depth_of_image
 
 _SCAN = "sensor_msgs/msg/LaserScan"
 

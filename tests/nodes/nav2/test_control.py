@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.nodes.nav2.trees.node import Status
+from gazelle.nodes.nav2.behavior_trees.node import Status
 
 RUNNING, SUCCESS, FAILURE = Status.RUNNING, Status.SUCCESS, Status.FAILURE
 

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import pytest
 
 from gazelle.interfaces import message_type
-from gazelle.nodes.nav2.trees.node import Status, TreeError
-from gazelle.nodes.nav2.trees.world import Pose2
+from gazelle.nodes.nav2.behavior_trees.node import Status, TreeError
+from gazelle.nodes.nav2.behavior_trees.world import Pose2
 
 RUNNING, SUCCESS, FAILURE = Status.RUNNING, Status.SUCCESS, Status.FAILURE
 

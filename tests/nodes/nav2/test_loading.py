@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.nav2.trees.blackboard import Blackboard
-from gazelle.nodes.nav2.trees.loading import build_tree, parse_trees, read_trees
-from gazelle.nodes.nav2.trees.node import Status
-from gazelle.nodes.nav2.trees.script import ScriptError, check_script, evaluate
+from gazelle.nodes.nav2.behavior_trees.blackboard import Blackboard
+from gazelle.nodes.nav2.behavior_trees.loading import build_tree, parse_trees, read_trees
+from gazelle.nodes.nav2.behavior_trees.node import Status
+from gazelle.nodes.nav2.behavior_trees.script import ScriptError, check_script, evaluate
 
 _SUBTREES = """
 <root BTCPP_format="4" main_tree_to_execute="Main">

@@ -14,9 +14,9 @@ from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces import message_type
 from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.mapper import Mapper
 from gazelle.nodes.slam.options import SlamOptions, options_of
+from gazelle.nodes.slam.ros_packages import FLAVOURS
 from gazelle.parameters.trees import nested
 
 POSES = [(0.1 * k - 1, 0.05 * k - 0.5, 0.05 * k) for k in range(20)]

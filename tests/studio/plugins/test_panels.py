@@ -17,7 +17,7 @@ from tests.studio.page import Page, RefusedError, Stream
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, service_type
 from gazelle.studio import Server, Studio
-from gazelle.studio.plugins import life, shows
+from gazelle.studio.plugins import running_panel, shown_panels
 
 _HEAD = "from gazelle.studio.plugins import *\n\n\n"
 Open = Callable[..., "Shown"]
@@ -239,7 +239,7 @@ def test_a_mistake_in_a_panel_is_shown_where_it_is(
 def test_a_file_is_reloaded_and_says_that_it_changed(
     show: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(shows, "_WATCH_S", 0.05)
+    monkeypatch.setattr(shown_panels, "_WATCH_S", 0.05)
     text = 'class Mine(Panel):\n    widgets = (Label("{}"),)\n\n    def stop(self): ...\n'
     shown = show(text.format("one"))
     assert list(shown.event("state")["values"]) == ["one"]
@@ -261,7 +261,7 @@ def test_a_file_is_reloaded_and_says_that_it_changed(
 def test_a_panel_ends_some_time_after_its_last_page(
     show: Open, graph: Graph, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(shows, "_GRACE_S", 0.2)
+    monkeypatch.setattr(shown_panels, "_GRACE_S", 0.2)
     text = 'class Mine(Panel):\n    widgets = (Label("x"),)\n'
     text += "\n    def start(self, node):\n        self['x'] = node.name\n"
     one, other = show(text), show()
@@ -320,7 +320,7 @@ def test_what_a_page_sends_is_checked(show: Open, server: Server) -> None:
 
 
 def test_a_busy_panel_says_so(show: Open, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(life, "_BUSY_S", 0.1)
+    monkeypatch.setattr(running_panel, "_BUSY_S", 0.1)
     shown = show("""
 import threading
 free = threading.Event()

@@ -19,7 +19,7 @@ from gazelle.geometry import (
     sphere_mass_properties,
 )
 from gazelle.interfaces import message_type
-from gazelle.launch.xml1.loader import load_launch_files
+from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.sensors.picture_overlays import equivalent_box
 from gazelle.workspace import Workspace
 from gazelle.workspace.scaffold import KINDS, ScaffoldError, check_package_name, create_package

@@ -4,6 +4,6 @@ from __future__ import annotations
 
 from gazelle.bridge.foxglove.bridge import FoxgloveBridge
 from gazelle.bridge.foxglove.sdk import SdkViewers
-from gazelle.bridge.foxglove.viewers import Allow
+from gazelle.bridge.foxglove.server_interface import Allow
 
 __all__ = ["Allow", "FoxgloveBridge", "SdkViewers"]

@@ -6,15 +6,15 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.foxglove.assets import read_asset
+from gazelle.bridge.foxglove.client_publishers import Speech
+from gazelle.bridge.foxglove.clock import Pulse
 from gazelle.bridge.foxglove.connections import connections_of
 from gazelle.bridge.foxglove.node_parameters import NodeParameters
 from gazelle.bridge.foxglove.parameters import Parameters
-from gazelle.bridge.foxglove.pulse import Pulse
 from gazelle.bridge.foxglove.schemas import SchemaBook
+from gazelle.bridge.foxglove.server_interface import Allow, Connections, Requests, Viewers
 from gazelle.bridge.foxglove.services import Services
-from gazelle.bridge.foxglove.speech import Speech
 from gazelle.bridge.foxglove.topics import Topics
-from gazelle.bridge.foxglove.viewers import Allow, Connections, Requests, Viewers
 from gazelle.bridge.settling import Settling
 from gazelle.errors import GazelleError
 from gazelle.graph.delivery import Mailbox

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from gazelle.bridge.foxglove.viewers import Connections
+from gazelle.bridge.foxglove.server_interface import Connections
 from gazelle.graph import Entity, Kind
 from gazelle.graph.names import is_hidden
 

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
-from gazelle.bridge.foxglove.viewers import Channel
+from gazelle.bridge.foxglove.server_interface import Channel
 
 if TYPE_CHECKING:
     from gazelle.graph import MessageInfo, Node, RawMessage, Subscription

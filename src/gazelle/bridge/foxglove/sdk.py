@@ -10,14 +10,14 @@ import threading
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
-from gazelle.bridge.foxglove.values import plain_value
-from gazelle.bridge.foxglove.viewers import (
+from gazelle.bridge.foxglove.server_interface import (
     Allow,
     Connections,
     Requests,
     ServiceOffer,
     ServiceSide,
 )
+from gazelle.bridge.foxglove.values import plain_value
 from gazelle.errors import GraphError
 from gazelle.graph.errors import coded
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.foxglove.schemas import SchemaBook
-from gazelle.bridge.foxglove.viewers import ServiceOffer, ServiceSide, Viewers
+from gazelle.bridge.foxglove.server_interface import ServiceOffer, ServiceSide, Viewers
 from gazelle.errors import GazelleError
 from gazelle.graph import Entity, Kind
 from gazelle.graph.names import is_hidden

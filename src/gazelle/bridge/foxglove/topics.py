@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gazelle.bridge.foxglove.feed import Feed, Topic
 from gazelle.bridge.foxglove.schemas import SchemaBook
-from gazelle.bridge.foxglove.viewers import Viewers
+from gazelle.bridge.foxglove.server_interface import Viewers
 from gazelle.graph import ANY_TYPE, Entity, Kind
 from gazelle.graph.names import is_hidden
 

@@ -10,9 +10,9 @@ from gazelle.bag.texts import TextShare
 from gazelle.bridge.mirrors import Mirrors
 from gazelle.bridge.ros1.addresses import Address, MasterAddress
 from gazelle.bridge.ros1.crossing import Crossing
+from gazelle.bridge.ros1.node_proxy import Presence, Wishes
 from gazelle.bridge.ros1.parameter_sync import ParameterSync
 from gazelle.bridge.ros1.peers import MasterPeer, find_master
-from gazelle.bridge.ros1.presence import Presence, Wishes
 from gazelle.bridge.ros1.registry import State
 from gazelle.bridge.ros1.service_types import ServiceTypes
 from gazelle.bridge.ros1.services import call_service

@@ -8,10 +8,10 @@ from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.ros1.addresses import Address
-from gazelle.bridge.ros1.inlet import Inlet, PublisherOf
 from gazelle.bridge.ros1.link import Link
-from gazelle.bridge.ros1.outlet import Offer, Outlet
+from gazelle.bridge.ros1.publisher import Offer, Outlet
 from gazelle.bridge.ros1.services import serve_requests
+from gazelle.bridge.ros1.subscriber import Inlet, PublisherOf
 from gazelle.bridge.ros1.types import ServiceKind
 from gazelle.errors import GazelleError
 from gazelle.graph.errors import ServiceCallError, ServiceRefusedError

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TypeVar
 
 from gazelle.bridge.mirror import Traits
-from gazelle.bridge.ros1.outlet import Offer
-from gazelle.bridge.ros1.presence import Wishes
+from gazelle.bridge.ros1.node_proxy import Wishes
+from gazelle.bridge.ros1.publisher import Offer
 from gazelle.bridge.ros1.registry import State
 from gazelle.bridge.ros1.types import MessageKind, ServiceKind, is_ros2_only, message_kind
 from gazelle.bridge.ros1.types import service_kind as service_kind_of

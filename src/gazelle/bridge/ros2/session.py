@@ -6,12 +6,12 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.bridge.ros2.inward import Inward
+from gazelle.bridge.ros2.from_ros import Inward
 from gazelle.bridge.ros2.kinds import TypeBook
 from gazelle.bridge.ros2.link import Link, Outcome
-from gazelle.bridge.ros2.outward import Outward
 from gazelle.bridge.ros2.side import About, Side
 from gazelle.bridge.ros2.state import NOTHING, RosState
+from gazelle.bridge.ros2.to_ros import Outward
 from gazelle.bridge.ros2.views import wishes_of
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ import sys
 import threading
 
 from gazelle.bridge.foxglove import Allow, FoxgloveBridge, SdkViewers
-from gazelle.bridge.foxglove.viewers import Requests
+from gazelle.bridge.foxglove.server_interface import Requests
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.ending import at_stop_signal
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
+from gazelle.process_exit import at_stop_signal
 from gazelle.workspace import Workspace
 
 __all__ = ["main"]

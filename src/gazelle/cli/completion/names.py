@@ -9,7 +9,7 @@ from gazelle.cli.ros_types import learn_workspace_types, shown_type
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.interfaces import known_types
-from gazelle.launch.xml1.loader import load_launch_files
+from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.node_specs.all_specs import names_of_other_ros
 from gazelle.workspace import Workspace
 

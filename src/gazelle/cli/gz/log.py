@@ -19,7 +19,7 @@ from gazelle.bag.formats import ROS1
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number
 from gazelle.cli.gz.states import MODEL_STATES, STATE_TOPICS, Filter, state_texts
 from gazelle.cli.gz.world_link import WorldLink, world_link
-from gazelle.graph.world import offered_name
+from gazelle.graph.gazebo_names import offered_name
 
 __all__ = ["COMMAND", "run"]
 

@@ -14,7 +14,7 @@ from gazelle.bag import BagError, Encoding, bag_types, open_bag, ros1_name_of
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.gz.world_link import pose_line
-from gazelle.graph.world import world_names
+from gazelle.graph.gazebo_names import world_names
 from gazelle.interfaces import from_cdr, from_ros1
 from gazelle.interfaces.poses import pose_of
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from gazelle.graph import TopicInfo
-from gazelle.graph.world import shown_transport_name
+from gazelle.graph.gazebo_names import shown_transport_name
 
 __all__ = ["contacts_fields", "gazebo_name", "gazebo_type", "transport_topics"]
 

@@ -11,7 +11,7 @@ from gazelle.cli.gz.options import GzError
 from gazelle.cli.tool import joined
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import Graph, Node
-from gazelle.graph.world import SHOWN_SPACE, offered_name
+from gazelle.graph.gazebo_names import SHOWN_SPACE, offered_name
 from gazelle.interfaces import message_type, service_type
 
 __all__ = ["WorldLink", "pose_line", "world_link"]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from gazelle.bag.playing import Controls
 from gazelle.cli.tool import joined
-from gazelle.ending import at_stop_signal
 from gazelle.graph.names import parse_command_line
 from gazelle.nodes.rosbag.play import play, play_options
+from gazelle.process_exit import at_stop_signal
 
 __all__ = ["run"]
 

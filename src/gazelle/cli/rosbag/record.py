@@ -5,9 +5,9 @@ from __future__ import annotations
 import threading
 
 from gazelle.cli.tool import joined
-from gazelle.ending import at_stop_signal
 from gazelle.graph.names import parse_command_line
 from gazelle.nodes.rosbag.record import main_options, record
+from gazelle.process_exit import at_stop_signal
 
 __all__ = ["run"]
 

@@ -6,8 +6,8 @@ from collections.abc import Collection
 
 from gazelle.cli.tool import hint
 from gazelle.graph import Graph, ServiceInfo
+from gazelle.graph.gazebo_names import other_version_hint
 from gazelle.graph.names import is_hidden
-from gazelle.graph.world import other_version_hint
 
 __all__ = ["find_service", "near_services", "service_hint"]
 

@@ -12,7 +12,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError
 from gazelle.folders import ros_home
 from gazelle.launch.config import LaunchConfig
-from gazelle.launch.xml1.loader import load_launch_files
+from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.workspace import Workspace
 
 __all__ = ["main"]

@@ -24,7 +24,7 @@ from gazelle.mapping.logs import (
     write_tum,
 )
 from gazelle.mapping.logs.reading import is_carmen
-from gazelle.mapping.relations import align, read_relations, relation_errors
+from gazelle.mapping.relative_pose_error import align, read_relations, relation_errors
 from gazelle.mapping.slam import Slam, SlamResult
 
 __all__ = ["main"]

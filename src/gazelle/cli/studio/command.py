@@ -8,10 +8,10 @@ import threading
 import webbrowser
 from pathlib import Path
 
-from gazelle.ending import at_stop_signal
 from gazelle.graph import Graph
+from gazelle.process_exit import at_stop_signal
 from gazelle.studio import Server, Studio
-from gazelle.studio.views.presence import offer
+from gazelle.studio.views.page_owner import offer
 
 __all__ = ["main"]
 

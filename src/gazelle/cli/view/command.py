@@ -10,8 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.cli.view.source import find_viewed
+from gazelle.description.forward_kinematics import movable_joints, posed_model
 from gazelle.description.model import World
-from gazelle.description.posing import movable_joints, posed_model
 from gazelle.diagnostics import Diagnostics, nearest_names, render
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
@@ -89,7 +89,7 @@ def _draw(world: World, options: argparse.Namespace, path: Path, diagnostics: Di
     from PIL import Image
 
     from gazelle.sensors.picture import take_picture
-    from gazelle.sensors.warming import warm_up
+    from gazelle.sensors.warm_up import warm_up
 
     try:
         camera = _camera(options)

@@ -12,7 +12,7 @@ from typing import Any
 from gazelle.compat.roslaunch.core import Process, ProcessListener, RLException, start_launch
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
-from gazelle.launch.xml1.loader import load_launch_files
+from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.workspace import Workspace
 
 __all__ = ["ROSLaunchParent"]

@@ -19,7 +19,7 @@ from gazelle.compat.rospy.naming import (
 )
 from gazelle.compat.rospy.state import STATE
 from gazelle.compat.rospy.topics import wait_for_message
-from gazelle.compat.telling import warn_once
+from gazelle.compat.told_once import warn_once
 from gazelle.errors import GraphError
 from gazelle.graph.names import parse_command_line
 

@@ -14,11 +14,11 @@ from types import CodeType, FrameType
 from typing import Any
 
 from gazelle.compat.rospy.errors import ROSException, ROSInitException, ROSInterruptException
-from gazelle.ending import raise_or_end
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Level, Node, offer_loggers
 from gazelle.graph.names import CommandLine, parse_command_line, resolve
 from gazelle.nodes.log_file import keep_log
+from gazelle.process_exit import raise_or_end
 
 __all__ = ["STATE", "NodeState"]
 

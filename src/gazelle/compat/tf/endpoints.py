@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.compat.rospy.state import STATE
-from gazelle.compat.telling import warn_once
 from gazelle.compat.tf.buffer import Buffer
+from gazelle.compat.told_once import warn_once
 from gazelle.graph import Node, Qos
 from gazelle.graph import tf as graph_tf
 

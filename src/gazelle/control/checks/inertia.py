@@ -26,7 +26,7 @@ def joint_inertias(engine: Engine, names: Iterable[str]) -> dict[str, float]:
     Returns:
         kg·m² for turning joints, kg for sliding ones, by name.
     """
-    from gazelle.engine.library import mujoco
+    from gazelle.engine.mujoco_library import mujoco
 
     # Asking for the data builds what was asked for since the last step.
     data = engine.data_with_velocities()

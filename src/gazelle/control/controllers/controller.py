@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from gazelle.control.bank import Indices
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Indices
 from gazelle.control.ports import Ports
 from gazelle.control.robot import JointResource, Robot
 from gazelle.control.table import ControllerTable

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Array, Indices
 from gazelle.control.table import ControllerTable
 from gazelle.parameters import Parameter, ParameterTable, Topic
 

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_error import JointRange
 from gazelle.control.controllers.pid_joint import required_gains
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Array
 from gazelle.control.pid import PidBank, offer_live_gains
 from gazelle.control.pid.reading import gain_rows
 from gazelle.control.table import ControllerTable

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.bank import Indices
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Indices
 from gazelle.control.table import ControllerTable
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import stamped

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_error import shortest_angular_distance
 from gazelle.control.controllers.pid_controller_table import PID_CONTROLLER_TABLE
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Array, Indices
 from gazelle.control.pid import Pid, PidGains, PidStatePort, offer_live_gains, read_gains
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import stamped

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import ControllerContext
+from gazelle.control.interface_values import Array, Indices
 from gazelle.interfaces.poses import set_quat_xyzw, set_xyz
 
 __all__ = [

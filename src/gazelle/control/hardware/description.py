@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, Model, Ros2ControlTag, TransmissionTag
-from gazelle.description.text_place import read_text
+from gazelle.description.text_origin import read_text
 from gazelle.description.urdf.joints import read_joint
 from gazelle.description.urdf.transmissions import read_transmission
 from gazelle.diagnostics import Diagnostics

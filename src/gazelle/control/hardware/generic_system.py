@@ -10,9 +10,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from gazelle.control.bank import InterfaceBank
 from gazelle.control.hardware.ros2_joints import Ros2Mimic
 from gazelle.control.hardware.ros2_tags import HardwareTag, InterfaceTag, PartTag
+from gazelle.control.interface_values import InterfaceBank
 from gazelle.control.robot import JointResource
 
 __all__ = ["GENERIC_PARAMETERS", "GenericSystem"]

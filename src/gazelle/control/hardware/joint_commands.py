@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.control.bank import Array
+from gazelle.control.interface_values import Array
 from gazelle.control.pid import PidBank
 
 if TYPE_CHECKING:

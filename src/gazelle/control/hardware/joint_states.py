@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gazelle.control.bank import Array, InterfaceBank
+from gazelle.control.interface_values import Array, InterfaceBank
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine

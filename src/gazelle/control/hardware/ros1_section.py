@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gazelle.control.bank import Array, InterfaceBank
 from gazelle.control.hardware.angle_error import (
     shortest_angular_distance,
     shortest_angular_distance_with_limits,
@@ -24,6 +23,7 @@ from gazelle.control.hardware.joint_commands import (
 )
 from gazelle.control.hardware.joint_states import JointStates
 from gazelle.control.hardware.ros1_joints import Ros1Joint
+from gazelle.control.interface_values import Array, InterfaceBank
 from gazelle.control.joint_limits_enforcement import EffortLimits, PositionLimits, VelocityLimits
 from gazelle.control.pid import PidBank
 from gazelle.control.robot import JointLimits

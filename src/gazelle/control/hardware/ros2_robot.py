@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from gazelle.control.bank import InterfaceBank
 from gazelle.control.hardware.gazebo_system import GazeboSystem, SystemOptions
 from gazelle.control.hardware.generic_system import GENERIC_PARAMETERS, GenericSystem
 from gazelle.control.hardware.host import HardwareHost
@@ -13,6 +12,7 @@ from gazelle.control.hardware.ros2_joints import read_mimics, read_ros2_joints, 
 from gazelle.control.hardware.ros2_tags import HardwareTag, read_hardware_tags
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates
 from gazelle.control.hardware_lifecycle import HardwareLifecycle
+from gazelle.control.interface_values import InterfaceBank
 from gazelle.control.robot import Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import did_you_mean

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gazelle.control.bank import Array, Indices, InterfaceBank
 from gazelle.control.hardware.joint_commands import (
     EffortWriter,
     FeedbackLaw,
@@ -20,6 +19,7 @@ from gazelle.control.hardware.joint_commands import (
 )
 from gazelle.control.hardware.joint_states import JointStates
 from gazelle.control.hardware.ros2_joints import Ros2Joint
+from gazelle.control.interface_values import Array, Indices, InterfaceBank
 from gazelle.control.pid import PidBank
 
 if TYPE_CHECKING:

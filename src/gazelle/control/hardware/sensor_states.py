@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
-from gazelle.control.bank import InterfaceBank
 from gazelle.control.hardware.ros2_tags import InterfaceTag, PartTag
+from gazelle.control.interface_values import InterfaceBank
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 
 __all__ = [

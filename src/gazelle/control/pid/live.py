@@ -7,9 +7,9 @@ from dataclasses import replace
 from typing import Any
 
 from gazelle.control.controllers.controller import ControllerContext
-from gazelle.control.pid.bank import PidBank
 from gazelle.control.pid.gains import PidGains
 from gazelle.control.pid.pid import Pid
+from gazelle.control.pid.pid_array import PidBank
 from gazelle.control.ports import LiveParameter, LivePort
 
 __all__ = ["offer_live_gains"]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.control.bank import InterfaceBank
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import InterfaceBank
 from gazelle.control.ports import PublisherPort
 from gazelle.control.python_controllers.times import ControlTime
 from gazelle.diagnostics import did_you_mean

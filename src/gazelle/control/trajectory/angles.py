@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.control.bank import Array
+from gazelle.control.interface_values import Array
 
 __all__ = ["shortest_way", "turns_to_nearest", "wrap_in_place"]
 

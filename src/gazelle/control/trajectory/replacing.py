@@ -12,7 +12,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.control.bank import Array
+from gazelle.control.interface_values import Array
 from gazelle.control.trajectory.angles import turns_to_nearest
 from gazelle.control.trajectory.splines import JointState, PieceSampler, quintic, stacked
 from gazelle.control.trajectory.waypoints import Waypoints

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gazelle.control.bank import Array, Indices
+from gazelle.control.interface_values import Array, Indices
 from gazelle.control.trajectory.splines import JointState, PieceSampler, quintic, stacked
 from gazelle.control.trajectory.tolerances import Tolerances
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.control.bank import Array, Indices
+from gazelle.control.interface_values import Array, Indices
 from gazelle.control.trajectory.angles import turns_to_nearest
 from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError
 from gazelle.control.trajectory.segments import Segment, SegmentTrajectory, Track

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.control.bank import Array
+from gazelle.control.interface_values import Array
 
 __all__ = ["JointState", "PieceSampler", "quintic", "stacked"]
 

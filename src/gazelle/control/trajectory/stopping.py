@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from gazelle.control.bank import Array
+from gazelle.control.interface_values import Array
 from gazelle.control.trajectory.splines import JointState
 from gazelle.control.trajectory.waypoints import Waypoints
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.control.bank import Array, Indices
+from gazelle.control.interface_values import Array, Indices
 from gazelle.interfaces.stamps import seconds_of
 
 __all__ = ["ToleranceError", "Tolerances", "goal_tolerances", "violated"]

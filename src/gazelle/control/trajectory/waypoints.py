@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.bank import Array, Indices
+from gazelle.control.interface_values import Array, Indices
 from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError
 from gazelle.control.trajectory.splines import JointState
 from gazelle.interfaces.stamps import ns_of

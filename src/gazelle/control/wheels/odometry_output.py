@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Array
 from gazelle.control.wheels.odometry import PlanarOdometry, PlanarPose
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.control.bank import Array
+from gazelle.control.interface_values import Array
 from gazelle.control.wheels.mecanum import PlanarTwist
 
 __all__ = ["OmniDrive"]

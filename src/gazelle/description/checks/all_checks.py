@@ -18,7 +18,7 @@ from gazelle.description.checks.overlaps import check_overlaps
 from gazelle.description.checks.preserved import check_preserved
 from gazelle.description.checks.roots import check_root
 from gazelle.description.checks.sizes import check_sizes
-from gazelle.description.checks.stance import check_stance
+from gazelle.description.checks.support_plane import check_stance
 from gazelle.description.checks.surfaces import check_surfaces
 from gazelle.description.checks.wheel_shapes import check_wheel_shapes
 from gazelle.description.checks.wheels import check_wheels

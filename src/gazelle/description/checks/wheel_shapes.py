@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.description.checks.rolling import wheels_of
+from gazelle.description.checks.wheel_axles import wheels_of
 from gazelle.description.model import Box, Model
 from gazelle.diagnostics import Diagnostics
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.checks.bodies import fixed_groups
-from gazelle.description.checks.rolling import Wheel, axis_in_model, wheels_of
+from gazelle.description.checks.wheel_axles import Wheel, axis_in_model, wheels_of
 from gazelle.description.model import Cylinder, Joint, JointType, Link, Model
 from gazelle.diagnostics import Diagnostics, Severity
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from gazelle.description.moveit.places import read_yaml
+from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.documents.names import is_file, is_folder
 from gazelle.workspace import Workspace

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import CameraSpec, LensDistortion
-from gazelle.description.sdf.noises import read_noise
+from gazelle.description.sdf.noise import read_noise
 from gazelle.description.sdf.poses import pose_of
 from gazelle.description.sdf.values import child_float, child_int, optional_float, optional_int
 from gazelle.description.xml import Tag, floats_from

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gazelle.description.context import ReadContext
 from gazelle.description.model import LidarSpec
-from gazelle.description.sdf.noises import read_noise
+from gazelle.description.sdf.noise import read_noise
 from gazelle.description.sdf.values import child_float, child_int
 from gazelle.description.xml import Tag
 

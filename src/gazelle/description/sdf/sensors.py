@@ -22,7 +22,7 @@ from gazelle.description.model import (
 )
 from gazelle.description.sdf.cameras import read_camera, read_multicamera
 from gazelle.description.sdf.lidars import read_lidar
-from gazelle.description.sdf.noises import read_axis_noises, read_noise, read_noise_of
+from gazelle.description.sdf.noise import read_axis_noises, read_noise, read_noise_of
 from gazelle.description.sdf.plugins import read_plugins
 from gazelle.description.sdf.poses import pose_of
 from gazelle.description.sdf.values import child_bool, child_float, child_vector3, name_of

@@ -14,7 +14,7 @@ from gazelle.description.srdf.groups import read_groups
 from gazelle.description.srdf.model import EndEffector, Srdf, VirtualJoint, VirtualJointType
 from gazelle.description.srdf.names import Names
 from gazelle.description.srdf.states import read_states
-from gazelle.description.text_place import read_text
+from gazelle.description.text_origin import read_text
 from gazelle.description.urdf.attributes import check_vocabulary
 from gazelle.description.xml import Tag, attribute_span, read_xml
 from gazelle.diagnostics import Diagnostics, did_you_mean

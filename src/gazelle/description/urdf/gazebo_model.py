@@ -8,6 +8,7 @@ from dataclasses import replace
 from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, Link, Model, PluginTag
 from gazelle.description.sdf.plugins import read_plugin
+from gazelle.description.urdf.contact_sensors import with_watched_collisions
 from gazelle.description.urdf.gazebo_joints import apply_to_joint
 from gazelle.description.urdf.gazebo_links import apply_to_link
 from gazelle.description.urdf.gazebo_values import (
@@ -16,7 +17,6 @@ from gazelle.description.urdf.gazebo_values import (
     report_unknown,
 )
 from gazelle.description.urdf.insertions import INSERTED_WORDS
-from gazelle.description.urdf.watching import with_watched_collisions
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import did_you_mean
 

@@ -8,7 +8,7 @@ from gazelle.description.context import ReadContext
 from gazelle.description.materials import GAZEBO_MATERIAL_NAMES, gazebo_material
 from gazelle.description.model import Link, Material, Visual
 from gazelle.description.sdf.checking import report_plugin_of
-from gazelle.description.sdf.looks import read_material
+from gazelle.description.sdf.materials import read_material
 from gazelle.description.urdf.gazebo_values import (
     bool_value,
     float_value,

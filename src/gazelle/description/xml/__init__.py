@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.description.xml.numbers import bool_from, float_from, floats_from, int_from
-from gazelle.description.xml.places import (
+from gazelle.description.xml.positions import (
     attribute_holding,
     attribute_span,
     text_span,

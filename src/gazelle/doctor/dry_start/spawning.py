@@ -10,8 +10,8 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.dry_start.records import Program
 from gazelle.errors import GazelleError
+from gazelle.graph.gazebo_names import world_names
 from gazelle.graph.names import is_hidden, remap, resolve
-from gazelle.graph.world import world_names
 from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.spawn_model import spawn_model
 

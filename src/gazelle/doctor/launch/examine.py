@@ -28,7 +28,7 @@ from gazelle.doctor.simulated import simulation_sections
 from gazelle.doctor.text_files import texts_known
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.executables import Executable, find_executable
-from gazelle.launch.xml1.loader import load_launch_files
+from gazelle.launch.ros1.loader import load_launch_files
 
 __all__ = ["examine_launch"]
 

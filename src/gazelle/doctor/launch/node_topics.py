@@ -11,8 +11,8 @@ from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
 from gazelle.doctor.launch.script_reading import read_script
 from gazelle.graph.names import resolve
 from gazelle.node_specs.all_specs import node_specs
-from gazelle.node_specs.elsewhere import what_it_sends
-from gazelle.node_specs.elsewhere_rows import Sends
+from gazelle.node_specs.unavailable_package_rows import Sends
+from gazelle.node_specs.unavailable_packages import what_it_sends
 
 __all__ = ["KnownNode", "NodeTopics", "topics_of"]
 

@@ -11,10 +11,10 @@ from gazelle.description.conversion.plain_names import free_name
 from gazelle.description.conversion.single_axes import carried
 from gazelle.description.model import Inertial, Joint, JointAxis, JointType, Link
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import mujoco
 from gazelle.engine.mjcf.compiled import CompiledMjcf, pose_from
 from gazelle.engine.mjcf.efforts import effort_limits
 from gazelle.engine.mjcf.geoms import GeomReader
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.geometry import IDENTITY_POSE, Pose
 
 __all__ = ["BodyReader"]

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from gazelle.description.conversion.plain_names import free_name
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import compiled, drained_warnings, keep_warnings, mujoco
 from gazelle.engine.mjcf.sources import MjcfSource, read_source
+from gazelle.engine.mujoco_library import compiled, drained_warnings, keep_warnings, mujoco
 from gazelle.geometry import Pose
 
 __all__ = ["CompiledMjcf", "compiled_mjcf", "pose_from"]

@@ -11,8 +11,8 @@ import numpy as np
 from gazelle.description.conversion.plain_names import free_name, part_names
 from gazelle.description.model import Joint, JointType, Mimic, Model
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import mujoco
 from gazelle.engine.mjcf.compiled import CompiledMjcf
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.geometry import Pose
 
 __all__ = ["add_constraints"]

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.engine.library import mujoco
+from gazelle.engine.mujoco_library import mujoco
 
 __all__ = ["effort_limits"]
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from gazelle.engine.library import mujoco
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.errors import EngineError
 
 __all__ = ["exact_xml"]

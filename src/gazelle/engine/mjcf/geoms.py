@@ -23,8 +23,8 @@ from gazelle.description.model import (
     Visual,
 )
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import mujoco
 from gazelle.engine.mjcf.compiled import CompiledMjcf, pose_from
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.geometry import MESH_SUFFIXES, Pose
 
 __all__ = ["GeomReader"]

@@ -16,7 +16,7 @@ from gazelle.engine.mjcf.compiled import CompiledMjcf, compiled_mjcf
 from gazelle.engine.mjcf.constraints import add_constraints
 from gazelle.engine.mjcf.geoms import GeomReader
 from gazelle.engine.mjcf.sources import is_mjcf
-from gazelle.engine.mjcf.unsaid import report_unsaid
+from gazelle.engine.mjcf.unsupported_elements import report_unsaid
 from gazelle.geometry import IDENTITY_POSE
 
 __all__ = ["is_mjcf", "read_mjcf"]

@@ -14,13 +14,13 @@ from gazelle.description.model import Model, World
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.compiler import Assembly, Compiled, assemble_world, compile_assembly
-from gazelle.engine.library import mujoco
 from gazelle.engine.mjcf.exact import exact_xml
-from gazelle.engine.mjcf.looks import Looks
+from gazelle.engine.mjcf.visuals import Looks
 from gazelle.engine.mjcf.wavefront import obj_bytes
-from gazelle.engine.names import root_joint
+from gazelle.engine.mujoco_library import mujoco
+from gazelle.engine.scoped_names import root_joint
 from gazelle.engine.state import initial_data
-from gazelle.engine.tyres import described_slips
+from gazelle.engine.wheel_slip import described_slips
 from gazelle.errors import EngineError
 
 __all__ = ["to_mjcf"]

@@ -9,13 +9,13 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
+from gazelle.graph.actions.client_events import News
 from gazelle.graph.actions.client_goal import ClientGoal
-from gazelle.graph.actions.news import News
 from gazelle.graph.actions.states import Ros2Status
 from gazelle.graph.actions.types import ActionTypes
 from gazelle.graph.in_flight import CallsInFlight
 from gazelle.graph.keys import Kind
-from gazelle.graph.turns import Turn, Turns
+from gazelle.graph.ordered_requests import Turn, Turns
 from gazelle.interfaces.stamps import set_stamp
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.graph.actions.goal import ServerGoal
 from gazelle.graph.actions.states import Ros2Status
 from gazelle.graph.errors import ServiceRefusedError
-from gazelle.graph.turns import InTurn
+from gazelle.graph.ordered_requests import InTurn
 from gazelle.interfaces.stamps import ns_of, set_stamp
 
 if TYPE_CHECKING:

@@ -11,10 +11,10 @@ from collections.abc import Callable, Coroutine, Generator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.ending import interrupts_held
 from gazelle.launch.environment import is_own_command
 from gazelle.launch.guard import Guard
-from gazelle.parent import PARENT_VARIABLE
+from gazelle.parent_process import PARENT_VARIABLE
+from gazelle.process_exit import interrupts_held
 
 __all__ = ["ChildProcess", "Guarded", "start_child"]
 

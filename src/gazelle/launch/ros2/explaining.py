@@ -18,7 +18,7 @@ from gazelle.launch.ros2.failing import kept_explanation
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.place import is_the_users
 from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
-from gazelle.node_specs.elsewhere import replacement_of
+from gazelle.node_specs.unavailable_packages import replacement_of
 from gazelle.workspace.ament_index import PackageNotFoundError
 
 __all__ = ["Explained", "explain", "explain_yaml"]

@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.pose_graph.edges import Edges
+from gazelle.mapping.pose_graph.constraints import Edges
 from gazelle.mapping.pose_graph.information import doubtful
-from gazelle.mapping.pose_graph.pattern import Pattern, pattern_of
 from gazelle.mapping.pose_graph.settings import GraphSettings
+from gazelle.mapping.pose_graph.sparsity import Pattern, pattern_of
 from gazelle.mapping.poses import Poses, wrap_angle
 
 __all__ = ["Residuals", "optimise", "residuals"]

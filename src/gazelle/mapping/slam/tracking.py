@@ -14,8 +14,8 @@ from gazelle.mapping.matching.match import Match, Prior, match, refined
 from gazelle.mapping.poses import Poses, between, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters
+from gazelle.mapping.slam.pose_selection import surroundings, weighed
 from gazelle.mapping.slam.settings import JumpSettings
-from gazelle.mapping.slam.weighing import surroundings, weighed
 
 __all__ = ["Tracker", "is_jump", "motion_information"]
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import mujoco
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.motion.collision.building import (
     CollisionBody,
     CollisionModel,

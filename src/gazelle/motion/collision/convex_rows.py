@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engine.library import mujoco
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.geometry import convex_hull
 from gazelle.motion.collision.gjk_kernels import (
     BOX,

@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.description.model import Collision
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library import mujoco
+from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.shapes import GeomShape, geom_shapes
 from gazelle.geometry import Mesh, MeshError, MeshPart, Pose, convex_hull, convex_parts
 from gazelle.motion.model import RobotModel

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from gazelle.navigation.controllers.mppi import MppiController
 from gazelle.navigation.controllers.mppi_options import MppiOptions
-from gazelle.navigation.controllers.names import (
-    CONTROLLERS,
-    REFUSED_CONTROLLERS,
-    ControllerKind,
-    ControllerSetting,
-)
 from gazelle.navigation.controllers.options import (
     DwaOptions,
     DwbOptions,
     TrajectoryPlannerOptions,
 )
-from gazelle.navigation.controllers.pursuit import PursuitController
-from gazelle.navigation.controllers.pursuit_options import PursuitOptions
+from gazelle.navigation.controllers.registry import (
+    CONTROLLERS,
+    REFUSED_CONTROLLERS,
+    ControllerKind,
+    ControllerSetting,
+)
+from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController
+from gazelle.navigation.controllers.regulated_pure_pursuit_options import PursuitOptions
 from gazelle.navigation.controllers.sampling import SamplingController
 from gazelle.navigation.controllers.state import (
     Command,

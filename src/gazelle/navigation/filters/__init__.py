@@ -9,8 +9,13 @@ from gazelle.navigation.filters.chain import (
     ScanFilter,
     apply_chain,
 )
-from gazelle.navigation.filters.flatten import CloudSlice, FlatScan, scan_of_depth, scan_of_points
 from gazelle.navigation.filters.record import ScanArrays
+from gazelle.navigation.filters.scan_projection import (
+    CloudSlice,
+    FlatScan,
+    scan_of_depth,
+    scan_of_points,
+)
 
 __all__ = [
     "FILTERS",

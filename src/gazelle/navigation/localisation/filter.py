@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.scans import Scan
+from gazelle.navigation.localisation.beam_refinement import Refiner
 from gazelle.navigation.localisation.clusters import best_cluster, statistics
 from gazelle.navigation.localisation.field import LikelihoodMap
+from gazelle.navigation.localisation.global_localisation import chances_of, places_like
 from gazelle.navigation.localisation.motion import moved
 from gazelle.navigation.localisation.options import AmclOptions
-from gazelle.navigation.localisation.refining import Refiner
-from gazelle.navigation.localisation.searching import chances_of, places_like
 from gazelle.navigation.localisation.sensor import Beams, ScanModel, chosen_beams
 
 __all__ = ["Amcl", "Estimate"]

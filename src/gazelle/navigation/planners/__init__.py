@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from gazelle.navigation.planners.kind import PlannerKind, PlannerOptions
-from gazelle.navigation.planners.names import PLANNERS, REFUSED_PLANNERS
 from gazelle.navigation.planners.options import (
     GlobalPlannerOptions,
     Nav2NavfnOptions,
@@ -12,7 +10,9 @@ from gazelle.navigation.planners.options import (
     ThetaStarOptions,
 )
 from gazelle.navigation.planners.plan import NoPlan, Plan, PlanFailure
+from gazelle.navigation.planners.planner import PlannerKind, PlannerOptions
 from gazelle.navigation.planners.planning import make_plan
+from gazelle.navigation.planners.registry import PLANNERS, REFUSED_PLANNERS
 
 __all__ = [
     "PLANNERS",

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.planners.kind import Facing
+from gazelle.navigation.planners.planner import Facing
 
 __all__ = ["directed"]
 

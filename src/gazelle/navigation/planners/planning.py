@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from gazelle.navigation.costmap.grid import FREE, LETHAL, CostGrid
 from gazelle.navigation.planners.directions import directed
-from gazelle.navigation.planners.kind import PlannerOptions, Search
-from gazelle.navigation.planners.names import kind_of
 from gazelle.navigation.planners.plan import NoPlan, Plan
+from gazelle.navigation.planners.planner import PlannerOptions, Search
 from gazelle.navigation.planners.refusal import refuse_ends, why_no_path
+from gazelle.navigation.planners.registry import kind_of
 
 __all__ = ["make_plan"]
 

@@ -7,7 +7,12 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.planners.kind import Route, Search
+from gazelle.navigation.planners.cost_tables import (
+    global_planner_table,
+    navfn_table,
+    smac_table,
+    theta_table,
+)
 from gazelle.navigation.planners.options import (
     GlobalPlannerOptions,
     Nav2NavfnOptions,
@@ -15,12 +20,7 @@ from gazelle.navigation.planners.options import (
     Smac2DOptions,
     ThetaStarOptions,
 )
-from gazelle.navigation.planners.tables import (
-    global_planner_table,
-    navfn_table,
-    smac_table,
-    theta_table,
-)
+from gazelle.navigation.planners.planner import Route, Search
 
 __all__ = ["any_angle", "global_planner", "nav2_navfn", "navfn", "smac_2d"]
 

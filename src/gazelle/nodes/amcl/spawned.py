@@ -6,7 +6,7 @@ import math
 import re
 from typing import TYPE_CHECKING, Any
 
-from gazelle.graph.world import world_names
+from gazelle.graph.gazebo_names import world_names
 from gazelle.interfaces.poses import unit_pose_of
 from gazelle.nodes.navigation.frames import PlanePose
 

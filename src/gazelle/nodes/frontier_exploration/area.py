@@ -15,9 +15,9 @@ from gazelle.mapping.frontiers import Frontier, find_frontiers
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.costmap import CostGrid, ObstacleLayer, occupancy_of_costs
 from gazelle.nodes.frontier_exploration.tables import BOUNDED_EXPLORE, LAYER_TYPE
-from gazelle.nodes.navigation.assembling import assemble
+from gazelle.nodes.navigation.costmap_setup import assemble
 from gazelle.nodes.navigation.frames import Frames, PlanePose
-from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.live_costmap import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
 from gazelle.nodes.parameter_reading import node_reader
 

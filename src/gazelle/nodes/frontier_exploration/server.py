@@ -27,7 +27,7 @@ from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.parameters.reader import ParameterReader
 
 if TYPE_CHECKING:
-    from gazelle.nodes.navigation.live import LiveCostmap
+    from gazelle.nodes.navigation.live_costmap import LiveCostmap
 
 __all__ = ["run"]
 

@@ -16,7 +16,7 @@ from gazelle.nodes.move_base.executive import Plan, Trigger
 from gazelle.nodes.move_base.local import LocalPlanner
 from gazelle.nodes.move_base.recoveries import Behaviour, Surroundings
 from gazelle.nodes.navigation.frames import PlanePose
-from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.live_costmap import LiveCostmap
 from gazelle.nodes.navigation.single_goal import SingleGoal
 
 if TYPE_CHECKING:

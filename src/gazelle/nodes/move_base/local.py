@@ -21,7 +21,7 @@ from gazelle.navigation.controllers import (
 )
 from gazelle.nodes.move_base.planner import short_name
 from gazelle.nodes.navigation.frames import PlanePose, path_message
-from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.live_costmap import LiveCostmap
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable

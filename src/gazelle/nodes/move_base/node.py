@@ -25,9 +25,9 @@ from gazelle.nodes.move_base.planner import GlobalPlanner
 from gazelle.nodes.move_base.recoveries import make_behaviours
 from gazelle.nodes.move_base.services import Services
 from gazelle.nodes.move_base.tables import MOVE_BASE
-from gazelle.nodes.navigation.assembling import INHERITED, assemble
+from gazelle.nodes.navigation.costmap_setup import INHERITED, assemble
 from gazelle.nodes.navigation.frames import Frames, PlanePose
-from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.live_costmap import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
 from gazelle.nodes.navigation.reconfigure import offer
 from gazelle.nodes.navigation.single_goal import SingleGoal

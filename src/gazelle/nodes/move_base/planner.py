@@ -11,7 +11,7 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import unit_pose_of
 from gazelle.navigation.planners import PLANNERS, REFUSED_PLANNERS, NoPlan, Plan, make_plan
 from gazelle.nodes.navigation.frames import PlanePose, path_message
-from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.live_costmap import LiveCostmap
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.options import table_of

@@ -10,7 +10,7 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.navigation.costmap import footprint_cost
 from gazelle.nodes.move_base.tables import CLEAR, ROTATE, SLOW
-from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.live_costmap import LiveCostmap
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters.reader import ParameterReader
 

@@ -9,7 +9,7 @@ from gazelle.graph import ServiceRefusedError
 from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import unit_pose_of
 from gazelle.nodes.move_base.planner import GlobalPlanner
-from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.live_costmap import LiveCostmap
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.parameters.reader import ParameterReader
 

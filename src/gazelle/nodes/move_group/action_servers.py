@@ -13,7 +13,7 @@ from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.execution import ExecutionStatus
 from gazelle.nodes.move_group.goals import Goal
-from gazelle.nodes.move_group.moving import Attempt, Mover
+from gazelle.nodes.move_group.plan_and_execute import Attempt, Mover
 
 __all__ = ["OneAtATime", "offer_execute_action", "offer_move_action"]
 

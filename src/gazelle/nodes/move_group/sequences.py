@@ -18,8 +18,8 @@ from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.action_servers import OneAtATime
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
-from gazelle.nodes.move_group.moving import Attempt, Mover
 from gazelle.nodes.move_group.pilz_pipeline import PILZ
+from gazelle.nodes.move_group.plan_and_execute import Attempt, Mover
 from gazelle.nodes.move_group.planning import Planned
 from gazelle.nodes.move_group.planning_pipeline import PlanningPipeline, SequenceJob
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state

@@ -17,8 +17,8 @@ from gazelle.navigation.costmap import CostGrid, Footprint, footprint_cost
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.costmaps import grid_of_costmap
+from gazelle.nodes.nav2.footprints import outline_in_base
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
-from gazelle.nodes.nav2.outlines import outline_in_base
 from gazelle.nodes.nav2.tables import BEHAVIOR_SERVER
 from gazelle.nodes.navigation.frames import Frames, PlanePose
 from gazelle.nodes.navigation.single_goal import SingleGoal

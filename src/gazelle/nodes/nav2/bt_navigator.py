@@ -18,13 +18,13 @@ from gazelle.interfaces import action_type, message_type
 from gazelle.interfaces.poses import set_plane_pose
 from gazelle.interfaces.stamps import set_header, set_stamp
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.nav2.behavior_trees.blackboard import Blackboard
+from gazelle.nodes.nav2.behavior_trees.loading import TreeFile, build_tree, read_trees
+from gazelle.nodes.nav2.behavior_trees.messages import path_length_m, plane_pose
+from gazelle.nodes.nav2.behavior_trees.node import Status, TreeNode
 from gazelle.nodes.nav2.graph_world import GraphWorld
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.tables import BT_NAVIGATOR
-from gazelle.nodes.nav2.trees.blackboard import Blackboard
-from gazelle.nodes.nav2.trees.loading import TreeFile, build_tree, read_trees
-from gazelle.nodes.nav2.trees.messages import path_length_m, plane_pose
-from gazelle.nodes.nav2.trees.node import Status, TreeNode
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.single_goal import SingleGoal

@@ -17,8 +17,8 @@ from gazelle.nodes.nav2.collision.sources import Source, WorldFrames
 from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
 from gazelle.nodes.nav2.collision.zones import Action, Points, Velocity, Verdict, Zone, guarded
 from gazelle.nodes.nav2.commands import VelocityOutput
+from gazelle.nodes.nav2.footprints import outline_in_base
 from gazelle.nodes.nav2.managed_server import ServerSetup, run_server
-from gazelle.nodes.nav2.outlines import outline_in_base
 from gazelle.nodes.nav2.starting import offer_parameters
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.parameter_reading import node_reader

@@ -24,7 +24,7 @@ from gazelle.navigation.controllers import (
     RobotState,
 )
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.checking import (
+from gazelle.nodes.nav2.checkers import (
     GoalChecker,
     ProgressChecker,
     goal_checker,

@@ -14,9 +14,9 @@ from gazelle.interfaces import service_type
 from gazelle.navigation.costmap import CostGrid
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.starting import offer_parameters, tree_of_node
-from gazelle.nodes.navigation.assembling import assemble
+from gazelle.nodes.navigation.costmap_setup import assemble
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.navigation.live import LiveCostmap
+from gazelle.nodes.navigation.live_costmap import LiveCostmap
 from gazelle.nodes.navigation.publishing import CostmapPublisher
 from gazelle.nodes.ros2_console import print_ros2
 

@@ -10,7 +10,7 @@ from gazelle.errors import GazelleError
 from gazelle.graph import Qos
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.interfaces import message_type, service_type
-from gazelle.nodes.nav2.trees.world import Pose2
+from gazelle.nodes.nav2.behavior_trees.world import Pose2
 from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.odometry import Odometry
 
@@ -24,7 +24,7 @@ _SERVICE_S = 10.0
 
 
 class GraphWorld:
-    """What the leaves of trees ask for; see `gazelle.nodes.nav2.trees.world.World`."""
+    """What the leaves of trees ask for; see `gazelle.nodes.nav2.behavior_trees.world.World`."""
 
     def __init__(
         self,

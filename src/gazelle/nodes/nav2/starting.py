@@ -11,7 +11,7 @@ from gazelle.graph.node_parameters import NodeParameters
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.parameters import node_parameters, start_node
-from gazelle.nodes.ros2_words import file_params
+from gazelle.nodes.ros2_arguments import file_params
 from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = ["offer_parameters", "serve", "start", "tree_of_node"]

@@ -12,9 +12,9 @@ from gazelle.nodes.move_base.local import local_planner_tables
 from gazelle.nodes.move_base.planner import planner_tables
 from gazelle.nodes.move_base.tables import CLEAR, MOVE_BASE, ROTATE, SLOW
 from gazelle.nodes.nav2 import tables as nav2
+from gazelle.nodes.nav2.behavior_trees.loading import NODE_TYPES
 from gazelle.nodes.nav2.collision.tables import BAND, COLLISION_MONITOR, SOURCE, ZONE
-from gazelle.nodes.nav2.trees.loading import NODE_TYPES
-from gazelle.nodes.navigation.assembling import COSTMAP_TABLES
+from gazelle.nodes.navigation.costmap_setup import COSTMAP_TABLES
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.markdown import table_section
 

@@ -13,7 +13,7 @@ from typing import Any
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
-from gazelle.graph.world import first_there, offered_name, world_names
+from gazelle.graph.gazebo_names import first_there, offered_name, world_names
 from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import set_pose
 from gazelle.nodes.arguments import NodeArguments

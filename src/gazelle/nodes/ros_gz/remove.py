@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
-from gazelle.graph.world import offered_name
+from gazelle.graph.gazebo_names import offered_name
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameter_reading import private_parameters

@@ -8,7 +8,7 @@ from typing import Any
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GraphError
 from gazelle.graph import Node
-from gazelle.graph.world import SHOWN_SPACE, offered_name
+from gazelle.graph.gazebo_names import SHOWN_SPACE, offered_name
 from gazelle.interfaces import service_type
 from gazelle.nodes.ros_gz.rows import ServiceRow
 

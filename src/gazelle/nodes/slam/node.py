@@ -14,7 +14,7 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import service_type
 from gazelle.mapping.poses import Poses
-from gazelle.mapping.slam.warming import warm_up
+from gazelle.mapping.slam.warm_up import warm_up
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.gflags import Kind, read_flags
@@ -22,10 +22,10 @@ from gazelle.nodes.map_server.messages import message_of_grid
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import parameter_tree, start_node, ticks
 from gazelle.nodes.slam.explore import run_explore
-from gazelle.nodes.slam.flavours import FLAVOURS
 from gazelle.nodes.slam.lua.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.mapper import Mapper
 from gazelle.nodes.slam.options import Flavour, SlamOptions, options_of
+from gazelle.nodes.slam.ros_packages import FLAVOURS
 from gazelle.nodes.slam.toolbox import ToolboxServices
 from gazelle.parameters.trees import nested
 from gazelle.workspace.ament_index import known_workspace

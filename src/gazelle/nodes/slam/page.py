@@ -6,7 +6,7 @@ import sys
 
 from gazelle.nodes.frontier_exploration.tables import BOUNDED_EXPLORE, EXPLORE_SERVER
 from gazelle.nodes.slam.explore import EXPLORE
-from gazelle.nodes.slam.flavours import FLAVOURS
+from gazelle.nodes.slam.ros_packages import FLAVOURS
 from gazelle.parameters.markdown import table_section
 
 __all__ = ["page"]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.graph.world import SHOWN_SPACE, world_space
+from gazelle.graph.gazebo_names import SHOWN_SPACE, world_space
 from gazelle.simulator.gazebo_ros.entities import Entities
 from gazelle.simulator.gazebo_ros.joint_services import JointServices
 from gazelle.simulator.gazebo_ros.light_services import LightServices

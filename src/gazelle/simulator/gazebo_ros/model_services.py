@@ -10,7 +10,7 @@ from gazelle.errors import EngineError
 from gazelle.interfaces.poses import pose_message, pose_of, twist_message
 from gazelle.interfaces.stamps import header
 from gazelle.simulator.gazebo_ros.entities import Entities, Entity, Row
-from gazelle.simulator.rebuilding import is_fixed
+from gazelle.simulator.model_rebuild import is_fixed
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gazelle.graph.world import SHOWN_SPACE
+from gazelle.graph.gazebo_names import SHOWN_SPACE
 from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.errors import GazelleError, UserFileError
 from gazelle.interfaces.poses import pose_of
+from gazelle.simulator.description_sources import models_from
 from gazelle.simulator.gazebo_ros.entities import Entities, Row
-from gazelle.simulator.sources import models_from
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer

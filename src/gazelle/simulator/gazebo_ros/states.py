@@ -11,8 +11,8 @@ from gazelle.graph.clock_sharing import share_clock
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import pose_message, twist_message
 from gazelle.interfaces.stamps import stamp_message
-from gazelle.simulator.pace import Mode
 from gazelle.simulator.plugins.context import join_names
+from gazelle.simulator.real_time_pacing import Mode
 from gazelle.simulator.scheduler import ORDER_CLOCK, ORDER_STATE, period_in_steps
 
 if TYPE_CHECKING:

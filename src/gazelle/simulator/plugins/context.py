@@ -29,8 +29,8 @@ from gazelle.simulator.scheduler import (
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine
+    from gazelle.simulator.camera_frames import FrameWorker
     from gazelle.simulator.control_registry import ControlRegistry
-    from gazelle.simulator.frames import FrameWorker
     from gazelle.simulator.sensor_set import SensorSet
     from gazelle.workspace import Workspace
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from gazelle.description.model import ContactSpec
-from gazelle.graph.world import hidden_transport_name
+from gazelle.graph.gazebo_names import hidden_transport_name
 from gazelle.simulator.plugins.bumper import transport_contacts_message
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.stream import publish_at, sensor_period

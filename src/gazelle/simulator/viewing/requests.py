@@ -12,7 +12,7 @@ from gazelle.diagnostics.nearest import nearest_names
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.geometry import Pose
 from gazelle.simulator.inputs import InputRefusedError, Limit
-from gazelle.simulator.pace import Mode
+from gazelle.simulator.real_time_pacing import Mode
 from gazelle.simulator.viewing.fields import Fields
 from gazelle.simulator.viewing.joint_control import Gains, JointControl
 from gazelle.simulator.viewing.properties import (

@@ -9,7 +9,7 @@ from gazelle.studio.files import Answer
 from gazelle.studio.params import Params
 from gazelle.studio.plugins.rqt.manifests import rqt_plugins
 from gazelle.studio.plugins.rqt.porting import PortedPlugin, how_to_port
-from gazelle.studio.plugins.shows import Desk
+from gazelle.studio.plugins.shown_panels import Desk
 from gazelle.studio.plugins.sources import Source
 from gazelle.studio.streams import Channel, OpenStream
 from gazelle.workspace import Workspace

@@ -10,7 +10,7 @@ from gazelle.studio.plugins.requests import (
     reload_panel,
     take_event,
 )
-from gazelle.studio.plugins.shows import Desk
+from gazelle.studio.plugins.shown_panels import Desk
 from gazelle.studio.rows import Method, Route, methods_without
 from gazelle.studio.streams import StreamKind
 

@@ -13,7 +13,7 @@ from gazelle.nodes import joint_state_publisher as joints
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.turtlesim import simulator
 from gazelle.parameters.coercion import flag_of
-from gazelle.studio.views.presence import SERVICE, Request, is_switched_off, present, say
+from gazelle.studio.views.page_owner import SERVICE, Request, is_switched_off, present, say
 
 __all__ = ["joint_state_publisher", "joint_state_publisher_gui", "turtlesim"]
 

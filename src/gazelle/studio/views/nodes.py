@@ -23,7 +23,7 @@ from typing import Any
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
-from gazelle.studio.views.presence import Request, is_switched_off, present, say
+from gazelle.studio.views.page_owner import Request, is_switched_off, present, say
 
 __all__ = ["gzclient", "image_view", "rqt", "rqt_bag", "rqt_plot", "run_view", "rviz"]
 

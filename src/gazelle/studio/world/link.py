@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.graph import Node
-from gazelle.graph.world import SHOWN_SPACE, offered_name
+from gazelle.graph.gazebo_names import SHOWN_SPACE, offered_name
 from gazelle.interfaces import message_type
 from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.services import request_response

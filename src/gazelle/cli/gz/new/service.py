@@ -16,8 +16,8 @@ from gazelle.cli.processes import Processes
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import ServiceInfo
+from gazelle.graph.gazebo_names import offered_name
 from gazelle.graph.names import is_hidden
-from gazelle.graph.world import offered_name
 from gazelle.interfaces import service_type, to_plain
 
 __all__ = ["COMMAND", "run"]

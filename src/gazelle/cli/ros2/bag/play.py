@@ -12,8 +12,8 @@ from gazelle.bag.playing.keyboard import keyboard
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.ros2.bag.speaking import say
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.ending import at_stop_signal
 from gazelle.graph import Graph
+from gazelle.process_exit import at_stop_signal
 
 __all__ = ["main"]
 

@@ -16,9 +16,9 @@ from gazelle.bag.recording import Limits, Recorder, Selection
 from gazelle.bag.rosbag2 import Rosbag2Writer
 from gazelle.cli.ros2.bag.speaking import say
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.ending import at_stop_signal
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
+from gazelle.process_exit import at_stop_signal
 
 __all__ = ["main"]
 

@@ -8,12 +8,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from gazelle.cli.ros2.launch.environment import surround_launch_files
 from gazelle.cli.ros2.launch.files import launch_file_of
-from gazelle.cli.ros2.launch.surroundings import surround_launch_files
 from gazelle.cli.ros2.verbs import guarded
 from gazelle.cli.tool import ToolError
 from gazelle.diagnostics import Severity, did_you_mean, render
-from gazelle.ending import when_nobody_reads
+from gazelle.process_exit import when_nobody_reads
 from gazelle.workspace.ament_index import PackageNotFoundError, known_workspace
 
 __all__ = ["launch_arguments", "main"]

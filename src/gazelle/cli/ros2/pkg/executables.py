@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from gazelle.cli.ros2.pkg.places import named_package
+from gazelle.cli.ros2.pkg.listing import named_package
 from gazelle.node_specs.all_specs import builtin_executables, builtin_packages
 from gazelle.workspace import Package, Workspace
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 
-from gazelle.cli.ros2.pkg.places import named_package
+from gazelle.cli.ros2.pkg.listing import named_package
 from gazelle.cli.tool import hint
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics

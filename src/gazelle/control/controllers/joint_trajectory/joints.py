@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Array
 from gazelle.control.trajectory.angles import wrap_in_place
 from gazelle.control.trajectory.tolerances import Tolerances
 from gazelle.description.model import JointType

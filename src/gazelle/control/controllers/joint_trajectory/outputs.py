@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, Protocol
 
-from gazelle.control.bank import Array, Indices
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Array, Indices
 from gazelle.control.pid import AntiWindup, PidBank, PidGains, offer_live_gains, read_gains
 from gazelle.parameters.trees import flattened
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gazelle.control.bank import Array
+from gazelle.control.interface_values import Array
 from gazelle.control.ports import GoalPort, Ports, PublisherPort
 from gazelle.control.trajectory.errors import ErrorCode
 from gazelle.interfaces import message_type

@@ -6,7 +6,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_trajectory.joints import TrackedJoints, read_tolerances
 from gazelle.control.controllers.joint_trajectory.outputs import (
@@ -24,6 +23,7 @@ from gazelle.control.controllers.joint_trajectory.reporting import (
 from gazelle.control.controllers.joint_trajectory.ros1_table import ROS1_TABLE
 from gazelle.control.controllers.joint_trajectory.ros2_table import ROS2_TABLE
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Array
 from gazelle.control.ports import GoalPort
 from gazelle.control.table import ControllerTable
 from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError

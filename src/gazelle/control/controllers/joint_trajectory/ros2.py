@@ -6,7 +6,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_trajectory.joints import read_tolerances
 from gazelle.control.controllers.joint_trajectory.reporting import (
@@ -21,6 +20,7 @@ from gazelle.control.controllers.joint_trajectory.ros2_acceptance import accepte
 from gazelle.control.controllers.joint_trajectory.ros2_setup import Ros2Setup, live_problem
 from gazelle.control.controllers.joint_trajectory.ros2_table import ROS2_TABLE
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Array
 from gazelle.control.ports import GoalPort
 from gazelle.control.table import ControllerTable
 from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.bank import Array
 from gazelle.control.controllers.joint_trajectory.ros2_setup import Ros2Setup
+from gazelle.control.interface_values import Array
 from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError
 from gazelle.control.trajectory.splines import JointState
 from gazelle.control.trajectory.waypoints import Waypoints, check_joints, read_waypoints

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.control.bank import Indices
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.controllers.joint_trajectory.joints import joint_names
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Indices
 
 __all__ = ["INTERFACES", "check_interfaces", "columns_of", "command_joints", "read_interfaces"]
 

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.bank import Array
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.controllers.joint_trajectory.joints import TrackedJoints
 from gazelle.control.controllers.joint_trajectory.outputs import (
@@ -25,6 +24,7 @@ from gazelle.control.controllers.joint_trajectory.ros2_interfaces import (
     read_interfaces,
 )
 from gazelle.control.errors import ControllerError
+from gazelle.control.interface_values import Array
 from gazelle.control.pid import AntiWindup
 from gazelle.control.trajectory.replacing import Interpolation
 from gazelle.control.trajectory.splines import JointState

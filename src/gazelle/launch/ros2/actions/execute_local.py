@@ -35,7 +35,7 @@ from gazelle.launch.ros2.utilities.type_utils import (
     normalize_typed_substitution,
     perform_typed_substitution,
 )
-from gazelle.launch.stopped import StoppedProcess
+from gazelle.launch.stopped_processes import StoppedProcess
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.context import LaunchContext

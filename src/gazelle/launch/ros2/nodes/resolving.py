@@ -14,7 +14,7 @@ from gazelle.launch.environment import command_folder
 from gazelle.launch.executables import Executable, find_executable, script_command
 from gazelle.launch.ros2.faults import with_diagnostic
 from gazelle.launch.ros2.substitutions import SubstitutionFailure
-from gazelle.node_specs.elsewhere import missing_node, replacement_of
+from gazelle.node_specs.unavailable_packages import missing_node, replacement_of
 from gazelle.workspace.ament_index import PackageNotFoundError, known_workspace
 
 if TYPE_CHECKING:

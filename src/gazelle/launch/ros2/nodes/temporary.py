@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import NamedTemporaryFile, gettempdir
 
-from gazelle.leftovers import own_prefix, sweep
+from gazelle.temporary_files import own_prefix, sweep
 
 __all__ = ["write_temporary"]
 

@@ -10,7 +10,7 @@ import numpy as np
 from gazelle.geometry import Pose
 from gazelle.interfaces.stamps import ns_of
 from gazelle.nodes.navigation.frames import Frames
-from gazelle.nodes.navigation.sensing import observation_of
+from gazelle.nodes.navigation.observations import observation_of
 
 if TYPE_CHECKING:
     from gazelle.graph import Node

@@ -1,0 +1,128 @@
+"""Choosing among the poses that a scan fits at, when it fits badly where it was expected."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from gazelle.mapping.matching.branch_and_bound import best_of_sectors
+from gazelle.mapping.matching.field import Field
+from gazelle.mapping.matching.match import Match, Prior, refined
+from gazelle.mapping.poses import Poses, between
+from gazelle.mapping.slam.free_space_consistency import SeenSpace, seen_space
+from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
+from gazelle.mapping.slam.settings import SlamSettings, WeighingSettings
+
+__all__ = ["Surroundings", "surroundings", "weighed"]
+
+
+class Surroundings(NamedTuple):
+    """All that was seen around a pose.
+
+    Attributes:
+        field: of the surfaces.
+        coarse: the same, with cells twice as large.
+        space: where beams ended and where they passed.
+        settings: numbers of the algorithms.
+    """
+
+    field: Field
+    coarse: Field
+    space: SeenSpace
+    settings: SlamSettings
+
+
+class _Weight(NamedTuple):
+    found: Match
+    worth: float
+
+
+def surroundings(
+    keyframes: Keyframes,
+    center: Poses,
+    reach_m: float,
+    settings: SlamSettings,
+    last: int | None = None,
+) -> Surroundings:
+    """Return what the nearest scans, of any time or of the last ones, saw around a pose.
+
+    The pose is (3,) in the map: x, y (m) and yaw (rad).
+    """
+    first = 0 if last is None else max(0, len(keyframes) - last)
+    far = np.hypot(*(keyframes.poses[first:, :2] - center[:2]).T)
+    near = (first + np.argsort(far)[: settings.weighing.nearest]).tolist()
+    field = keyframes.field(near, center, reach_m)
+    middle = float(center[0]), float(center[1])
+    frames = [keyframes[i] for i in near]
+    space = seen_space(frames, keyframes.poses[near], middle, reach_m, settings.evidence)
+    return Surroundings(field, field.pooled(), space, settings)
+
+
+def weighed(
+    around: Surroundings,
+    frame: Keyframe,
+    expected: Poses,
+    guesses: list[Poses],
+    reach: tuple[float, float],
+    *,
+    is_lost: bool = False,
+) -> Match | None:
+    """Return the pose for which most speaks, None when little speaks for any.
+
+    What speaks for a pose is the mean likelihood of the points; what speaks against it is the
+    share of them that contradict what is known of space.
+
+    Args:
+        around: what was seen.
+        frame: the scan.
+        expected: pose in the map by odometry, (3,): x, y (m) and yaw (rad).
+        guesses: poses, (3,) each, that are considered besides those of the search.
+        reach: half sides of the window, m and rad.
+        is_lost: odometry says little of where the robot is.
+    """
+    told, points = around.settings.weighing, frame.points_m
+    rough = best_of_sectors(
+        around.coarse, points, expected,
+        reach_m=reach[0], reach_rad=min(math.pi, reach[1]), sector_rad=told.sector_rad,
+        least=told.least,
+    )  # fmt: skip
+    poses = [one.pose for one in rough] + guesses
+    costs = told.lost_costs if is_lost else told.far_costs
+    weights = [_weight(around, frame, expected, pose, reach, costs) for pose in poses]
+    if not weights:
+        # In empty space no scan looks like anything that is known.
+        return None
+    best = max(weights, key=lambda one: one.worth)
+    if best.worth < told.least_worth:
+        return None
+    others = [one.worth for one in weights if _is_apart(one.found.pose, best.found.pose, told)]
+    is_clear = best.worth > max(others, default=0.0) + told.clearly
+    return replace(best.found, is_doubtful=not is_clear)
+
+
+def _weight(
+    around: Surroundings,
+    frame: Keyframe,
+    expected: Poses,
+    pose: Poses,
+    reach: tuple[float, float],
+    costs: float,
+) -> _Weight:
+    settings, free = around.settings, Prior(pose, np.zeros((3, 3)))
+    found = refined(around.field, frame.points_m, pose, free, settings.match)
+    against = around.space.against(frame.scan, frame.points_m, found.pose)
+    away = between(expected, found.pose)
+    far = math.hypot(away[0], away[1]) / reach[0], abs(float(away[2])) / reach[1]
+    # What fits best at the edge of the window fits better outside of it.
+    is_near = max(far) < settings.weighing.most_edges
+    cost = costs * (far[0] ** 2 + far[1] ** 2) if is_near else math.inf
+    return _Weight(found, found.score - against - cost)
+
+
+def _is_apart(one: Poses, other: Poses, settings: WeighingSettings) -> bool:
+    away = between(one, other)
+    is_far = math.hypot(away[0], away[1]) > settings.apart_m
+    return bool(is_far or abs(away[2]) > settings.apart_rad)

@@ -1,0 +1,222 @@
+"""Panels that pages show: they begin with the first page and end some time after the last."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from gazelle.errors import GazelleError
+from gazelle.graph import Graph
+from gazelle.studio.errors import StudioError, unknown
+from gazelle.studio.files import Answer
+from gazelle.studio.plugins.following import Follower
+from gazelle.studio.plugins.pictures import picture_answer
+from gazelle.studio.plugins.running_panel import Life
+from gazelle.studio.plugins.sources import Source, all_sources, named_file
+from gazelle.studio.streams import Channel
+from gazelle.workspace import Workspace
+
+__all__ = ["Desk", "Show"]
+
+# A page that is loaded again finds its panels as they were.
+_GRACE_S = 10.0
+_PATIENCE_S = 10.0
+_WATCH_S = 1.0
+
+
+class Show:
+    """One panel with the pages that show it.
+
+    Attributes:
+        source: its class.
+        life: the object at work, None while no page shows it.
+    """
+
+    def __init__(self, graph: Graph, source: Source) -> None:
+        self.source = source
+        self.life: Life | None = None
+        self._graph = graph
+        self._followers: tuple[Follower, ...] = ()
+        self._problem: dict[str, Any] | None = None
+        self._stamp_ns = 0
+        self._turn = threading.Lock()
+        self._counting = threading.Lock()
+        self._ending: threading.Timer | None = None
+        self._over = threading.Event()
+
+    def follow(self, channel: Channel) -> Callable[[], None]:
+        """Show the panel on a page; returns what ends that.
+
+        Raises:
+            StudioError: the panel does not return from ``start``.
+        """
+        follower = Follower(channel)
+        with self._taking_turns():
+            if self.life is None:
+                self._begin(again=False)
+            with self._counting:
+                self._followers += (follower,)
+                if self._ending is not None:
+                    self._ending.cancel()
+            self._greet(follower)
+        return lambda: self._leave(follower)
+
+    def reload(self, source: Source) -> None:
+        """Read the file again and begin anew.
+
+        Raises:
+            StudioError: the panel does not return from ``start``.
+        """
+        with self._taking_turns():
+            self.source = source
+            self._end()
+            self._begin(again=True)
+            for follower in self._followers:
+                self._greet(follower)
+
+    def close(self) -> None:
+        """End the panel, also one that hangs."""
+        self._over.set()
+        with contextlib.suppress(StudioError), self._taking_turns():
+            self._end()
+
+    @contextlib.contextmanager
+    def _taking_turns(self) -> Iterator[None]:
+        if not self._turn.acquire(timeout=_PATIENCE_S):
+            hint = "long work belongs into a thread of its own, or into small steps with every()"
+            raise StudioError("the panel is busy: it has not returned from start()", hint=hint)
+        try:
+            yield
+        finally:
+            self._turn.release()
+
+    def _begin(self, *, again: bool) -> None:
+        self._problem = None
+        self._over = threading.Event()
+        self._stamp_ns = self._modified()
+        life = self.life = Life(self._graph, self.source, self._tell_all)
+        life.begin(again=again)
+        watch = threading.Thread(target=self._watch, args=(self._over,), daemon=True)
+        watch.start()
+
+    def _end(self) -> None:
+        self._over.set()
+        life, self.life = self.life, None
+        if life is not None:
+            life.end()
+
+    def _greet(self, follower: Follower) -> None:
+        state = self.life.state if self.life is not None else None
+        if state is not None:
+            state.show_to(follower.tell)
+        else:
+            follower.tell("state", "", {"layout": [], "values": {}, "points": {}})
+        follower.tell("error", "", self._problem)
+
+    def _tell_all(self, what: str, name: str, value: Any) -> None:
+        if what == "error":
+            before = self._problem
+            same = before is not None and before["text"] == value["text"]
+            count = before["count"] + 1 if before is not None and same else 1
+            value = self._problem = {**value, "count": count}
+        for follower in self._followers:
+            follower.tell(what, name, value)
+
+    def _leave(self, follower: Follower) -> None:
+        with self._counting:
+            self._followers = tuple(one for one in self._followers if one is not follower)
+            if not self._followers:
+                self._ending = threading.Timer(_GRACE_S, self._end_unseen)
+                self._ending.daemon = True
+                self._ending.start()
+
+    def _end_unseen(self) -> None:
+        with contextlib.suppress(StudioError), self._taking_turns():
+            if not self._followers:
+                self._end()
+
+    def _watch(self, over: threading.Event) -> None:
+        """Tell once that the file is another one now."""
+        while not over.wait(_WATCH_S):
+            if self._modified() != self._stamp_ns:
+                self._tell_all("changed", "", True)
+                return
+
+    def _modified(self) -> int:
+        try:
+            return self.source.file.stat().st_mtime_ns
+        except OSError:
+            return 0
+
+
+class Desk:
+    """All panels of a graph's pages: those that could be opened, and those that are."""
+
+    def __init__(self, graph: Graph) -> None:
+        self._graph = graph
+        self._named: dict[str, tuple[Source, ...]] = {}
+        self._shows: dict[str, Show] = {}
+        self._turn = threading.Lock()
+
+    def name_file(self, words: str) -> tuple[Source, ...]:
+        """Add the panels of ``FILE.py[:Class]``.
+
+        Raises:
+            GazelleError: there are none.
+        """
+        self._named[words] = named_file(words)
+        return self._named[words]
+
+    def sources(self) -> dict[str, Source]:
+        """Return what could be opened, by name."""
+        for words in self._named:
+            # A file that is just being written stays listed as it was.
+            with contextlib.suppress(GazelleError):
+                self._named[words] = named_file(words)
+        named = [source for sources in self._named.values() for source in sources]
+        return all_sources(named, Workspace.discover())
+
+    def source(self, name: str) -> Source:
+        """Return a panel's source.
+
+        Raises:
+            StudioError: there is none of this name, or it cannot be read.
+        """
+        known = self.sources()
+        if name not in known:
+            raise unknown("panel", name, known)
+        if known[name].problem:
+            raise StudioError(known[name].problem)
+        return known[name]
+
+    def show(self, name: str) -> Show:
+        """Return a panel to be shown."""
+        with self._turn:
+            if name not in self._shows:
+                self._shows[name] = Show(self._graph, self.source(name))
+            return self._shows[name]
+
+    def shown(self, name: str) -> Show:
+        """Return a panel that a page shows.
+
+        Raises:
+            StudioError: none does.
+        """
+        found = self._shows.get(name)
+        if found is None or found.life is None:
+            raise StudioError(f"the panel '{name}' is not open", known=tuple(self._shows))
+        return found
+
+    def picture(self, name: str, widget: str) -> Answer | None:
+        """Return what an image shows now."""
+        show = self._shows.get(name)
+        state = show.life.state if show is not None and show.life is not None else None
+        value = state.values.get(widget) if state is not None else None
+        return None if value is None else picture_answer(value)
+
+    def close(self) -> None:
+        """End all panels."""
+        for show in self._shows.values():
+            show.close()

@@ -1,0 +1,53 @@
+"""What a robot stands on."""
+
+from __future__ import annotations
+
+import pytest
+from tests.description.checks.pain import FIXTURES, finding, place
+
+from gazelle.description.checks.outlines import Outlines
+from gazelle.description.checks.support_plane import stance_of
+from gazelle.description.loader import load_models
+from gazelle.description.model import Model
+from gazelle.diagnostics import Diagnostics, Severity
+
+
+def _model(name: str) -> Model:
+    (model,) = load_models(FIXTURES / name, workspace=None, diagnostics=Diagnostics())
+    return model
+
+
+def test_rover_rests_on_two_wheels_and_its_caster() -> None:
+    model = _model("pain_15_contact/clean/rover.urdf")
+    outlines = Outlines(model)
+    stance = stance_of(model, outlines)
+    assert stance is not None
+    gaps = {
+        item.link.name: gap for item, gap in zip(outlines.collisions, stance.gaps_m, strict=True)
+    }
+    assert gaps["left_wheel"] == pytest.approx(0.0, abs=1e-3)
+    assert gaps["right_wheel"] == pytest.approx(0.0, abs=1e-3)
+    assert gaps["caster"] == pytest.approx(0.0, abs=1e-3)
+    # The chassis' underside is 4 cm above the ground.
+    assert gaps["base_link"] == pytest.approx(0.04, abs=2e-3)
+    assert stance.tilt_deg < 1.0
+
+
+def test_model_without_mass_has_no_stance() -> None:
+    assert stance_of(Model("ghost"), Outlines(Model("ghost"))) is None
+
+
+def test_low_chassis_lifts_the_wheels() -> None:
+    item = finding("pain_15_contact/hanging.urdf")
+    assert item.code == "robot.wheel-in-the-air"
+    assert "the robot rests on 'base_link'" in item.message
+    assert "'left_wheel' (10 mm above) and 'right_wheel' (10 mm above) do not" in item.message
+    assert place(item) == '<link name="left_wheel">'
+    assert "wheels spin but robot does not move" in item.phrase
+
+
+def test_sliding_caster_with_friction_is_a_notice() -> None:
+    item = finding("pain_15_contact/dragging_caster.urdf")
+    assert (item.code, item.severity) == ("robot.caster-friction", Severity.INFO)
+    assert "'caster' slides on the ground and has Gazebo's friction of 1" in item.message
+    assert item.fix == '<gazebo reference="caster"><mu1>0.01</mu1><mu2>0.01</mu2></gazebo>'

@@ -1,0 +1,74 @@
+"""Looking after a process whose link is lost."""
+
+from __future__ import annotations
+
+import threading
+from types import SimpleNamespace
+
+import pytest
+import zenoh
+from tests.patience import stretched
+
+from gazelle.graph import reconnection
+from gazelle.graph.reconnection import Relinker
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> tuple[threading.Event, threading.Event]:
+    """Let the question about a lost process begin and end at the test's word."""
+    begun, answered = threading.Event(), threading.Event()
+
+    def lives(_self: Relinker, _zid: str) -> bool:
+        begun.set()
+        assert answered.wait(stretched(30))
+        return False
+
+    monkeypatch.setattr(Relinker, "_lives", lives)
+    monkeypatch.setattr(reconnection, "_PAUSE_S", (0.0, 0.0))
+    return begun, answered
+
+
+def test_close_waits_for_a_question_that_is_under_way(
+    asked: tuple[threading.Event, threading.Event],
+) -> None:
+    begun, answered = asked
+    relinker = Relinker(port=1)
+    relinker.lost("abc")
+    assert begun.wait(stretched(30))
+    closing = threading.Thread(target=relinker.close)
+    closing.start()
+    closing.join(0.05)
+    assert closing.is_alive()
+    answered.set()
+    closing.join(stretched(30))
+    assert not closing.is_alive()
+
+
+def test_nothing_is_asked_after_the_close(
+    asked: tuple[threading.Event, threading.Event],
+) -> None:
+    begun, answered = asked
+    answered.set()
+    relinker = Relinker(port=1)
+    relinker.close()
+    before = set(threading.enumerate())
+    relinker.lost("abc")
+    assert not [one for one in set(threading.enumerate()) - before if "_look_after" in one.name]
+    assert not begun.is_set()
+
+
+def test_a_question_that_closes_too_slowly_is_answered_all_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    class Session:
+        def liveliness(self) -> Session:
+            return self
+
+        def get(self, _selector: str, timeout: float) -> list[SimpleNamespace]:
+            return [SimpleNamespace(ok=timeout)]
+
+        def close(self) -> None:
+            raise zenoh.ZError("close operation timed out!")
+
+    monkeypatch.setattr(zenoh, "open", lambda _config: Session())
+    assert reconnection.hub_knows(1, "@ros2_lv/*/abc/**")
