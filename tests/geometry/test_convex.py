@@ -110,3 +110,15 @@ def test_a_damaged_cache_file_is_made_anew(bracket, own_cache, damage):
     file.write_bytes(damage)
     assert len(convex_parts(bracket).parts) >= 2
     assert file.stat().st_size > 100
+
+
+def test_the_order_in_which_pieces_are_finished_is_not_seen(bracket, tmp_path, monkeypatch):
+    coacd = pytest.importorskip("coacd")
+    first = convex_parts(bracket).parts
+    split = coacd.run_coacd
+    monkeypatch.setattr(coacd, "run_coacd", lambda *mesh, **how: split(*mesh, **how)[::-1])
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "other"))
+    second = convex_parts(bracket).parts
+    assert len(first) > 1
+    for one, other in zip(first, second, strict=True):
+        np.testing.assert_array_equal(one.vertices_m, other.vertices_m)

@@ -309,8 +309,14 @@ def test_big_images_arrive_whole(
     publisher = talker.create_publisher("image", Image, reliable=False)
     listener.create_subscription("image", Image, inbox)
     eventually(lambda: publisher.matched)
-    publisher.publish(Image(height=480, width=640, step=1920, data=pixels))
-    assert np.array_equal(inbox.wait_for(1)[0].data, pixels)
+    image = Image(height=480, width=640, step=1920, data=pixels)
+
+    # A publisher of best effort may drop what finds no room on its way.
+    def arrived() -> Any:
+        publisher.publish(image)
+        return inbox.items
+
+    assert np.array_equal(eventually(arrived)[0].data, pixels)
 
 
 def test_unregistering_while_another_thread_publishes_is_clean(

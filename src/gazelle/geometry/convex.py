@@ -37,7 +37,7 @@ _THRESHOLD = 0.08
 # Scans and CAD exports of whole bodies: finer pieces take half a minute and slow every contact.
 _COARSE_THRESHOLD = 0.15
 _MANY_FACES = 4000
-_CACHE_VERSION = 2
+_CACHE_VERSION = 3
 # A fraction of CoACD's own effort: the pieces fill the same volume within a few percent and a
 # robot's body takes seconds instead of half a minute.
 _SEARCH_EFFORT = {
@@ -149,7 +149,8 @@ def convex_parts(mesh: Mesh, *, threshold: float | None = None) -> ConvexParts:
     pieces = coacd.run_coacd(
         coacd.Mesh(*_welded(mesh)), threshold=threshold, seed=0, **_SEARCH_EFFORT
     )
-    parts = tuple(convex_hull(np.asarray(vertices)) for vertices, _ in pieces)
+    # CoACD's threads hand pieces over in the order in which they have finished them.
+    parts = tuple(sorted((convex_hull(np.asarray(vertices)) for vertices, _ in pieces), key=_place))
     if not parts:
         return ConvexParts((hull,), False, "coacd found no pieces; the convex hull is used")
     _save(file, parts)
@@ -209,6 +210,15 @@ def _welded(mesh: Mesh) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
         (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
     )
     return vertices, faces[whole]
+
+
+def _place(part: MeshPart) -> tuple[float, ...]:
+    points = part.vertices_m
+    return (
+        *points.min(axis=0).tolist(),
+        *points.max(axis=0).tolist(),
+        *points.mean(axis=0).tolist(),
+    )
 
 
 def _cache_file(mesh: Mesh, threshold: float) -> Path:
