@@ -143,7 +143,7 @@ def test_a_publisher_is_found_again_after_a_reload(bench: Any, look: Any) -> Non
     panel.get_by_label("linear.x", exact=True).fill("0.3")
     panel.get_by_label("Publish /cmd_vel repeatedly").check()
     bench.eventually(lambda: heard)
-    bench.eventually(lambda: '"0.3"' in seen.page.evaluate("sessionStorage['gazelle.tab']"))
+    bench.eventually(lambda: '"0.3"' in (seen.page.evaluate("sessionStorage['gazelle.tab']") or ""))
     seen.page.reload()
     again = panel.get_by_label("Publish /cmd_vel repeatedly")
     bench.eventually(again.is_checked)

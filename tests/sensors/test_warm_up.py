@@ -12,10 +12,10 @@ from gazelle.sensors import warm_up
 CODE = "from gazelle.sensors import warm_up; warm_up(print)"
 # One kernel of two lines in place of the cameras', which take many seconds.
 SMALL_CODE = """
-from gazelle.sensors import warming
+from gazelle.sensors import warm_up
 from small import twice
-warming._exercise = lambda: twice(2)
-warming.warm_up(print)
+warm_up._exercise = lambda: twice(2)
+warm_up.warm_up(print)
 """
 SMALL_KERNEL = """
 from gazelle.compiling import njit

@@ -20,11 +20,19 @@ from gazelle.mapping.slam.settings import DrawingSettings, SlamSettings
 ROOT = Path(gazelle.mapping.__file__).parent
 # Numbers of a module's own that are no tuning: of data structures, of the room that only warms up.
 OTHER = {
-    "matching/wide_kernels.py": {"LEAF", "_SIDE", "_FULL", "_MOST", "_PART", "_FEW", "_DEEPEST"},
-    "matching/wide.py": {"_DEEPEST"},
+    "matching/branch_and_bound_kernels.py": {
+        "LEAF",
+        "_SIDE",
+        "_FULL",
+        "_MOST",
+        "_PART",
+        "_FEW",
+        "_DEEPEST",
+    },
+    "matching/branch_and_bound.py": {"_DEEPEST"},
     "pose_graph/information.py": {"DOUBTFUL", "UNKNOWN", "_LEAST_SIGMA", "_FAINT"},
-    "slam/drawing.py": {"_OCCUPIED"},
-    "slam/warming.py": {"_PATIENCE_S", "_OFF_M"},
+    "slam/occupancy_counts.py": {"_OCCUPIED"},
+    "slam/warm_up.py": {"_PATIENCE_S", "_OFF_M"},
 }
 
 

@@ -10,8 +10,8 @@ _HERE = "gazelle.cli.ros2.pkg"
 _VERBS = {
     "create": Verb("Create a new ROS 2 package", "gazelle.cli.ros2.pkg_create"),
     "executables": Verb("Output a list of package specific executables", f"{_HERE}.executables"),
-    "list": Verb("Output a list of available packages", f"{_HERE}.places"),
-    "prefix": Verb("Output the prefix path of a package", f"{_HERE}.places"),
+    "list": Verb("Output a list of available packages", f"{_HERE}.listing"),
+    "prefix": Verb("Output the prefix path of a package", f"{_HERE}.listing"),
     "xml": Verb("Output the XML of the package manifest or a specific tag", f"{_HERE}.manifest"),
 }
 
