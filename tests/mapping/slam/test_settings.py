@@ -32,7 +32,7 @@ OTHER = {
     "matching/branch_and_bound.py": {"_DEEPEST"},
     "pose_graph/information.py": {"DOUBTFUL", "UNKNOWN", "_LEAST_SIGMA", "_FAINT"},
     "slam/occupancy_counts.py": {"_OCCUPIED"},
-    "slam/warm_up.py": {"_PATIENCE_S", "_OFF_M"},
+    "slam/kernel_warm_up.py": {"_PATIENCE_S", "_OFF_M"},
 }
 
 

@@ -88,8 +88,8 @@ def _parser() -> argparse.ArgumentParser:
 def _draw(world: World, options: argparse.Namespace, path: Path, diagnostics: Diagnostics) -> None:
     from PIL import Image
 
+    from gazelle.sensors.kernel_warm_up import warm_up
     from gazelle.sensors.picture import take_picture
-    from gazelle.sensors.warm_up import warm_up
 
     try:
         camera = _camera(options)

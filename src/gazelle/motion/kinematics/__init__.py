@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from gazelle.motion.kinematics.kernel_warm_up import warm_up
 from gazelle.motion.kinematics.poses import link_poses
 from gazelle.motion.kinematics.solver import Patience, Solver
-from gazelle.motion.kinematics.warm_up import warm_up
 
 __all__ = ["Patience", "Solver", "link_poses", "warm_up"]

@@ -12,10 +12,10 @@ from gazelle.sensors import warm_up
 CODE = "from gazelle.sensors import warm_up; warm_up(print)"
 # One kernel of two lines in place of the cameras', which take many seconds.
 SMALL_CODE = """
-from gazelle.sensors import warm_up
+from gazelle.sensors import kernel_warm_up
 from small import twice
-warm_up._exercise = lambda: twice(2)
-warm_up.warm_up(print)
+kernel_warm_up._exercise = lambda: twice(2)
+kernel_warm_up.warm_up(print)
 """
 SMALL_KERNEL = """
 from gazelle.compiling import njit
