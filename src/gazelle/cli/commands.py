@@ -62,7 +62,9 @@ COMMANDS: dict[str, Command] = {
     "check_urdf": Command("gazelle.cli.check_urdf", "check a robot and print its tree"),
     "urdf_to_graphviz": Command("gazelle.cli.urdf_to_graphviz", "draw a robot's tree"),
     "urdf_to_graphiz": Command("gazelle.cli.urdf_to_graphiz", "old name of urdf_to_graphviz"),
-    "gz": Command("gazelle.cli.gz.command", "gz of Gazebo: sim, topic, service, model, sdf …"),
+    "gz": Command(
+        "gazelle.cli.gz.command", "gz of Gazebo: sim, topic, service, model, world, sdf …"
+    ),
     "ign": Command("gazelle.cli.gz.ign", "ign of Fortress: gazebo, topic, service, model, sdf"),
     "studio": Command("gazelle.cli.studio", "open the browser page on a running graph"),
     "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
