@@ -28,7 +28,7 @@ WITH_TYPES = {
     "gazelle.launch.ros2.action",
     "gazelle.launch.ros2.context",
     "gazelle.simulator.handles",
-    "gazelle.simulator.plugins.transport",
+    "gazelle.simulator.plugins.named",
     "gazelle.workspace.resolver",
 } - {"gazelle.launch.ros2.actions"}
 

@@ -9,7 +9,7 @@ import pytest
 
 from gazelle.bag import BagWriter, Encoding, cdr_connection, create_bag, ros1_connection
 from gazelle.bag import storage_of as by_name
-from gazelle.bag.qos import offered_qos
+from gazelle.bag.rosbag2.metadata import offered_qos
 from gazelle.interfaces import ros1_message_type, to_cdr, to_ros1
 
 START_NS = 1_700_000_000_000_000_000

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gazelle.control.joint_limits_enforcement import EffortLimits, PositionLimits, VelocityLimits
+from gazelle.control.joint_limits import EffortLimits, PositionLimits, VelocityLimits
 from gazelle.control.robot import JointLimits
 
 LIMITS = JointLimits(True, -1.0, 1.0, max_velocity=2.0, max_effort=8.0)

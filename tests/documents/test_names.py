@@ -8,7 +8,7 @@ import pytest
 
 from gazelle.description.loader import load_models, load_world
 from gazelle.diagnostics import Diagnostics
-from gazelle.documents.names import exists, is_file, is_folder, names_matching
+from gazelle.documents.files import exists, is_file, is_folder, names_matching
 from gazelle.errors import UserFileError
 from gazelle.launch.ros1.loader import load_launch_text
 from gazelle.workspace import Workspace

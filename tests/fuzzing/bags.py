@@ -22,8 +22,8 @@ from gazelle.bag import (
 )
 from gazelle.bag.export.rows import reader_of, row_of
 from gazelle.bag.playing.messages import outgoing
-from gazelle.bag.qos import read_qos
 from gazelle.bag.rosbag2.folder import Rosbag2, reindex
+from gazelle.bag.rosbag2.metadata import read_qos
 from gazelle.bag.types import split_texts
 from gazelle.bag.zstandard import compress
 from gazelle.diagnostics import Diagnostics

@@ -26,6 +26,7 @@ from gazelle.bridge.ros1.xmlrpc_call import read_answer
 from gazelle.bridge.ros1.xmlrpc_server import serve_calls
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError, GraphError
+from gazelle.graph.control import answer_in, read_query
 from gazelle.graph.keys import (
     Attachment,
     Entity,
@@ -39,7 +40,6 @@ from gazelle.graph.keys import (
 )
 from gazelle.graph.parameter_tree import from_json, to_json
 from gazelle.graph.parameters import ParameterShare, ParameterStore
-from gazelle.graph.requests import answer_in, read_query
 from gazelle.interfaces import from_ros1, ros1_message_type, to_cdr, to_ros1
 from gazelle.studio.connection import Connection
 from gazelle.studio.session import Studio

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gazelle.mapping.boundary import are_inside, perimeter_m
+from gazelle.mapping.frontiers import are_inside, perimeter_m
 
 L_SHAPE = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from gazelle.motion.constraints.rotation import Parameterization, euler_xyz, matrix_of
+from gazelle.motion.constraints.kinds import Parameterization, euler_xyz, matrix_of
 from gazelle.motion.kinematics import Patience
 from gazelle.motion.space import FloatArray, JointSpace
 

@@ -6,7 +6,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import GazelleError
-from gazelle.graph.backlog import MOST_WAITING, Backlog
+from gazelle.graph.subscription import MOST_WAITING, Backlog
 from gazelle.simulator.commands import CommandQueue
 
 

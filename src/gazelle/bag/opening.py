@@ -19,7 +19,7 @@ from gazelle.bag.ros1 import CHUNK_BYTES
 from gazelle.bag.rosbag2 import PackedFile, Rosbag2, Rosbag2Writer
 from gazelle.bag.zstandard import ZSTD_MAGIC
 from gazelle.diagnostics import did_you_mean
-from gazelle.documents.names import is_file, is_folder
+from gazelle.documents.files import is_file, is_folder
 
 __all__ = ["create_bag", "open_bag", "storage_of"]
 

@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
-from gazelle.bag.qos import offered_qos
 from gazelle.bag.records import BagError, Connection, Encoding
+from gazelle.bag.rosbag2.metadata import offered_qos
 from gazelle.errors import GazelleError
 from gazelle.interfaces import (
     Generation,
@@ -21,7 +21,7 @@ from gazelle.interfaces import (
     to_ros1,
     wire_type,
 )
-from gazelle.interfaces.type_names import canonical_name
+from gazelle.interfaces.naming import canonical_name
 
 __all__ = [
     "BagTypes",

@@ -21,7 +21,7 @@ from gazelle.graph import (
 )
 from gazelle.graph.names import CommandLine, parse_command_line
 from gazelle.graph.reconfigure import ReconfigureClient, ReconfigureError, server_names
-from gazelle.graph.reconfigure.trees import config_tree, group_states
+from gazelle.graph.reconfigure.messages import config_tree, group_states
 
 __all__ = ["main"]
 

@@ -14,7 +14,7 @@ from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.description.xml.reader import read_data
 from gazelle.diagnostics import Diagnostics, SourceSpan, render
-from gazelle.documents.names import exists, is_file, is_folder
+from gazelle.documents.files import exists, is_file, is_folder
 from gazelle.workspace import Workspace
 
 __all__ = ["REFUSED", "UrdfFile", "mappings_of", "read_urdf_file", "report_findings", "robot_in"]

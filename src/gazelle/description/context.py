@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 from gazelle.workspace.resolved import Resolved
 
 if TYPE_CHECKING:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from gazelle.diagnostics.brief import Brief, brief
-from gazelle.diagnostics.collecting import Diagnostics
-from gazelle.diagnostics.diagnostic import Diagnostic, Severity
-from gazelle.diagnostics.grouping import grouped
+from gazelle.diagnostics.collecting import Diagnostics, grouped
+from gazelle.diagnostics.diagnostic import Diagnostic, Severity, SourceSpan
 from gazelle.diagnostics.nearest import did_you_mean, nearest_names
 from gazelle.diagnostics.render import render, render_text
-from gazelle.diagnostics.span import SourceSpan
 
 __all__ = [
     "Brief",

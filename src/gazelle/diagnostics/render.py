@@ -7,13 +7,13 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
+from gazelle.diagnostics.collecting import grouped
 from gazelle.diagnostics.diagnostic import Diagnostic, Severity
-from gazelle.diagnostics.grouping import grouped
 
 if TYPE_CHECKING:
     from rich.text import Text
 
-    from gazelle.diagnostics.span import SourceSpan
+    from gazelle.diagnostics.diagnostic import SourceSpan
 
 __all__ = ["render", "render_text"]
 

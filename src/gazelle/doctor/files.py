@@ -20,7 +20,7 @@ from gazelle.doctor.parameters import check_package_parameters, check_parameter_
 from gazelle.doctor.probing import probe
 from gazelle.doctor.simulated import simulation_sections
 from gazelle.doctor.target import package_at
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.workspace.search_path import BUILTIN
 
 __all__ = ["examine_file", "kind_word"]

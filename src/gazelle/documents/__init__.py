@@ -6,10 +6,16 @@ how to raise it.
 
 from __future__ import annotations
 
-from gazelle.documents.budget import Budget
-from gazelle.documents.expressions import compile_limited, names_in_code
-from gazelle.documents.files import TEXT_BYTES, FileLimitError, read_limited, read_text_limited
-from gazelle.documents.scale import HOW_TO_RAISE, LimitError, scaled
+from gazelle.documents.expressions import Budget, compile_limited, names_in_code
+from gazelle.documents.files import (
+    HOW_TO_RAISE,
+    TEXT_BYTES,
+    FileLimitError,
+    LimitError,
+    read_limited,
+    read_text_limited,
+    scaled,
+)
 
 __all__ = [
     "HOW_TO_RAISE",

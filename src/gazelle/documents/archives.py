@@ -7,7 +7,7 @@ import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.documents.scale import HOW_TO_RAISE, scaled
+from gazelle.documents.files import HOW_TO_RAISE, scaled
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,8 +8,7 @@ import threading
 from collections.abc import Mapping, Sequence
 from typing import IO, NamedTuple
 
-from gazelle.documents.files import TEXT_BYTES
-from gazelle.documents.scale import HOW_TO_RAISE, LimitError, scaled
+from gazelle.documents.files import HOW_TO_RAISE, TEXT_BYTES, LimitError, scaled
 
 __all__ = ["CommandResult", "run_limited"]
 

@@ -3,18 +3,93 @@
 from __future__ import annotations
 
 import errno
+import math
 import os
 import select
 import stat
+from glob import glob
 
-from gazelle.documents.scale import HOW_TO_RAISE, scaled
+from gazelle.errors import GazelleError
 
-__all__ = ["TEXT_BYTES", "FileLimitError", "read_limited", "read_text_limited"]
+__all__ = [
+    "HOW_TO_RAISE",
+    "TEXT_BYTES",
+    "FileLimitError",
+    "LimitError",
+    "exists",
+    "is_file",
+    "is_folder",
+    "names_matching",
+    "read_limited",
+    "read_text_limited",
+    "scaled",
+]
+
+
+# Python's glob goes into itself at each "/".
+_DEEPEST_PATTERN = 100
+
+
+def exists(path: str | os.PathLike[str]) -> bool:
+    """Tell whether something of this name is there; False where nobody can tell."""
+    return os.path.exists(path)  # noqa: PTH110
+
+
+def is_file(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a file of this name is there; False where nobody can tell."""
+    return os.path.isfile(path)  # noqa: PTH113
+
+
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a folder of this name is there; False where nobody can tell."""
+    return os.path.isdir(path)  # noqa: PTH112
+
+
+def names_matching(pattern: str, folder: str | os.PathLike[str]) -> list[str]:
+    """Return what a pattern with ``*``, ``?``, ``[…]`` and ``**`` finds in a folder, sorted.
+
+    The names are relative to the folder. What no path can be finds nothing.
+    """
+    if "\0" in pattern or pattern.count("/") + pattern.count(os.sep) > _DEEPEST_PATTERN:
+        return []
+    return sorted(glob(pattern, root_dir=folder, recursive=True))  # noqa: PTH207
+
+
+_VARIABLE = "GAZELLE_LIMITS"
+
+HOW_TO_RAISE = f"if the file means it, set the environment variable {_VARIABLE}=10 for ten times"
+
+"""What to do about a limit, for messages."""
+
+
+class LimitError(GazelleError):
+    """The work a file asks for is above a limit."""
+
+
+def scaled(count: int) -> int:
+    """Return a limit times what ``GAZELLE_LIMITS`` says, which is 1 when it is not set.
+
+    Raises:
+        GazelleError: the variable is not a number above 0.
+    """
+    text = os.environ.get(_VARIABLE, "")
+    if not text:
+        return count
+    try:
+        factor = float(text)
+    except ValueError:
+        factor = 0.0
+    if not (math.isfinite(factor) and factor > 0):
+        raise GazelleError(f"{_VARIABLE}='{text}' is not a number above 0, such as 10")
+    return int(count * factor)
+
 
 TEXT_BYTES = 64 << 20
+
 """Size of the largest text that is read, in bytes."""
 
 _MEBIBYTE = 1 << 20
+
 _CHUNK = 4 << 20
 
 

@@ -8,8 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gazelle.documents.files import read_limited
-from gazelle.documents.scale import HOW_TO_RAISE, scaled
+from gazelle.documents.files import HOW_TO_RAISE, read_limited, scaled
 
 if TYPE_CHECKING:
     from PIL.Image import Image

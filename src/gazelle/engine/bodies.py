@@ -19,8 +19,7 @@ from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import part_of, scoped
 from gazelle.engine.shapes import GeomAssets, add_geom, geom_shapes
 from gazelle.engine.tree import KinematicTree, TreeLink, kinematic_tree
-from gazelle.engine.wheel_friction import with_wheel_grip
-from gazelle.engine.wheel_slip import add_tyre
+from gazelle.engine.wheel_slip import add_tyre, with_wheel_grip
 from gazelle.geometry import IDENTITY_POSE
 
 __all__ = ["BuiltGeom", "SpecBuilder", "VelocityDecay", "mesh_collisions"]

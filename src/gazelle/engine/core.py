@@ -13,7 +13,7 @@ from gazelle.description.model import Joint, Link, Model, World
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.engine.compiler import Compiled, Extras, compile_world
 from gazelle.engine.derived_state import joint_reaction, waking_copy
-from gazelle.engine.finite import require_finite, require_finite_pose
+from gazelle.engine.divergence import require_finite, require_finite_pose
 from gazelle.engine.joint_group import JointGroup
 from gazelle.engine.joint_handles import JointHandle
 from gazelle.engine.links import LinkHandle

@@ -14,8 +14,7 @@ from gazelle.description.model import JointType, Model, World
 from gazelle.engine.compiler import Compiled
 from gazelle.engine.contacts import read_contacts
 from gazelle.engine.core import EngineCore
-from gazelle.engine.divergence import Culprit, find_culprit
-from gazelle.engine.finite import require_finite, require_finite_pose
+from gazelle.engine.divergence import Culprit, find_culprit, require_finite, require_finite_pose
 from gazelle.engine.library_warnings import report_library_warnings
 from gazelle.engine.motor_bank import POSITION_STEPS, MotorBank
 from gazelle.engine.mujoco_library import drained_warnings, mujoco

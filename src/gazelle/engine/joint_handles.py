@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType
-from gazelle.engine.finite import finite, place
+from gazelle.engine.divergence import finite, place
 from gazelle.engine.motors import MotorCommand
 from gazelle.engine.records import Wrench
 from gazelle.errors import EngineError

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry import Mesh
-from gazelle.geometry.building import part_from_soup
+from gazelle.geometry.mesh import part_from_soup
 
 __all__ = ["LEAST_VOLUME_M3", "connected_parts", "surface_pieces"]
 

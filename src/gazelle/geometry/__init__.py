@@ -35,6 +35,7 @@ from gazelle.geometry.pose import (
     Pose,
     QuatXyzw,
     Vector3,
+    cross,
     quat_xyzw_about_axis,
     quat_xyzw_from_rpy,
     quat_xyzw_from_yaw,
@@ -67,7 +68,6 @@ from gazelle.geometry.solids import (
     spherical_shell_mass_properties,
 )
 from gazelle.geometry.terrain import heightmap_mesh, polyline_mesh
-from gazelle.geometry.vectors import cross
 
 __all__ = [
     "IDENTITY_POSE",

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from gazelle.folders import cache_folder
 from gazelle.geometry.array_cache import keep_arrays, kept_arrays
-from gazelle.geometry.building import part_from_soup
-from gazelle.geometry.mesh import Mesh, MeshPart
+from gazelle.geometry.mesh import Mesh, MeshPart, part_from_soup
 from gazelle.geometry.shading import group_points
 
 __all__ = [

@@ -11,9 +11,16 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.documents.names import is_file
-from gazelle.geometry.building import part_from_corners
-from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart, Rgba
+from gazelle.documents.files import is_file
+from gazelle.geometry.mesh import (
+    Mesh,
+    MeshError,
+    MeshMaterial,
+    MeshNote,
+    MeshPart,
+    Rgba,
+    part_from_corners,
+)
 from gazelle.geometry.shading import group_points
 
 __all__ = ["read_dae"]

@@ -13,9 +13,15 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.documents.names import is_file
-from gazelle.geometry.building import part_from_corners
-from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart
+from gazelle.documents.files import is_file
+from gazelle.geometry.mesh import (
+    Mesh,
+    MeshError,
+    MeshMaterial,
+    MeshNote,
+    MeshPart,
+    part_from_corners,
+)
 from gazelle.geometry.pose import Pose
 from gazelle.geometry.shading import group_points, unit_rows
 

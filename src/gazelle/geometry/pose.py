@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,7 @@ __all__ = [
     "Pose",
     "QuatXyzw",
     "Vector3",
+    "cross",
     "quat_xyzw_about_axis",
     "quat_xyzw_from_rpy",
     "quat_xyzw_from_yaw",
@@ -21,7 +23,19 @@ __all__ = [
     "yaw_from_quat_xyzw",
 ]
 
+
+Vector = Sequence[float] | NDArray[np.float64]
+
+
+def cross(a: Vector, b: Vector) -> NDArray[np.float64]:
+    """Return ``a × b`` (3,), some twenty times as fast as `numpy.cross`."""
+    ax, ay, az = a
+    bx, by, bz = b
+    return np.array((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), dtype=np.float64)
+
+
 Vector3 = tuple[float, float, float]
+
 QuatXyzw = tuple[float, float, float, float]
 
 

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.geometry.building import part_from_soup
-from gazelle.geometry.mesh import Mesh, MeshError, MeshNote
+from gazelle.geometry.mesh import Mesh, MeshError, MeshNote, part_from_soup
 
 __all__ = ["read_stl"]
 

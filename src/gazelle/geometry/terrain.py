@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.geometry.building import part_from_corners, part_from_soup
-from gazelle.geometry.mesh import MeshPart
+from gazelle.geometry.mesh import MeshPart, part_from_corners, part_from_soup
 from gazelle.geometry.outlines import triangulate
 from gazelle.geometry.shading import group_points
 

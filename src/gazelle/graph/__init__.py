@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.graph.clock import Clock
-from gazelle.graph.console import Level, LogRecord, format_record, print_record
+from gazelle.graph.console import Level, LogRecord, format_record, offer_loggers, print_record
 from gazelle.graph.errors import (
     IllegalNameError,
     NoGraphError,
@@ -17,7 +17,6 @@ from gazelle.graph.errors import (
 from gazelle.graph.graph import Graph
 from gazelle.graph.introspection import Endpoint, NodeInfo, ServiceInfo, TopicInfo
 from gazelle.graph.keys import ANY_TYPE, Entity, Kind, Qos
-from gazelle.graph.loggers import offer_loggers
 from gazelle.graph.node import Node
 from gazelle.graph.parameters import ParameterStore
 from gazelle.graph.publisher import Publisher

@@ -8,17 +8,35 @@ import re
 import sys
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import TextIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TextIO
 
+from gazelle.errors import GraphError
+from gazelle.folders import ros_log_folder
 from gazelle.log_files import GAPS
 
-__all__ = ["Level", "LogRecord", "format_record", "level_of", "print_record"]
+if TYPE_CHECKING:
+    from gazelle.graph.node import Node
+
+__all__ = [
+    "Level",
+    "LogRecord",
+    "aside_path",
+    "format_record",
+    "level_of",
+    "offer_loggers",
+    "print_record",
+    "write_aside",
+]
+
 
 _DEFAULT_FORMAT = "[${severity}] [${time}]: ${message}"
+
 _FIELD = re.compile(r"\$\{([^}:]+)(?::([^}]*))?\}")
+
 _RESET = "\033[0m"
 
 
@@ -39,6 +57,7 @@ _COLOURS = {
     Level.ERROR: "\033[31m",
     Level.FATAL: "\033[31m",
 }
+
 _WORDS = {"warning": Level.WARN, "critical": Level.FATAL}
 
 
@@ -141,3 +160,65 @@ def _write(stream: TextIO, text: str) -> None:
 def _seconds(stamp_ns: int, digits: int) -> str:
     text = f"{stamp_ns // 1_000_000_000}.{stamp_ns % 1_000_000_000:09d}"
     return text[: len(text) - 9 + digits]
+
+
+def offer_loggers(node: Node, logger: str = "ros") -> None:
+    """Let others read and change how much a node says.
+
+    A node of ours has one level for all of its loggers, so any name sets it.
+
+    Args:
+        node: the node.
+        logger: name of its logger: ``ros`` as roscpp's, ``rosout`` as rospy's.
+    """
+    from gazelle.interfaces import ros1_message_type, ros1_service_type
+
+    entry: Any = ros1_message_type("roscpp/Logger")
+    get: Any = ros1_service_type("roscpp/GetLoggers")
+    put: Any = ros1_service_type("roscpp/SetLoggerLevel")
+
+    def loggers(_request: Any) -> Any:
+        level = Level(node.log_level).name.lower()
+        return get._response_class([entry(name=logger, level=level)])
+
+    def set_level(request: Any) -> Any:
+        try:
+            node.log_level = level_of(request.level)
+        except KeyError:
+            words = ", ".join(level.name.lower() for level in Level)
+            raise GraphError(f"'{request.level}' is no level; there are {words}") from None
+        return put._response_class()
+
+    with node.announced_together():
+        node.create_service("~get_loggers", get, loggers)
+        node.create_service("~set_logger_level", put, set_level)
+
+
+class _Logging(Protocol):
+    name: str
+    log_path: str
+
+
+def aside_path(node: _Logging) -> Path:
+    """Return a node's log file: the launch's, else ``NAME-PID.log`` where ROS keeps its logs."""
+    if node.log_path:
+        return Path(node.log_path)
+    return (
+        ros_log_folder(os.environ) / f"{node.name.strip('/').replace('/', '-')}-{os.getpid()}.log"
+    )
+
+
+def write_aside(node: _Logging, lines: Iterable[str]) -> str:
+    """Add lines to the node's log file.
+
+    Returns:
+        the file, empty when it cannot be written.
+    """
+    path = aside_path(node)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("a", encoding="utf-8", errors="replace") as stream:
+            stream.writelines(f"{line}\n" for line in lines)
+    except OSError:
+        return ""
+    return str(path)

@@ -17,7 +17,7 @@ from gazelle.graph import introspection
 from gazelle.graph.allocator import HeapTrim
 from gazelle.graph.announcements import Announcements
 from gazelle.graph.clock import Clock
-from gazelle.graph.closing import close_session
+from gazelle.graph.closing import CallsInFlight, close_session
 from gazelle.graph.config import client_config, domain_of, peer_config, port_of
 from gazelle.graph.console import print_record
 from gazelle.graph.control import Control, ask_process, shut_down_node, wait_for_processes
@@ -25,7 +25,6 @@ from gazelle.graph.discovery import Discovery
 from gazelle.graph.duplicate_nodes import TAKEN_OVER, Namesakes
 from gazelle.graph.errors import NoGraphError, PortTakenError, coded
 from gazelle.graph.hub import HubKeeper
-from gazelle.graph.in_flight import CallsInFlight
 from gazelle.graph.introspection import NodeInfo, ServiceInfo, TopicInfo
 from gazelle.graph.keys import Entity, Kind
 from gazelle.graph.local_topic import LocalTopics

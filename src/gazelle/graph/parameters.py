@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError
+from gazelle.graph.control import answer_in, read_query, read_sample, reply_to
 from gazelle.graph.delivery import Mailbox
 from gazelle.graph.keys import parameter_key
 from gazelle.graph.names import resolve
 from gazelle.graph.parameter_tree import ParameterTree, to_json
-from gazelle.graph.requests import answer_in, read_query, read_sample, reply_to
 
 if TYPE_CHECKING:
     import zenoh

@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any
 from gazelle.interfaces.codec import convert, from_cdr, from_ros1, to_cdr, to_ros1
 from gazelle.interfaces.definition import Constant, Definition, Field, FieldType, Generation
 from gazelle.interfaces.message import Message
-from gazelle.interfaces.naming import ros1_type_of, wire_type
+from gazelle.interfaces.naming import ros1_name, ros1_type_of, split_name, wire_type
 from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message
 from gazelle.interfaces.ros1_time import Duration, Time, TVal
 from gazelle.interfaces.services import ActionType, Ros1Service, ServiceType
 from gazelle.interfaces.store import TypeStore, default_types, types_of
-from gazelle.interfaces.type_names import ros1_name, split_name
 
 if TYPE_CHECKING:
     from gazelle.interfaces.echo_text import strify

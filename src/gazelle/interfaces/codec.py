@@ -135,7 +135,7 @@ def _checked(cls: type[Any]) -> None:
 def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
     _checked(cls)
     from gazelle.interfaces.binding import Wire, bind
-    from gazelle.interfaces.conversion import CONVERTED
+    from gazelle.interfaces.translate import CONVERTED
     from gazelle.interfaces.writer import compile_writer
 
     if is_cdr and cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
@@ -149,8 +149,8 @@ def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
 def _compiled_reader(cls: type[Any], *, is_cdr: bool = True, endian: str = "<") -> _Reader:
     _checked(cls)
     from gazelle.interfaces.binding import Wire, bind
-    from gazelle.interfaces.conversion import CONVERTED
     from gazelle.interfaces.reader import compile_reader
+    from gazelle.interfaces.translate import CONVERTED
 
     if is_cdr and cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
         conversion = CONVERTED[cls.TYPE_NAME]

@@ -13,10 +13,10 @@ from gazelle.errors import GazelleError
 from gazelle.interfaces.definition import Definition, Generation
 from gazelle.interfaces.forms import Types
 from gazelle.interfaces.installed import installed_texts
+from gazelle.interfaces.naming import canonical_name, ros1_name, split_name
 from gazelle.interfaces.parser import parse_message
 from gazelle.interfaces.rihs01 import type_hash
 from gazelle.interfaces.ros1_digest import md5sum
-from gazelle.interfaces.type_names import canonical_name, ros1_name, split_name
 
 __all__ = ["KeptTexts", "ros1_definition", "ros2_definition"]
 

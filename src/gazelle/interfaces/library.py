@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.errors import NotFoundError, UserFileError
 from gazelle.interfaces.definition import Generation
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from gazelle.errors import NotFoundError
 from gazelle.interfaces.definition import Definition, Field, FieldType, Generation
 from gazelle.interfaces.library import Library, Source
+from gazelle.interfaces.naming import split_name
 from gazelle.interfaces.translate import as_generation, definition_text
-from gazelle.interfaces.type_names import split_name
 
 if TYPE_CHECKING:
     from gazelle.diagnostics import Diagnostics

@@ -6,12 +6,56 @@ ROS 2 definitions are canonical on the wire. Fields are matched by name; ``D`` i
 
 from __future__ import annotations
 
+from gazelle.errors import NotFoundError
 from gazelle.interfaces.definition import Definition, Field, Generation
 from gazelle.interfaces.forms import Types
 from gazelle.interfaces.translate import as_generation
-from gazelle.interfaces.type_names import canonical_name, ros1_name
 
-__all__ = ["ros1_type_of", "wire_definition", "wire_field", "wire_type"]
+__all__ = [
+    "canonical_name",
+    "ros1_name",
+    "ros1_type_of",
+    "split_name",
+    "wire_definition",
+    "wire_field",
+    "wire_type",
+]
+
+
+def split_name(name: str, part: str = "msg") -> tuple[str, str, str]:
+    """Return package, part and bare name of ``pkg/Name`` or ``pkg/part/Name``.
+
+    Raises:
+        NotFoundError: the text is not written as a type's name.
+    """
+    words = name.strip("/").split("/")
+    if len(words) == 2 and all(words):
+        return words[0], part, words[1]
+    if len(words) == 3 and all(words) and words[1] in ("msg", "srv", "action"):
+        return words[0], words[1], words[2]
+    raise NotFoundError(
+        "type", name, hint="a type is written package/Name or package/msg/Name (srv, action)"
+    )
+
+
+def canonical_name(name: str, part: str = "msg") -> str:
+    """Return ``pkg/msg/Name`` for that or for ``pkg/Name``.
+
+    Raises:
+        NotFoundError: the text is not written as a type's name.
+    """
+    return "/".join(split_name(name, part))
+
+
+def ros1_name(full: str) -> str:
+    """Return ``pkg/Name`` of a full name; ``pkg/srv/Name_Request`` is ``pkg/NameRequest``."""
+    package, part, name = split_name(full)
+    if part == "srv":
+        for suffix in ("_Request", "_Response"):
+            if name.endswith(suffix):
+                name = name.removesuffix(suffix) + suffix[1:]
+    return f"{package}/{name}"
+
 
 _RENAMED_TYPES = {
     "tf/msg/tfMessage": "tf2_msgs/msg/TFMessage",
@@ -19,14 +63,18 @@ _RENAMED_TYPES = {
     "roslib/msg/Header": "std_msgs/msg/Header",
     "roslib/msg/Log": "rcl_interfaces/msg/Log",
 }
+
 _ROS1_OF_WIRE = {"rcl_interfaces/msg/Log": "rosgraph_msgs/Log"}
+
 _RENAMED_FIELDS = {
     "control_msgs/msg/JointTrajectoryControllerState": {
         "reference": "desired",
         "feedback": "actual",
     },
 }
+
 _OWN_LAYOUT = frozenset({"controller_manager_msgs"})
+
 """Packages whose ROS 1 and ROS 2 services share names only."""
 
 

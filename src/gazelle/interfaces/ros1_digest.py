@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from gazelle.interfaces.definition import Definition, Generation
 from gazelle.interfaces.forms import Types
-from gazelle.interfaces.type_names import canonical_name
+from gazelle.interfaces.naming import canonical_name
 
 __all__ = ["md5sum", "service_md5sum", "show_message", "show_service"]
 

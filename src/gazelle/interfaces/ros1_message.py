@@ -15,8 +15,8 @@ from gazelle.interfaces.definition import (
 )
 from gazelle.interfaces.forms import Form, Types
 from gazelle.interfaces.message import values_equal
+from gazelle.interfaces.naming import ros1_name
 from gazelle.interfaces.ros1_time import Duration, Time
-from gazelle.interfaces.type_names import ros1_name
 
 __all__ = ["AnyMsg", "Ros1Message", "make_ros1_class"]
 

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 from gazelle.interfaces.definition import Generation
 from gazelle.interfaces.forms import Types
 from gazelle.interfaces.message import Message
+from gazelle.interfaces.naming import ros1_name
 from gazelle.interfaces.ros1_message import Ros1Message
-from gazelle.interfaces.type_names import ros1_name
 
 __all__ = [
     "ActionType",

@@ -19,6 +19,7 @@ from gazelle.interfaces.definition import Definition, Generation
 from gazelle.interfaces.forms import Form
 from gazelle.interfaces.library import Library, Source
 from gazelle.interfaces.message import Message, make_message_class, recursion
+from gazelle.interfaces.naming import canonical_name, split_name
 from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message, make_ros1_class
 from gazelle.interfaces.services import (
     ActionType,
@@ -28,7 +29,6 @@ from gazelle.interfaces.services import (
     ros2_action,
     ros2_service,
 )
-from gazelle.interfaces.type_names import canonical_name, split_name
 
 __all__ = ["TypeStore", "default_types", "types_of"]
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NoReturn
 
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.documents.yaml import YamlError, load_yaml_file
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node

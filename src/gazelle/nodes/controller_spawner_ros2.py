@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 from gazelle.control.sources.files import FileSource
 from gazelle.diagnostics import Diagnostics
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, brief
 from gazelle.graph import Level
-from gazelle.graph.aside import aside_path, write_aside
+from gazelle.graph.console import aside_path, write_aside
 
 if TYPE_CHECKING:
     from gazelle.graph import Node

@@ -13,7 +13,7 @@ from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, brief, did_you_mean, render
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph import offer_loggers
-from gazelle.graph.aside import aside_path, write_aside
+from gazelle.graph.console import aside_path, write_aside
 from gazelle.graph.gazebo_names import SHOWN_SPACE, world_space
 from gazelle.graph.node_parameters import Descriptor, NodeParameters
 from gazelle.simulator.description_sources import world_from

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from gazelle.documents.names import exists, is_file
+from gazelle.documents.files import exists, is_file
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
 from gazelle.graph.gazebo_names import SHOWN_SPACE, first_there, is_loading, world_names

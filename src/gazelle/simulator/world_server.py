@@ -21,8 +21,8 @@ from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
 from gazelle.simulator.plugins.gz_sensors import publish_sensor
 from gazelle.simulator.plugins.gz_worlds import is_gz_world
+from gazelle.simulator.plugins.named import publish_contact_sensor
 from gazelle.simulator.plugins.registry import load_plugin
-from gazelle.simulator.plugins.transport import publish_contact_sensor
 from gazelle.simulator.ports import NodePort
 from gazelle.simulator.real_time_pacing import Mode, Pace
 from gazelle.simulator.recovery import OnDivergence, Recovery

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.documents import read_limited
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.workspace.manifest import MANIFEST_BYTES, quick_name
 
 __all__ = ["FoundPackage", "crawl_prefix", "crawl_source", "manifest_in"]

@@ -6,7 +6,7 @@ import os
 from functools import lru_cache
 from pathlib import Path
 
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 
 __all__ = ["executable_names", "executables_named"]
 

@@ -14,7 +14,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from gazelle.documents import read_limited
-from gazelle.documents.names import exists, is_file, is_folder
+from gazelle.documents.files import exists, is_file, is_folder
 from gazelle.workspace.building.cmake_lists import read_cmake_lists
 from gazelle.workspace.building.install_rules import InstallRule, cmake_rules
 from gazelle.workspace.building.plan import Plan, add_rules

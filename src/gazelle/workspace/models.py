@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 
 __all__ = [
     "folded",

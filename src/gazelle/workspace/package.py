@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 from gazelle.workspace.crawler import FoundPackage
 from gazelle.workspace.executables import executable_names, executables_named
 from gazelle.workspace.manifest import Export, Manifest

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.diagnostics import nearest_names
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 
 __all__ = ["Resolved", "locate", "nearest_below", "nearest_packages"]
 

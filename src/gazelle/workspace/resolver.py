@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from gazelle.diagnostics import nearest_names
-from gazelle.documents.names import is_file, is_folder
+from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace.models import folded, folders_around, fuel_model, is_model_folder
 from gazelle.workspace.originals import original_models, original_worlds
 from gazelle.workspace.resolved import Resolved, locate, nearest_below, nearest_packages

@@ -16,7 +16,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from gazelle.diagnostics.share_links import LINKS_FOLDER, SOURCE_LINK
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 from gazelle.folders import cache_folder
 
 __all__ = ["share_folder"]

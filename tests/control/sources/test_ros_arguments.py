@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from gazelle.control.sources.ros_arguments import read_ros_arguments
+from gazelle.control.sources.files import read_ros_arguments
 
 
 def test_rules_files_and_values_of_a_nodes_words() -> None:

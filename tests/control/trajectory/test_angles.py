@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gazelle.control.hardware.angle_error import shortest_angular_distance
-from gazelle.control.trajectory.angles import shortest_way, turns_to_nearest, wrap_in_place
+from gazelle.control.trajectory.waypoints import shortest_way, turns_to_nearest, wrap_in_place
 
 
 def test_ways_equal_those_of_one_joint() -> None:

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 from tests.control.trajectory_messages import point, trajectory
 
-from gazelle.control.trajectory.errors import TrajectoryError
 from gazelle.control.trajectory.segments import SegmentTrajectory, hold
 from gazelle.control.trajectory.splicing import Splice, splice
 from gazelle.control.trajectory.tolerances import Tolerances
-from gazelle.control.trajectory.waypoints import check_joints, read_waypoints
+from gazelle.control.trajectory.waypoints import TrajectoryError, check_joints, read_waypoints
 
 MS = 1_000_000
 JOINTS = ("a", "b", "c")

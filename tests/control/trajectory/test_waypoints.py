@@ -7,8 +7,12 @@ import numpy as np
 import pytest
 from tests.control.trajectory_messages import point, trajectory
 
-from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError
-from gazelle.control.trajectory.waypoints import check_joints, read_waypoints
+from gazelle.control.trajectory.waypoints import (
+    ErrorCode,
+    TrajectoryError,
+    check_joints,
+    read_waypoints,
+)
 
 JOINTS = ("a", "b", "c")
 

@@ -5,7 +5,7 @@ import pytest
 
 from gazelle.control.hardware.description import read_description
 from gazelle.control.transmissions import Transmission
-from gazelle.control.transmissions.reading import read_transmission
+from gazelle.control.transmissions.transmission import read_transmission
 from gazelle.diagnostics import Diagnostics
 
 ROBOT = """<robot name="r"><link name="a"/><link name="b"/><link name="c"/>

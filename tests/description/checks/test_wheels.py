@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.description.checks.pain import FIXTURES, finding, place
 
-from gazelle.description.checks.wheel_axles import wheels_of
+from gazelle.description.checks.wheels import wheels_of
 from gazelle.description.loader import load_models
 from gazelle.diagnostics import Diagnostics
 

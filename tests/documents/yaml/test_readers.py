@@ -10,9 +10,8 @@ from typing import Any, NamedTuple, cast
 
 import pytest
 
-from gazelle.bag.qos import read_qos
 from gazelle.bag.records import BagError
-from gazelle.bag.rosbag2.metadata import read_metadata
+from gazelle.bag.rosbag2.metadata import read_metadata, read_qos
 from gazelle.cli.catkin.profile import load_profile
 from gazelle.cli.dynparam import _from_yaml as read_dynparam_file
 from gazelle.cli.ros2.bag.converting import _outputs as read_output_bags
@@ -26,7 +25,7 @@ from gazelle.compat.commands.rosparam import RosParamException, load_str
 from gazelle.compat.moveit_configs.files import load_yaml as load_moveit_yaml
 from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
-from gazelle.control.sources.ros_arguments import read_ros_arguments
+from gazelle.control.sources.files import read_ros_arguments
 from gazelle.control.sources.yaml_file import read_parameter_file
 from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.xacro import expand_xacro

@@ -8,7 +8,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import GraphError, NotFoundError
-from gazelle.graph import Graph, backlog
+from gazelle.graph import Graph, subscription
 from gazelle.graph.actions import (
     ActionClient,
     ActionInfo,
@@ -99,7 +99,7 @@ def test_sleeping_feedback_callback_keeps_the_newest_and_the_result(
     served: Served, client: ActionClient, eventually: Any, generation: Any,
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
-    monkeypatch.setattr(backlog, "MOST_WAITING", 10)
+    monkeypatch.setattr(subscription, "MOST_WAITING", 10)
     served.offer(generation)
     assert client.wait_for_server(stretched(10))
     begun, goes_on = threading.Event(), threading.Event()

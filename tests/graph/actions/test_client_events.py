@@ -7,7 +7,7 @@ import pytest
 from tests.patience import eventually, stretched
 
 from gazelle.graph.actions.client_events import News
-from gazelle.graph.backlog import MOST_WAITING
+from gazelle.graph.subscription import MOST_WAITING
 
 
 class _Node:

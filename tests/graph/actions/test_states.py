@@ -5,7 +5,7 @@ import itertools
 import pytest
 
 from gazelle.graph.actions import ActionlibStatus, GoalEvent, Ros2Status
-from gazelle.graph.actions.states import next_status, state_error
+from gazelle.graph.actions.goal import next_status, state_error
 from gazelle.interfaces import message_type
 
 # Rows: from, then what each event leads to; a dot where it cannot happen.

@@ -30,7 +30,7 @@ OTHER = {
         "_DEEPEST",
     },
     "matching/branch_and_bound.py": {"_DEEPEST"},
-    "pose_graph/information.py": {"DOUBTFUL", "UNKNOWN", "_LEAST_SIGMA", "_FAINT"},
+    "pose_graph/constraints.py": {"DOUBTFUL", "UNKNOWN", "_LEAST_SIGMA", "_FAINT"},
     "slam/occupancy_counts.py": {"_OCCUPIED"},
     "slam/kernel_warm_up.py": {"_PATIENCE_S", "_OFF_M"},
 }

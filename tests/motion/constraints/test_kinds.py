@@ -14,7 +14,7 @@ from gazelle.motion.constraints import (
     PositionConstraint,
     Region,
 )
-from gazelle.motion.constraints.rotation import euler_xyz, matrix_of, rotation_vector
+from gazelle.motion.constraints.kinds import euler_xyz, matrix_of, rotation_vector
 
 _ARM = PlanarArm((), links=3)
 

@@ -15,8 +15,8 @@ from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.scans import Scan
 from gazelle.navigation.localisation import MOTION_MODELS, Amcl, AmclOptions, moved
 from gazelle.navigation.localisation.beam_refinement import Refiner
-from gazelle.navigation.localisation.clusters import best_cluster, statistics
 from gazelle.navigation.localisation.field import LikelihoodMap
+from gazelle.navigation.localisation.filter import best_cluster, statistics
 from gazelle.navigation.localisation.kernels import ParticleNeed, cast_ray, resample
 from gazelle.navigation.localisation.sensor import ScanModel, chosen_beams
 

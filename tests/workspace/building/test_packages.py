@@ -10,12 +10,13 @@ import pytest
 from gazelle.diagnostics import Diagnostics
 from gazelle.workspace.building.packages import (
     BuildError,
+    Selection,
     SourcePackage,
     find_packages,
     in_order,
     needed_by,
+    select,
 )
-from gazelle.workspace.building.selection import Selection, select
 
 Make = Callable[..., Path]
 

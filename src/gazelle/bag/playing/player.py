@@ -10,8 +10,8 @@ from typing import Any
 from gazelle.bag.playing.controls import Controls
 from gazelle.bag.playing.messages import Outgoing, ahead, outgoing
 from gazelle.bag.playing.timeline import Timeline
-from gazelle.bag.qos import read_qos
 from gazelle.bag.records import BagReader, Connection
+from gazelle.bag.rosbag2.metadata import read_qos
 from gazelle.bag.texts import TextShare
 from gazelle.bag.types import bag_types, wire_name_of
 from gazelle.errors import GazelleError

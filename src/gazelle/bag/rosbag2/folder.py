@@ -30,7 +30,7 @@ from gazelle.bag.records import (
 )
 from gazelle.bag.rosbag2.metadata import FileSummary, read_metadata, write_metadata
 from gazelle.bag.rosbag2.packed import SUFFIX, PackedFile, PackedMessages
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 
 __all__ = ["Rosbag2", "Rosbag2Writer", "reindex"]
 

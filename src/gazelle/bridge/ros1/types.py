@@ -21,9 +21,9 @@ from gazelle.interfaces import (
     to_ros1,
     wire_type,
 )
-from gazelle.interfaces.conversion import CONVERTED
 from gazelle.interfaces.definition import Array
-from gazelle.interfaces.type_names import ros1_name
+from gazelle.interfaces.naming import ros1_name
+from gazelle.interfaces.translate import CONVERTED
 
 __all__ = ["Frame", "MessageKind", "ServiceKind", "is_ros2_only", "message_kind", "service_kind"]
 

@@ -8,8 +8,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, render
-from gazelle.workspace.building.packages import SourcePackage, find_packages, in_order
-from gazelle.workspace.building.selection import Selection, select
+from gazelle.workspace.building.packages import (
+    Selection,
+    SourcePackage,
+    find_packages,
+    in_order,
+    select,
+)
 
 __all__ = ["add_package_options", "chosen_packages", "parser_for", "split_cmake_arguments"]
 

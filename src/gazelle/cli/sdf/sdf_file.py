@@ -15,7 +15,7 @@ from gazelle.description.source_maps import placed
 from gazelle.description.urdf import read_urdf
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, render
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 from gazelle.workspace import Workspace
 
 __all__ = ["QUIET", "read_for", "report_findings", "say", "take_quiet"]

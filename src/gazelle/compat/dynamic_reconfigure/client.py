@@ -16,7 +16,7 @@ from gazelle.compat.rospy.errors import ROSException
 from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GraphError
 from gazelle.graph.reconfigure import DynamicGroup, ReconfigureClient, ReconfigureError
-from gazelle.graph.reconfigure.trees import config_tree, description_tree, group_states
+from gazelle.graph.reconfigure.messages import config_tree, description_tree, group_states
 
 __all__ = ["Client"]
 

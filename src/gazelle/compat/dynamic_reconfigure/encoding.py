@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from gazelle.graph.reconfigure import DynamicGroup, DynamicParameter
-from gazelle.graph.reconfigure.trees import config_tree, description_tree
+from gazelle.graph.reconfigure.messages import config_tree, description_tree
 
 __all__ = [
     "Config",

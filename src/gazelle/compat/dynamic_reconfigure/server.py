@@ -10,8 +10,7 @@ from gazelle.compat.dynamic_reconfigure.errors import DynamicReconfigureCallback
 from gazelle.compat.rospy.log import logerr
 from gazelle.compat.rospy.state import STATE
 from gazelle.graph.reconfigure import ReconfigureServer, Value
-from gazelle.graph.reconfigure.messages import config_message
-from gazelle.graph.reconfigure.trees import config_tree
+from gazelle.graph.reconfigure.messages import config_message, config_tree
 
 __all__ = ["Server"]
 

@@ -10,7 +10,7 @@ from gazelle.control.checks.gains import largest_stable_factor
 from gazelle.control.checks.moveit import MoveItController
 from gazelle.control.checks.names import disagreements, table_text
 from gazelle.control.robot import JointResource
-from gazelle.control.sources.source import ParameterSource
+from gazelle.control.sources.store import ParameterSource
 from gazelle.description.model import Joint
 from gazelle.diagnostics import Diagnostics, SourceSpan
 

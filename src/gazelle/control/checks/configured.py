@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.control.controllers.registry import controller_class
-from gazelle.control.sources.source import ParameterSource
+from gazelle.control.sources.store import ParameterSource
 from gazelle.diagnostics import SourceSpan
 from gazelle.parameters.trees import nested
 

@@ -15,7 +15,7 @@ from gazelle.control.controller_manager.records import (
 from gazelle.control.controller_manager.switching import SwitchPlan, plan_switch
 from gazelle.control.errors import ControllerError
 from gazelle.control.robot import Robot
-from gazelle.control.sources.source import ParameterSource
+from gazelle.control.sources.store import ParameterSource
 from gazelle.diagnostics import Diagnostics, did_you_mean
 
 if TYPE_CHECKING:

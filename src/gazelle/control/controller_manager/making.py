@@ -11,7 +11,7 @@ from gazelle.control.controllers.registry import controller_class, known_types
 from gazelle.control.errors import ControllerError
 from gazelle.control.parameters import controller_parameters
 from gazelle.control.robot import Robot
-from gazelle.control.sources.source import ParameterSource
+from gazelle.control.sources.store import ParameterSource
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.trees import flattened

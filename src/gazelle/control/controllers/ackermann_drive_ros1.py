@@ -6,8 +6,7 @@ import math
 from typing import Any
 
 from gazelle.control.controllers.controller import ControllerContext
-from gazelle.control.wheels.limit_reader import read_limits
-from gazelle.control.wheels.limiter import SpeedLimiter
+from gazelle.control.wheels.limiter import SpeedLimiter, read_limits
 from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel
 from gazelle.control.wheels.odometry_output import OdometryOutput, read_frames
 from gazelle.control.wheels.steering import SteeringGeometry

@@ -9,9 +9,10 @@ from __future__ import annotations
 from gazelle.control.controllers.ackermann_drive_ros1 import ROS1_ROWS, Ros1AckermannDrive
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.controllers.drive_controller import Drive, DriveController
-from gazelle.control.controllers.steering_drive import SteeringDrive, SteeringKind
-from gazelle.control.controllers.steering_table import (
+from gazelle.control.controllers.steering_drive import (
     LIBRARY_BEHAVIOUR,
+    SteeringDrive,
+    SteeringKind,
     library_rows,
     library_topics,
 )

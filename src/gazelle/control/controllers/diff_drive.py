@@ -11,11 +11,9 @@ from gazelle.control.controllers.diff_drive_wheel_state import WheelStateOutput
 from gazelle.control.errors import ControllerError
 from gazelle.control.ports import LiveParameter
 from gazelle.control.wheels.differential import DifferentialDrive
-from gazelle.control.wheels.limit_reader import read_limits
-from gazelle.control.wheels.limiter import SpeedLimiter
-from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel
+from gazelle.control.wheels.limiter import SpeedLimiter, read_limits
+from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel, offer_set_odometry
 from gazelle.control.wheels.odometry_output import OdometryOutput, read_frames
-from gazelle.control.wheels.set_odometry import offer_set_odometry
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.urdf_geometry import joint_distance_m, wheel_radius_m
 from gazelle.control.wheels.wheel_measures import measure, report_exchanged, report_misfits

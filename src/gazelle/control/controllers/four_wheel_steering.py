@@ -13,8 +13,7 @@ from gazelle.control.wheels.four_wheel_steering import (
     FourWheelValues,
     virtual_angle,
 )
-from gazelle.control.wheels.limit_reader import read_limits
-from gazelle.control.wheels.limiter import SpeedLimiter
+from gazelle.control.wheels.limiter import SpeedLimiter, read_limits
 from gazelle.control.wheels.mecanum import PlanarTwist
 from gazelle.control.wheels.odometry import PlanarOdometry, RollingMean
 from gazelle.control.wheels.odometry_output import (

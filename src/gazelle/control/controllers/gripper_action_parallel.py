@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 from gazelle.control.controllers.controller import Controller, ControllerContext
-from gazelle.control.controllers.gripper_action_goal import GRIPPER_ROWS, GripperGoal, Outcome
+from gazelle.control.controllers.gripper_action import GRIPPER_ROWS, GripperGoal, Outcome
 from gazelle.control.ports import GoalPort
 from gazelle.control.table import ControllerTable
 from gazelle.interfaces.stamps import stamped

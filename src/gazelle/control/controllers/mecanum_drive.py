@@ -8,12 +8,10 @@ from typing import Any
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.mecanum_drive_table import TABLE as _TABLE
 from gazelle.control.controllers.mecanum_drive_table import WHEELS
-from gazelle.control.wheels.limit_reader import read_limits
-from gazelle.control.wheels.limiter import SpeedLimiter
+from gazelle.control.wheels.limiter import SpeedLimiter, read_limits
 from gazelle.control.wheels.mecanum import MecanumDrive, MecanumSpeeds, PlanarTwist
-from gazelle.control.wheels.odometry import PlanarOdometry
+from gazelle.control.wheels.odometry import PlanarOdometry, offer_set_odometry
 from gazelle.control.wheels.odometry_output import OdometryOutput, read_frames
-from gazelle.control.wheels.set_odometry import offer_set_odometry
 from gazelle.control.wheels.twist_input import TwistInput
 from gazelle.control.wheels.wheel_measures import positive
 from gazelle.interfaces import message_type

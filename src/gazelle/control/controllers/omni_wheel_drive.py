@@ -11,10 +11,9 @@ from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.table import ControllerTable
 from gazelle.control.wheels.base_parameters import frame_rows
-from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel
+from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel, offer_set_odometry
 from gazelle.control.wheels.odometry_output import OdometryOutput, read_covariance, read_frames
 from gazelle.control.wheels.omni import OmniDrive
-from gazelle.control.wheels.set_odometry import offer_set_odometry
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.wheel_measures import positive
 from gazelle.parameters import Parameter, ParameterTable, Topic

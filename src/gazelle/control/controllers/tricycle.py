@@ -10,9 +10,8 @@ from gazelle.control.controllers.tricycle_table import TABLE as _TABLE
 from gazelle.control.controllers.tricycle_table import read_steering_limits, read_traction_limits
 from gazelle.control.wheels.limiter import TractionLimiter
 from gazelle.control.wheels.mecanum import PlanarTwist
-from gazelle.control.wheels.odometry import PlanarOdometry
+from gazelle.control.wheels.odometry import PlanarOdometry, offer_reset_odometry
 from gazelle.control.wheels.odometry_output import OdometryOutput, read_frames
-from gazelle.control.wheels.set_odometry import offer_reset_odometry
 from gazelle.control.wheels.twist_input import REST, TwistInput
 from gazelle.control.wheels.wheel_measures import positive
 from gazelle.interfaces import message_type

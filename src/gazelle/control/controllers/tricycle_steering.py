@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.controllers.drive_controller import Drive, DriveController
-from gazelle.control.controllers.steering_drive import SteeringDrive, SteeringKind
-from gazelle.control.controllers.steering_table import (
+from gazelle.control.controllers.steering_drive import (
     LIBRARY_BEHAVIOUR,
+    SteeringDrive,
+    SteeringKind,
     library_rows,
     library_topics,
 )

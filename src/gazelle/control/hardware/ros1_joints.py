@@ -2,32 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from gazelle.control.hardware.description import ControlDescription
 from gazelle.control.hardware.host import HardwareHost, ParameterStore
 from gazelle.control.joint_limits import limits_from_parameters, limits_of
+from gazelle.control.parameters import controller_parameters
+from gazelle.control.pid import PidGains, read_gains
+from gazelle.control.pid.reading import gain_rows
 from gazelle.control.robot import JointLimits, JointResource
-from gazelle.control.transmissions.reading import read_transmission
+from gazelle.control.sources.store import ParameterSource
+from gazelle.control.transmissions.transmission import read_transmission
 from gazelle.description.model import (
     JointType,
     Model,
     TransmissionJoint,
     TransmissionTag,
 )
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["HARDWARE_INTERFACES", "Ros1Joint", "read_ros1_joints"]
+__all__ = [
+    "GAINS_NAME",
+    "HARDWARE_INTERFACES",
+    "Ros1Joint",
+    "gains_parameters",
+    "joints_to_hold",
+    "read_joint_gains",
+    "read_ros1_joints",
+]
+
 
 HARDWARE_INTERFACES = {
     "EffortJointInterface": "effort",
     "PositionJointInterface": "position",
     "VelocityJointInterface": "velocity",
 }
+
 """What DefaultRobotHWSim knows, without ``hardware_interface/``."""
 
 _PREFIX = "hardware_interface/"
+
 _STATES = ("position", "velocity", "effort")
 
 
@@ -203,3 +221,87 @@ class _Reader:
 
     def _report(self, code: str, text: str, tag: TransmissionTag, *, fix: str = "") -> None:
         self._host.diagnostics.report(code, text, tag.span, fix=fix)
+
+
+GAINS_NAME = "gazebo_ros_control/pid_gains"
+
+
+def gains_parameters(
+    parameters: ParameterStore, namespace: str, diagnostics: Diagnostics
+) -> ParameterReader:
+    """Return ``<namespace>/gazebo_ros_control/pid_gains``; keys begin with the joint's name."""
+    place = f"{namespace}/{GAINS_NAME}"
+    tree = parameters.get(place, {})
+    rows = gain_rows("<joint>", (1,))
+    table = ParameterTable(GAINS_NAME, "PIDs of simulated joints.", rows=rows)
+    return controller_parameters(
+        "gazebo_ros_control",
+        tree if isinstance(tree, dict) else {},
+        table,
+        diagnostics,
+        full_name=lambda key: f"{place}/{key.replace('.', '/')}",
+    )
+
+
+def read_joint_gains(
+    parameters: ParameterReader, model: Model, joints: Sequence[Ros1Joint]
+) -> dict[str, PidGains]:
+    """Return the gains of the position and velocity joints that have some.
+
+    Position joints without are ideal servos, which is said once.
+    """
+    found = {}
+    ideal = []
+    for joint in joints:
+        if joint.interface not in {"position", "velocity"}:
+            continue
+        gains = read_gains(parameters, "", joint.name)
+        if gains is not None:
+            found[joint.name] = gains
+        elif joint.interface == "position":
+            ideal.append(joint.name)
+    if found:
+        parameters.report_unknown()
+    if ideal:
+        text = f"position joints {', '.join(ideal)} follow their commands whatever it takes: there"
+        text += f" are no gains in {parameters.full_name('<joint>')} (No p gain specified for pid)"
+        parameters.diagnostics.report("control.ideal-servo", text, model.span)
+    return found
+
+
+# What the types of controllers that keep joints in place have in their names.
+_PLACING = ("Position", "Trajectory", "Gripper")
+
+
+def joints_to_hold(joints: Sequence[Ros1Joint], source: ParameterSource) -> frozenset[str]:
+    """Return the joints that a configured controller names, wheels not.
+
+    In Gazebo an arm falls between the spawn and the start of its controllers; here it waits.
+    A continuous joint is a wheel unless a controller of positions or trajectories names it.
+    """
+    named: set[str] = set()
+    placed: set[str] = set()
+    for controller in source.controllers():
+        words = set(_words(source.tree(controller)))
+        named |= words
+        if any(word in (source.controller_type(controller) or "") for word in _PLACING):
+            placed |= words
+    return frozenset(
+        joint.name
+        for joint in joints
+        if joint.interface
+        and joint.name in (placed if joint.type is JointType.CONTINUOUS else named)
+    )
+
+
+def _words(value: Any) -> Iterator[str]:
+    """Yield every text in a tree of parameters, and every key: gains go by the joint's name."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Mapping):
+        for key, inner in value.items():
+            yield str(key)
+            yield from _words(inner)
+    elif isinstance(value, list | tuple):
+        for inner in value:
+            yield from _words(inner)

@@ -7,13 +7,16 @@ from dataclasses import dataclass
 from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
 from gazelle.control.hardware.description import ControlDescription, description_of
 from gazelle.control.hardware.host import HardwareHost, ParameterStore
-from gazelle.control.hardware.position_hold import joints_to_hold
-from gazelle.control.hardware.ros1_gains import gains_parameters, read_joint_gains
-from gazelle.control.hardware.ros1_joints import read_ros1_joints
+from gazelle.control.hardware.ros1_joints import (
+    gains_parameters,
+    joints_to_hold,
+    read_joint_gains,
+    read_ros1_joints,
+)
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates, sensor_parts
 from gazelle.control.interface_values import InterfaceBank
 from gazelle.control.robot import Robot
-from gazelle.control.sources.source import ParameterSource
+from gazelle.control.sources.store import ParameterSource
 from gazelle.description.model import Model
 
 __all__ = ["RobotParameters", "build_ros1_robot"]

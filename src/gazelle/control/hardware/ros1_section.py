@@ -24,7 +24,7 @@ from gazelle.control.hardware.joint_commands import (
 from gazelle.control.hardware.joint_states import JointStates
 from gazelle.control.hardware.ros1_joints import Ros1Joint
 from gazelle.control.interface_values import Array, InterfaceBank
-from gazelle.control.joint_limits_enforcement import EffortLimits, PositionLimits, VelocityLimits
+from gazelle.control.joint_limits import EffortLimits, PositionLimits, VelocityLimits
 from gazelle.control.pid import PidBank
 from gazelle.control.robot import JointLimits
 from gazelle.description.model import JointType

@@ -13,9 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.control.interface_values import Array
-from gazelle.control.trajectory.angles import turns_to_nearest
 from gazelle.control.trajectory.splines import JointState, PieceSampler, quintic, stacked
-from gazelle.control.trajectory.waypoints import Waypoints
+from gazelle.control.trajectory.waypoints import Waypoints, turns_to_nearest
 
 __all__ = ["Interpolation", "PointTrajectory"]
 

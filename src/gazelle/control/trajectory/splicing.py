@@ -13,12 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.control.interface_values import Array, Indices
-from gazelle.control.trajectory.angles import turns_to_nearest
-from gazelle.control.trajectory.errors import ErrorCode, TrajectoryError
 from gazelle.control.trajectory.segments import Segment, SegmentTrajectory, Track
 from gazelle.control.trajectory.splines import JointState
 from gazelle.control.trajectory.tolerances import Tolerances
-from gazelle.control.trajectory.waypoints import Waypoints
+from gazelle.control.trajectory.waypoints import (
+    ErrorCode,
+    TrajectoryError,
+    Waypoints,
+    turns_to_nearest,
+)
 
 __all__ = ["Splice", "splice"]
 

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from gazelle.control.ports import Ports
 
 __all__ = [
     "PlanarOdometry",
@@ -14,7 +17,10 @@ __all__ = [
     "moved_euler",
     "moved_exact",
     "moved_runge_kutta",
+    "offer_reset_odometry",
+    "offer_set_odometry",
 ]
+
 
 # ros_controllers integrate smaller turns along a chord (rad).
 _STRAIGHT_RAD = 1e-6
@@ -138,3 +144,28 @@ class PlanarOdometry:
 
     def _integrate(self, x: float, y: float, turn: float, period_s: float) -> None:
         self.pose = moved_exact(self.pose, x * period_s, y * period_s, turn * period_s)
+
+
+def offer_set_odometry(
+    ports: Ports, odometry: PlanarOdometry, is_active: Callable[[], bool]
+) -> None:
+    """Offer ``~/set_odometry`` of ros2_controllers."""
+
+    def handle(request: Any, response: Any) -> None:
+        response.success = is_active()
+        if response.success:
+            odometry.put(PlanarPose(float(request.x), float(request.y), float(request.yaw)))
+            response.message = "Odometry set request accepted"
+        else:
+            response.message = "Controller is not active"
+
+    ports.service("~/set_odometry", "control_msgs/SetOdometry", handle)
+
+
+def offer_reset_odometry(ports: Ports, odometry: PlanarOdometry) -> None:
+    """Offer ``~/reset_odometry`` of tricycle_controller."""
+
+    def handle(request: Any, response: Any) -> None:
+        odometry.put(PlanarPose())
+
+    ports.service("~/reset_odometry", "std_srvs/Empty", handle)

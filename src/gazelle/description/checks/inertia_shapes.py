@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
-from typing import assert_never
+from collections.abc import Iterable
+from functools import cached_property, lru_cache
+from typing import NamedTuple, assert_never
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import (
+    Collision,
     Heightmap,
+    Link,
     MeshShape,
+    Model,
     Plane,
     Polyline,
     Shape,
@@ -23,15 +27,18 @@ from gazelle.geometry import (
     MassProperties,
     Mesh,
     MeshPart,
+    Pose,
     convex_hull,
     load_mesh_reported,
     mesh_mass_properties,
     polyline_mesh,
 )
 
-__all__ = ["mesh_body", "shape_body", "shape_points_m"]
+__all__ = ["Outline", "Outlines", "mesh_body", "shape_body", "shape_points_m"]
+
 
 Array = NDArray[np.float64]
+
 _KEPT = 64
 
 
@@ -130,3 +137,68 @@ def _loaded(shape: MeshShape, diagnostics: Diagnostics) -> Mesh | None:
 def _scaled(mesh: Mesh, scale: tuple[float, float, float]) -> Mesh:
     """Several checks look at the same shapes, and visuals and collisions share meshes."""
     return mesh.scaled(scale)
+
+
+# Beyond it double precision loses millimetres and qhull its way.
+_FARTHEST_M = 1e9
+
+
+class Outline(NamedTuple):
+    """A shape in the model's frame with all joints at zero.
+
+    Attributes:
+        link, collision: what it belongs to; no collision for a visual.
+        points_m: (n, 3), their hull holds the shape.
+    """
+
+    link: Link
+    collision: Collision | None
+    points_m: Array
+
+    @property
+    def low_m(self) -> Array:
+        """Lower corner of the bounding box, (3,)."""
+        return np.asarray(self.points_m.min(axis=0))
+
+    @property
+    def high_m(self) -> Array:
+        """Upper corner of the bounding box, (3,)."""
+        return np.asarray(self.points_m.max(axis=0))
+
+
+class Outlines:
+    """All shapes of a model, meshes loaded once; files that cannot be read have no points."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        self._unheard = Diagnostics()
+
+    @cached_property
+    def collisions(self) -> tuple[Outline, ...]:
+        """Of all links."""
+        return tuple(
+            outline
+            for link in self._model.links
+            for item in link.collisions
+            for outline in self._outline(link, item.shape, item.T_link_collision, item)
+        )
+
+    @cached_property
+    def visuals(self) -> tuple[Outline, ...]:
+        """Of all links."""
+        return tuple(
+            outline
+            for link in self._model.links
+            for item in link.visuals
+            for outline in self._outline(link, item.shape, item.T_link_visual, None)
+        )
+
+    def _outline(
+        self, link: Link, shape: Shape, T_link_shape: Pose, collision: Collision | None
+    ) -> Iterable[Outline]:
+        points = shape_points_m(shape, self._unheard)
+        pose = link.T_model_link @ T_link_shape
+        if len(points):
+            placed = np.asarray(pose.transform(points))
+            if np.abs(placed).max() < _FARTHEST_M:  # false for what is no number, too
+                yield Outline(link, collision, placed)

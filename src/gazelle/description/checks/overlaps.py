@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.checks.bodies import fixed_heads
-from gazelle.description.checks.outlines import Outline, Outlines
+from gazelle.description.checks.inertia_shapes import Outline, Outlines
 from gazelle.description.model import Link, Model, Shape, Solid
 from gazelle.diagnostics import Diagnostics
 

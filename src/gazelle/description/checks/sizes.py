@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.checks.outlines import Outline, Outlines
+from gazelle.description.checks.inertia_shapes import Outline, Outlines
 from gazelle.description.model import Collision, Link, MeshShape, Model, Visual
 from gazelle.diagnostics import Diagnostics, SourceSpan
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.checks.bodies import fixed_groups
-from gazelle.description.checks.outlines import Outline, Outlines
-from gazelle.description.checks.wheel_axles import Wheel, wheels_of
+from gazelle.description.checks.inertia_shapes import Outline, Outlines
+from gazelle.description.checks.wheels import Wheel, wheels_of
 from gazelle.description.model import JointType, Link, Model
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError

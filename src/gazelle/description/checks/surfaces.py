@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gazelle.description.checks.outlines import Outlines
+from gazelle.description.checks.inertia_shapes import Outlines
 from gazelle.description.model import Collision, Link, Model
 from gazelle.diagnostics import Diagnostics
 

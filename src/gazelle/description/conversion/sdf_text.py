@@ -7,8 +7,14 @@ from dataclasses import replace
 
 from gazelle.description.conversion.beside import Beside, Converted
 from gazelle.description.conversion.gazebo_blocks import plugin_markup
-from gazelle.description.conversion.losses import head_comments, report_addresses
-from gazelle.description.conversion.markup import Markup, number, numbers, tidy
+from gazelle.description.conversion.markup import (
+    Markup,
+    head_comments,
+    number,
+    numbers,
+    report_addresses,
+    tidy,
+)
 from gazelle.description.conversion.part_text import add_light, add_material, add_surface
 from gazelle.description.conversion.plain_names import free_name, with_plain_names
 from gazelle.description.conversion.sensor_text import add_pose, add_sensor

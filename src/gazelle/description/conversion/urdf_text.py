@@ -7,15 +7,14 @@ from pathlib import Path
 from gazelle.description.conversion.beside import Beside, Converted
 from gazelle.description.conversion.branches import Branches, branches_of
 from gazelle.description.conversion.gazebo_blocks import joint_block, link_block, model_blocks
-from gazelle.description.conversion.losses import head_comments, report_addresses
-from gazelle.description.conversion.markup import Markup, from_tag
+from gazelle.description.conversion.markup import Markup, from_tag, head_comments, report_addresses
 from gazelle.description.conversion.plain_names import (
     free_name,
     part_names,
     with_plain_names,
 )
+from gazelle.description.conversion.shapes import with_surfaces_apart
 from gazelle.description.conversion.single_axes import with_single_axes
-from gazelle.description.conversion.surfaces_apart import with_surfaces_apart
 from gazelle.description.conversion.urdf_joints import add_joint, add_transmission
 from gazelle.description.conversion.urdf_links import LinkWriter, add_origin
 from gazelle.description.model import Joint, JointType, Model

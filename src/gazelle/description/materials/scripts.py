@@ -15,7 +15,7 @@ from gazelle.description.materials.ogre import OgreMaterial, parse_material_scri
 from gazelle.description.model import Material, Rgba
 from gazelle.diagnostics import SourceSpan, did_you_mean
 from gazelle.documents import TEXT_BYTES, read_limited
-from gazelle.documents.names import is_file, is_folder
+from gazelle.documents.files import is_file, is_folder
 
 __all__ = ["material_from_scripts"]
 

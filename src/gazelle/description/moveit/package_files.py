@@ -9,7 +9,7 @@ from typing import Any
 
 from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.documents.names import is_file, is_folder
+from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace import Workspace
 from gazelle.workspace.search_path import BUILTIN
 

@@ -21,7 +21,7 @@ from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.documents.names import is_folder
+from gazelle.documents.files import is_folder
 from gazelle.workspace import Workspace
 
 __all__ = ["read_moveit_config"]

@@ -18,7 +18,7 @@ from gazelle.description.sdf.versions import version_of
 from gazelle.description.sdf.worlds import read_world, report_actor
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.documents.names import is_folder
+from gazelle.documents.files import is_folder
 from gazelle.workspace import Workspace
 
 __all__ = ["SdfDocument", "read_model_file", "read_sdf", "read_world_file"]

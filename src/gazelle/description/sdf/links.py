@@ -8,7 +8,7 @@ from gazelle.description.model import Collision, Light, Link, Sensor, Visual
 from gazelle.description.sdf.inertials import read_inertial
 from gazelle.description.sdf.lights import read_light
 from gazelle.description.sdf.materials import read_material
-from gazelle.description.sdf.resolving import PoseResolver
+from gazelle.description.sdf.poses import PoseResolver
 from gazelle.description.sdf.sensors import read_sensor
 from gazelle.description.sdf.shapes import read_shape
 from gazelle.description.sdf.surfaces import read_surface

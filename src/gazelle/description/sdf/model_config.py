@@ -9,7 +9,7 @@ from gazelle.description.context import ReadContext
 from gazelle.description.sdf.versions import NEWEST_VERSION, version_from
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 
 __all__ = ["ModelConfig", "model_file_in", "read_model_config"]
 

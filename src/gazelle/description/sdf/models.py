@@ -12,13 +12,12 @@ from gazelle.description.model import Frame, Joint, Link, Model
 from gazelle.description.sdf.checking import check_elements
 from gazelle.description.sdf.frames import MODEL_FRAME, FrameGraph, FramePoint
 from gazelle.description.sdf.includes import closes_circle, included_file, share_findings
-from gazelle.description.sdf.joint_ends import JointEnds
+from gazelle.description.sdf.joints import JointEnds
 from gazelle.description.sdf.links import read_link
 from gazelle.description.sdf.old_documents import upgraded
 from gazelle.description.sdf.parts import Flattened, ModelParts
 from gazelle.description.sdf.plugins import read_plugins
-from gazelle.description.sdf.poses import pose_of, relative_to_of
-from gazelle.description.sdf.resolving import PoseResolver, named_children
+from gazelle.description.sdf.poses import PoseResolver, named_children, pose_of, relative_to_of
 from gazelle.description.sdf.values import child_bool, name_of
 from gazelle.description.sdf.versions import version_of
 from gazelle.description.xml import Tag, read_xml

@@ -20,7 +20,7 @@ from gazelle.description.model import (
 )
 from gazelle.description.sdf.values import child_bool, child_float, child_vector3
 from gazelle.description.xml import Tag, floats_from
-from gazelle.documents.names import is_folder
+from gazelle.documents.files import is_folder
 
 __all__ = ["read_shape"]
 

@@ -10,10 +10,120 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from gazelle.description.model import SOLIDS
-from gazelle.description.sdf.sensor_tables import SENSOR_ROWS
-from gazelle.description.sdf.world_tables import WORLD_ROWS
 
-__all__ = ["ELEMENTS", "Element"]
+__all__ = ["ELEMENTS", "SENSOR_ROWS", "WORLD_ROWS", "Element"]
+
+
+_XYZ = "x=axis_noise y=axis_noise z=axis_noise"
+
+SENSOR_ROWS: dict[str, tuple[str, str]] = {
+    "sensor": (
+        "name type",
+        "pose update_rate always_on visualize topic gz_frame_id ignition_frame_id "
+        "enable_metrics! plugin camera ray lidar=ray imu contact=sensor/contact force_torque gps "
+        "navsat=gps magnetometer altimeter air_pressure air_speed! sonar logical_camera "
+        "rfid! rfidtag! transceiver!",
+    ),
+    "camera": (
+        "name",
+        "pose horizontal_fov image=camera/image clip noise distortion lens depth_camera "
+        "optical_frame_id camera_info_topic visibility_mask trigger_topic! save! triggered! "
+        "segmentation_type! box_type! anti_aliasing!",
+    ),
+    "camera/image": ("", "width height format anti_aliasing!"),
+    "clip": ("", "near far"),
+    "depth_camera": ("", "clip output!"),
+    "distortion": ("", "k1 k2 k3 p1 p2 center"),
+    "lens": (
+        "",
+        "intrinsics projection! type! scale_to_hfov! custom_function! cutoff_angle! "
+        "env_texture_size!",
+    ),
+    "intrinsics": ("", "fx fy cx cy s"),
+    "noise": (
+        "type",
+        "type mean stddev bias_mean bias_stddev dynamic_bias_stddev dynamic_bias_correlation_time "
+        "precision",
+    ),
+    "axis_noise": ("", "noise"),
+    "ray": ("", "scan range noise visibility_mask!"),
+    "scan": ("", "horizontal=scan/line vertical=scan/line"),
+    "scan/line": ("", "samples resolution min_angle max_angle"),
+    "range": ("", "min max resolution"),
+    "imu": (
+        "",
+        "topic angular_velocity linear_acceleration orientation_reference_frame "
+        "enable_orientation noise=imu/noise",
+    ),
+    "imu/noise": ("", "type rate=noise accel=noise"),
+    "angular_velocity": ("", _XYZ),
+    "linear_acceleration": ("", _XYZ),
+    "orientation_reference_frame": ("", "localization custom_rpy grav_dir_x!"),
+    "sensor/contact": ("", "collision=value topic"),
+    "force_torque": ("", "frame=value measure_direction force torque"),
+    "value": ("", ""),
+    "force": ("", _XYZ),
+    "torque": ("", _XYZ),
+    "gps": ("", "position_sensing velocity_sensing topic"),
+    "position_sensing": ("", "horizontal=axis_noise vertical=axis_noise"),
+    "velocity_sensing": ("", "horizontal=axis_noise vertical=axis_noise"),
+    "magnetometer": ("", _XYZ),
+    "altimeter": ("", "vertical_position=axis_noise vertical_velocity=axis_noise"),
+    "air_pressure": ("", "reference_altitude pressure=axis_noise"),
+    "sonar": ("", "geometry=value min max radius"),
+    "logical_camera": ("", "near far horizontal_fov aspect_ratio"),
+}
+
+WORLD_ROWS: dict[str, tuple[str, str]] = {
+    "sdf": ("version", "world model light actor include"),
+    "world": (
+        "name",
+        "physics gravity magnetic_field wind atmosphere! scene light model include actor plugin "
+        "population frame joint state gui spherical_coordinates audio! road!",
+    ),
+    # Actors are reported as a whole where worlds are read.
+    "actor": ("*", ""),
+    "physics": (
+        "name default type",
+        "max_step_size real_time_factor real_time_update_rate max_contacts gravity "
+        "magnetic_field! ode=physics/ode bullet=physics/ode dart! simbody!",
+    ),
+    "physics/ode": ("", "solver constraints"),
+    "solver": (
+        "",
+        "type iters precon_iters sor min_step_size! island_threads! thread_position_correction! "
+        "use_dynamic_moi_rescaling! friction_model! world_step_solver!",
+    ),
+    "constraints": (
+        "",
+        "cfm erp contact_max_correcting_vel contact_surface_layer split_impulse! "
+        "split_impulse_penetration_threshold!",
+    ),
+    "wind": ("", "linear_velocity"),
+    "scene": (
+        "",
+        "ambient background sky shadows grid fog! origin_visual! shadow_caster_material_name!",
+    ),
+    "sky": (
+        "",
+        "time! sunrise! sunset! clouds! cubemap_uri! mood!",
+    ),
+    "spherical_coordinates": (
+        "",
+        "surface_model world_frame_orientation latitude_deg longitude_deg elevation heading_deg "
+        "surface_axis_equatorial! surface_axis_polar!",
+    ),
+    "population": (
+        "name",
+        "pose model include model_count distribution box cylinder framework!",
+    ),
+    "distribution": ("", "type rows cols step"),
+    # The window's camera is read, and so is that of a gz window's 3D view.
+    "gui": ("fullscreen", "camera=gui/camera plugin!"),
+    "gui/camera": ("name", "pose view_controller! projection_type! track_visual! plugin!"),
+    # Read for poses; what else a saved state holds is told of where it is applied.
+    "state": ("*", ""),
+}
 
 _Rows = dict[str, tuple[str, str]]
 

@@ -10,15 +10,14 @@ from gazelle.description.context import ReadContext
 from gazelle.description.model import Frame, Joint, Light, Model, World
 from gazelle.description.sdf.frames import WORLD_FRAME, FrameGraph, FramePoint
 from gazelle.description.sdf.includes import included_file, share_findings
-from gazelle.description.sdf.joint_ends import JointEnds
+from gazelle.description.sdf.joints import JointEnds
 from gazelle.description.sdf.lights import read_light
 from gazelle.description.sdf.models import included_model, read_model
 from gazelle.description.sdf.parts import ModelParts
 from gazelle.description.sdf.physics import read_gravity, read_physics
 from gazelle.description.sdf.plugins import read_plugins
 from gazelle.description.sdf.populations import populated
-from gazelle.description.sdf.poses import pose_of, relative_to_of
-from gazelle.description.sdf.resolving import PoseResolver, named_children
+from gazelle.description.sdf.poses import PoseResolver, named_children, pose_of, relative_to_of
 from gazelle.description.sdf.scenes import read_scene, read_spherical_coordinates
 from gazelle.description.sdf.states import with_state
 from gazelle.description.sdf.values import child_vector3, name_of, vector3_from

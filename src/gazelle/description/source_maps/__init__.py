@@ -7,8 +7,6 @@ comments, white space and the order of attributes do not matter.
 
 from __future__ import annotations
 
-from gazelle.description.source_maps.finding import placed, source_map_of
-from gazelle.description.source_maps.record import SourceMap
-from gazelle.description.source_maps.remembering import remember
+from gazelle.description.source_maps.store import SourceMap, placed, remember, source_map_of
 
 __all__ = ["SourceMap", "placed", "remember", "source_map_of"]

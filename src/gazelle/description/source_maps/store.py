@@ -2,21 +2,72 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import tempfile
+from collections.abc import Iterable
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+from zlib import crc32
 
-from gazelle.description.source_maps.record import SourceMap, digest_of
-from gazelle.diagnostics import SourceSpan
+from gazelle.description.xml import Tag, parse_xml, with_places
+from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.folders import cache_folder
 
-__all__ = ["load_map", "save_map"]
+if TYPE_CHECKING:
+    from gazelle.description.xacro import Expanded
+
+__all__ = [
+    "SourceMap",
+    "digest_of",
+    "keys_of",
+    "load_map",
+    "placed",
+    "remember",
+    "save_map",
+    "source_map_of",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class SourceMap:
+    """Places of a text's elements.
+
+    Attributes:
+        keys: `keys_of` the text's elements in document order.
+        places: where each was written, None where that is not known any more.
+    """
+
+    keys: tuple[int, ...]
+    places: tuple[SourceSpan | None, ...]
+
+
+def keys_of(root: Tag) -> tuple[int, ...]:
+    """Return a number for each element, which stands for its name, attributes and text.
+
+    Comments, white space, the order of attributes and declarations of namespaces do not matter.
+    """
+    return tuple(_key(tag) for tag in root.walk())
+
+
+def digest_of(keys: Iterable[int]) -> str:
+    """Return a name for a sequence of keys."""
+    return hashlib.sha256(",".join(map(str, keys)).encode()).hexdigest()[:32]
+
+
+def _key(tag: Tag) -> int:
+    attributes = sorted(item for item in tag.attributes.items() if item[0][:5] != "xmlns")
+    said = repr((attributes, tag.text.split())).encode()
+    return crc32(tag.name.encode()) << 32 | crc32(said)
+
 
 _VERSION = 2
+
 _MOST_FILES = 64
+
 _MOST_BYTES = 32_000_000
 
 
@@ -114,3 +165,43 @@ def _drop_oldest(folder: Path) -> None:
         total += size
         if index >= _MOST_FILES or (total > _MOST_BYTES and index):
             path.unlink(missing_ok=True)
+
+
+def source_map_of(text: str | Tag) -> SourceMap | None:
+    """Return where the elements of a text come from.
+
+    Args:
+        text: a document, also one without comments or in other white space. A text that was
+            changed otherwise may be another robot's and is no one's.
+
+    Returns:
+        The places, one for each element; None when no run of xacro is known to have made the text.
+    """
+    root = parse_xml(text, "", Diagnostics()) if isinstance(text, str) else text
+    if root is None:
+        return None
+    keys = keys_of(root)
+    found = load_map(digest_of(keys))
+    return found if found is not None and found.keys == keys else None
+
+
+def placed(root: Tag) -> Tag:
+    """Return a tree with the places of the xacro files, where they are known."""
+    found = source_map_of(root)
+    return root if found is None else with_places(root, found.places)
+
+
+_MOST_ELEMENTS = 200_000
+
+
+def remember(expanded: Expanded) -> None:
+    """Keep the places of a text that leaves this process, in the user's cache folder.
+
+    Args:
+        expanded: what xacro made.
+    """
+    if len(expanded.places) > _MOST_ELEMENTS:
+        return
+    root = parse_xml(expanded.text, expanded.file, Diagnostics())
+    if root is not None:
+        save_map(SourceMap(keys_of(root), expanded.places))

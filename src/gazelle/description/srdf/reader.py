@@ -10,10 +10,9 @@ from pathlib import Path
 from gazelle.description.model import Model
 from gazelle.description.source_maps import placed
 from gazelle.description.srdf.collisions import read_default_collisions, read_pairs, read_spheres
-from gazelle.description.srdf.groups import read_groups
+from gazelle.description.srdf.groups import read_groups, read_states
 from gazelle.description.srdf.model import EndEffector, Srdf, VirtualJoint, VirtualJointType
 from gazelle.description.srdf.names import Names
-from gazelle.description.srdf.states import read_states
 from gazelle.description.text_origin import read_text
 from gazelle.description.urdf.attributes import check_vocabulary
 from gazelle.description.xml import Tag, attribute_span, read_xml

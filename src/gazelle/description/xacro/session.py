@@ -28,7 +28,7 @@ from gazelle.description.xacro.unprefixed import (
 from gazelle.description.xml.reader import too_much_in
 from gazelle.diagnostics import SourceSpan
 from gazelle.documents import TEXT_BYTES, compile_limited, names_in_code, read_limited
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace
 from gazelle.workspace.installed import installed_source

@@ -12,7 +12,7 @@ from gazelle.doctor.dry_start.node import DryNode
 from gazelle.doctor.dry_start.records import DryStart, StartPlan
 from gazelle.doctor.dry_start.spawning import Spawning
 from gazelle.doctor.text_files import texts_known
-from gazelle.documents.names import is_folder
+from gazelle.documents.files import is_folder
 from gazelle.errors import GazelleError, NotFoundError, UserFileError
 from gazelle.geometry import without_splitting
 from gazelle.graph.names import resolve

@@ -18,7 +18,7 @@ from gazelle.doctor.launch_ros2.node_checks import (
 )
 from gazelle.doctor.launch_ros2.records import LaunchReading
 from gazelle.doctor.report import Section
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["check_launch"]

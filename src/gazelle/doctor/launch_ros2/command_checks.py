@@ -10,7 +10,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.following import Followed
 from gazelle.doctor.launch_ros2.locating import located
 from gazelle.doctor.launch_ros2.records import Command, RobotSource
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["check_commands", "robots_of"]

@@ -12,7 +12,7 @@ from gazelle.doctor.launch_ros2.records import Use
 from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.packages.known_packages import known_packages
 from gazelle.doctor.packages.source import SourcePackage
-from gazelle.documents.names import is_file, is_folder
+from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace import Package, Workspace
 
 __all__ = ["check_packages", "check_paths", "paths_of"]

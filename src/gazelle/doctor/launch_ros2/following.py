@@ -11,7 +11,7 @@ from gazelle.doctor.launch_ros2.locating import located
 from gazelle.doctor.launch_ros2.python_file import read_python_file
 from gazelle.doctor.launch_ros2.records import Include, LaunchFile
 from gazelle.doctor.launch_ros2.xml_file import read_xml_file, read_yaml_file
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.workspace import Workspace
 
 __all__ = ["Followed", "follow"]

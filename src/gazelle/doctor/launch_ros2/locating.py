@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.installed import installed_source
 

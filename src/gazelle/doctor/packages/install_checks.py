@@ -7,7 +7,7 @@ from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean, nearest_names
 from gazelle.doctor.packages.source import SourcePackage
-from gazelle.documents.names import exists, is_folder
+from gazelle.documents.files import exists, is_folder
 from gazelle.workspace.building.install_rules import InstallRule
 
 __all__ = ["check_install", "is_needed"]

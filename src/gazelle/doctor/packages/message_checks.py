@@ -7,7 +7,7 @@ from pathlib import PurePosixPath
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.packages.source import SourcePackage
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.workspace.building.cmake_lists import Step
 
 __all__ = ["check_messages"]

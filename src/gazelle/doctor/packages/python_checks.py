@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean, nearest_names
 from gazelle.doctor.packages.source import SourcePackage
-from gazelle.documents.names import is_file, is_folder
+from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace.entry_points import console_scripts
 from gazelle.workspace.static_python import parse_python
 

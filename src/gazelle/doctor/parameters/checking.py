@@ -18,7 +18,7 @@ from gazelle.doctor.parameters.names import NameFiles, check_names, read_name_fi
 from gazelle.doctor.parameters.robots import robots_for, whole_robots
 from gazelle.doctor.parameters.value_checks import check_values
 from gazelle.doctor.report import Section
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 from gazelle.workspace import Package, Workspace
 
 __all__ = ["check_package_parameters", "check_parameter_file"]

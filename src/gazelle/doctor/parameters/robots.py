@@ -15,7 +15,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.packages.dependency_checks import uses
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.document import plain, read_document
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.workspace import Package, Workspace
 
 __all__ = ["expanded_text", "robots_for", "whole_robots"]

@@ -12,8 +12,7 @@ from typing import Any
 import yaml
 
 from gazelle.diagnostics import SourceSpan
-from gazelle.documents.budget import Budget
-from gazelle.documents.expressions import compile_limited
+from gazelle.documents.expressions import Budget, compile_limited
 from gazelle.documents.yaml.loader import LimitedLoader
 
 __all__ = ["RCL", "ROSPARAM", "YAML_1_1", "Dialect", "PlacedMapping", "loader_of"]

@@ -7,7 +7,7 @@ from typing import Any
 
 import yaml
 
-from gazelle.documents.scale import HOW_TO_RAISE, LimitError, scaled
+from gazelle.documents.files import HOW_TO_RAISE, LimitError, scaled
 
 __all__ = [
     "MOST_CHARACTERS",

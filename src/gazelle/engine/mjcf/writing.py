@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.description.conversion.beside import Beside, Converted
-from gazelle.description.conversion.losses import head_comments
-from gazelle.description.conversion.markup import Markup, number, numbers
+from gazelle.description.conversion.markup import Markup, head_comments, number, numbers
 from gazelle.description.model import Model, World
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics

@@ -5,16 +5,17 @@ from __future__ import annotations
 from gazelle.graph.actions.client import ActionClient
 from gazelle.graph.actions.client_goal import ClientGoal
 from gazelle.graph.actions.comm_state import CommState
-from gazelle.graph.actions.goal import LocalGoal, ServerGoal
-from gazelle.graph.actions.listing import ActionInfo, actions_of
-from gazelle.graph.actions.server import ActionServer, ActionTiming
-from gazelle.graph.actions.states import (
+from gazelle.graph.actions.goal import (
     ActionlibStatus,
     GoalEvent,
     GoalStateError,
+    LocalGoal,
     Ros2Status,
+    ServerGoal,
     Status,
 )
+from gazelle.graph.actions.listing import ActionInfo, actions_of
+from gazelle.graph.actions.server import ActionServer, ActionTiming
 from gazelle.graph.actions.types import ActionTypes, action_name, action_types, as_message
 
 __all__ = [

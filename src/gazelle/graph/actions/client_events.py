@@ -6,8 +6,8 @@ import traceback
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.graph.backlog import MOST_WAITING, Backlog
 from gazelle.graph.delivery import Mailbox
+from gazelle.graph.subscription import MOST_WAITING, Backlog
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node

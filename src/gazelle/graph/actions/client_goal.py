@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from gazelle.graph.actions.comm_state import CommState
-from gazelle.graph.actions.states import ActionlibStatus, Ros2Status, Status
+from gazelle.graph.actions.goal import ActionlibStatus, Ros2Status, Status
 
 __all__ = ["ClientGoal", "GoalSender"]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import enum
 from collections.abc import Mapping
 
-from gazelle.graph.actions.states import ActionlibStatus
+from gazelle.graph.actions.goal import ActionlibStatus
 
 __all__ = ["TRANSITIONS", "CommState", "steps"]
 

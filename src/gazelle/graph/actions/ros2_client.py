@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 from gazelle.errors import GraphError
 from gazelle.graph.actions.client_events import News
 from gazelle.graph.actions.client_goal import ClientGoal
-from gazelle.graph.actions.states import Ros2Status
+from gazelle.graph.actions.goal import Ros2Status
 from gazelle.graph.actions.types import ActionTypes
-from gazelle.graph.in_flight import CallsInFlight
+from gazelle.graph.closing import CallsInFlight
 from gazelle.graph.keys import Kind
 from gazelle.graph.ordered_requests import Turn, Turns
 from gazelle.interfaces.stamps import set_stamp

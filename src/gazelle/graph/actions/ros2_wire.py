@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.graph.actions.goal import ServerGoal
-from gazelle.graph.actions.states import Ros2Status
+from gazelle.graph.actions.goal import Ros2Status, ServerGoal
 from gazelle.graph.errors import ServiceRefusedError
 from gazelle.graph.ordered_requests import InTurn
 from gazelle.interfaces.stamps import ns_of, set_stamp

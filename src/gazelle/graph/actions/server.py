@@ -11,9 +11,7 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
 from gazelle.errors import GraphError
-from gazelle.graph.actions.goal import LocalGoal, ServerGoal
-from gazelle.graph.actions.states import Ros2Status
-from gazelle.graph.actions.status_timer import StatusTimer
+from gazelle.graph.actions.goal import LocalGoal, Ros2Status, ServerGoal, StatusTimer
 from gazelle.graph.actions.types import Generation, action_types, as_message
 from gazelle.graph.errors import ServiceRefusedError
 

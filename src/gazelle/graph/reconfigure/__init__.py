@@ -10,7 +10,7 @@ from gazelle.graph.reconfigure.description import (
     Value,
     enum_edit_method,
 )
-from gazelle.graph.reconfigure.listing import server_names
+from gazelle.graph.reconfigure.messages import server_names
 from gazelle.graph.reconfigure.server import ReconfigureServer
 
 __all__ = [

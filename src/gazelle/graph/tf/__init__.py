@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from gazelle.graph.tf.broadcaster import StaticTransformBroadcaster, TransformBroadcaster
+from gazelle.graph.tf.broadcaster import (
+    StaticTransformBroadcaster,
+    TransformBroadcaster,
+    TransformListener,
+)
 from gazelle.graph.tf.buffer import FrameInfo, StampedPose, TransformBuffer
 from gazelle.graph.tf.errors import (
     ConnectivityError,
@@ -11,7 +15,6 @@ from gazelle.graph.tf.errors import (
     TransformError,
     UnknownFrameError,
 )
-from gazelle.graph.tf.listener import TransformListener
 from gazelle.graph.tf.listing import frames_as_dot, frames_as_string, frames_as_yaml
 from gazelle.graph.tf.message_filter import MessageFilter
 

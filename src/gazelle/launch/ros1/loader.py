@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.environment import ros1_variables
 from gazelle.launch.ros1.elements import HANDLERS

@@ -10,7 +10,7 @@ from gazelle.description.xml import Tag
 from gazelle.diagnostics import did_you_mean
 from gazelle.documents import TEXT_BYTES, LimitError, read_limited, read_text_limited
 from gazelle.documents.commands import run_limited
-from gazelle.documents.names import exists, is_file, is_folder
+from gazelle.documents.files import exists, is_file, is_folder
 from gazelle.documents.yaml import ROSPARAM, YamlError, YamlProblem, read_yaml
 from gazelle.graph.names import resolve
 from gazelle.launch.config import ParamDump

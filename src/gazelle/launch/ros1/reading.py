@@ -9,7 +9,7 @@ from pathlib import Path
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.documents import scaled
-from gazelle.documents.names import is_folder
+from gazelle.documents.files import is_folder
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.ros1.scope import Scope
 from gazelle.launch.ros1.substitution import Substitution, SubstitutionError, directory_of

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan, did_you_mean
-from gazelle.documents.names import is_folder
+from gazelle.documents.files import is_folder
 from gazelle.launch.environment import ROS_COMMANDS
 from gazelle.launch.ros2.conditions import InvalidConditionExpressionError
 from gazelle.launch.ros2.explaining import Explained, explain

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.documents.names import exists, is_folder
+from gazelle.documents.files import exists, is_folder
 from gazelle.documents.yaml import ProblemKind, YamlError, YamlMapping, read_yaml_file, value_of
 from gazelle.mapping.grids.pixels import MapMode
 

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.loops.settings import PlaceSettings
 from gazelle.mapping.loops.shortest_path_kernels import shortest_ways
-from gazelle.mapping.pose_graph.constraints import Edges
-from gazelle.mapping.pose_graph.information import doubtful
+from gazelle.mapping.pose_graph.constraints import Edges, doubtful
 from gazelle.mapping.poses import Poses
 
 __all__ = ["Place", "places_near"]

@@ -5,15 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.loops.ambiguity import ambiguous
 from gazelle.mapping.loops.candidates import Place
-from gazelle.mapping.loops.hypotheses import Hypothesis
+from gazelle.mapping.loops.hypotheses import Hypothesis, ambiguous
 from gazelle.mapping.loops.settings import RecognitionSettings
 from gazelle.mapping.matching.branch_and_bound import WideSearch
 from gazelle.mapping.matching.field import Field
 from gazelle.mapping.matching.match import Prior, refined
 from gazelle.mapping.matching.surfaces import even_points
-from gazelle.mapping.pose_graph.information import seen_from
+from gazelle.mapping.pose_graph.constraints import seen_from
 from gazelle.mapping.poses import Poses, between, transform_points
 from gazelle.mapping.slam.keyframes import Keyframes
 from gazelle.mapping.slam.parameters import SlamParameters

@@ -11,18 +11,23 @@ from numpy.typing import ArrayLike
 
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.matching.match import Match
-from gazelle.mapping.pose_graph.constraints import Edges, no_edges
-from gazelle.mapping.pose_graph.information import DOUBTFUL, UNKNOWN, bounded, seen_from
+from gazelle.mapping.pose_graph.constraints import (
+    DOUBTFUL,
+    UNKNOWN,
+    Edges,
+    bounded,
+    no_edges,
+    seen_from,
+)
 from gazelle.mapping.pose_graph.optimise import optimise
 from gazelle.mapping.poses import Poses, between, compose
 from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam.global_refinement import polished
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes, keyframe_of
-from gazelle.mapping.slam.loop_closure import LoopCloser
+from gazelle.mapping.slam.loop_closure import LoopCloser, Track
 from gazelle.mapping.slam.occupancy_counts import draw
 from gazelle.mapping.slam.parameters import SlamParameters
 from gazelle.mapping.slam.tracking import Tracker, is_jump, motion_information
-from gazelle.mapping.slam.trajectory import Track
 
 __all__ = ["Slam", "SlamResult", "Update", "slam"]
 

@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.mapping.matching.match import Match, Prior, match
-from gazelle.mapping.pose_graph.constraints import Edges
-from gazelle.mapping.pose_graph.information import bounded, seen_from
+from gazelle.mapping.pose_graph.constraints import Edges, bounded, seen_from
 from gazelle.mapping.pose_graph.optimise import optimise
 from gazelle.mapping.poses import Poses, between, wrap_angle
 from gazelle.mapping.slam.keyframes import Keyframes

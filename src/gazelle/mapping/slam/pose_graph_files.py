@@ -10,8 +10,7 @@ import numpy as np
 from gazelle.documents.archives import read_arrays
 from gazelle.documents.versions import refused_version
 from gazelle.errors import GazelleError
-from gazelle.mapping.pose_graph.constraints import Edges
-from gazelle.mapping.pose_graph.information import doubtful
+from gazelle.mapping.pose_graph.constraints import Edges, doubtful
 from gazelle.mapping.scans import Scan
 from gazelle.mapping.slam.engine import Slam
 from gazelle.mapping.slam.keyframes import keyframe_of

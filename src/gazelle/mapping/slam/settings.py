@@ -17,7 +17,7 @@ from gazelle.mapping.loops.settings import (
     RecognitionSettings,
 )
 from gazelle.mapping.matching.settings import FieldSettings, MatchSettings, SurfaceSettings
-from gazelle.mapping.pose_graph.settings import GraphSettings
+from gazelle.mapping.pose_graph.optimise import GraphSettings
 
 __all__ = [
     "ClosingSettings",

@@ -6,12 +6,12 @@ from gazelle.motion.constraints.kinds import (
     ForwardKinematics,
     JointConstraint,
     OrientationConstraint,
+    Parameterization,
     PathConstraint,
     PositionConstraint,
+    Region,
 )
 from gazelle.motion.constraints.path import Constrained, narrowed, projection
-from gazelle.motion.constraints.region import Region
-from gazelle.motion.constraints.rotation import Parameterization
 
 __all__ = [
     "Constrained",

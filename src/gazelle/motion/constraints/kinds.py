@@ -2,25 +2,164 @@
 
 from __future__ import annotations
 
+import enum
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
-from gazelle.motion.constraints.region import Region
-from gazelle.motion.constraints.rotation import Parameterization, rotation_error
 from gazelle.motion.space import FloatArray
 
 __all__ = [
     "ForwardKinematics",
     "JointConstraint",
     "OrientationConstraint",
+    "Parameterization",
     "PathConstraint",
     "PositionConstraint",
+    "Region",
+    "euler_xyz",
+    "matrix_of",
+    "rotation_error",
+    "rotation_vector",
 ]
 
+
+_DIMENSIONS = {"box": 3, "sphere": 1, "cylinder": 2}
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A solid primitive at a pose.
+
+    Attributes:
+        kind: ``"box"``, ``"sphere"`` or ``"cylinder"`` (along its z axis).
+        dimensions_m: box: sides along x, y, z; sphere: radius; cylinder: height, radius (the
+            order of ``shape_msgs/SolidPrimitive``).
+        pose: 4×4, of the region in the planning frame.
+    """
+
+    kind: str
+    dimensions_m: tuple[float, ...]
+    pose: FloatArray
+
+    def __post_init__(self) -> None:
+        wanted = _DIMENSIONS.get(self.kind)
+        if wanted is None:
+            known = ", ".join(_DIMENSIONS)
+            raise ValueError(f"a region of kind '{self.kind}' is not one of {known}")
+        sides = self.dimensions_m[:wanted]
+        if len(sides) < wanted or not all(0.0 <= side < math.inf for side in sides):
+            raise ValueError(f"a {self.kind} needs {wanted} dimensions, finite and not negative")
+
+    def beyond(self, point: FloatArray, share: float) -> FloatArray:
+        """Return the way from the region to a point, zero within; 3 numbers in the region's axes.
+
+        Args:
+            point: shape (3,), m, in the planning frame.
+            share: how much of the region's size counts.
+        """
+        local: FloatArray = self.pose[:3, :3].T @ (point - self.pose[:3, 3])
+        if self.kind == "box":
+            half = np.array(self.dimensions_m[:3]) * (0.5 * share)
+            outside: FloatArray = local - np.clip(local, -half, half)
+            return outside
+        if self.kind == "sphere":
+            return _beyond_radius(local, self.dimensions_m[0] * share)
+        half_height, radius = 0.5 * self.dimensions_m[0] * share, self.dimensions_m[1] * share
+        height = local[2] - np.clip(local[2], -half_height, half_height)
+        return np.append(_beyond_radius(local[:2], radius), height)
+
+    def sample(self, rng: np.random.Generator) -> FloatArray:
+        """Return a point, (3,), m, drawn uniformly from the region, in the planning frame."""
+        if self.kind == "box":
+            local = (rng.random(3) - 0.5) * np.array(self.dimensions_m[:3])
+        elif self.kind == "sphere":
+            direction = rng.standard_normal(3)
+            radius = self.dimensions_m[0] * rng.random() ** (1.0 / 3.0)
+            local = direction / np.linalg.norm(direction) * radius
+        else:
+            angle, radius = 2.0 * np.pi * rng.random(), self.dimensions_m[1] * rng.random() ** 0.5
+            height = (rng.random() - 0.5) * self.dimensions_m[0]
+            local = np.array([radius * np.cos(angle), radius * np.sin(angle), height])
+        drawn: FloatArray = self.pose[:3, :3] @ local + self.pose[:3, 3]
+        return drawn
+
+
+def _beyond_radius(local: FloatArray, radius: float) -> FloatArray:
+    distance = float(np.linalg.norm(local))
+    return np.zeros_like(local) if distance <= radius else local * (1.0 - radius / distance)
+
+
+class Parameterization(enum.IntEnum):
+    """``moveit_msgs/OrientationConstraint.parameterization``."""
+
+    XYZ_EULER_ANGLES = 0
+    ROTATION_VECTOR = 1
+
+
+def euler_xyz(rotation: FloatArray) -> FloatArray:
+    """Return angles about x, then the new y, then the new z (Eigen's ``eulerAngles(0, 1, 2)``)."""
+    middle = math.asin(max(-1.0, min(1.0, float(rotation[0, 2]))))
+    first = math.atan2(-rotation[1, 2], rotation[2, 2])
+    last = math.atan2(-rotation[0, 1], rotation[0, 0])
+    return np.array([first, middle, last])
+
+
+def rotation_vector(rotation: FloatArray) -> FloatArray:
+    """Return the axis of a rotation (3, 3) times its angle, (3,), rad."""
+    twice_sine = np.array(
+        [
+            rotation[2, 1] - rotation[1, 2],
+            rotation[0, 2] - rotation[2, 0],
+            rotation[1, 0] - rotation[0, 1],
+        ]
+    )
+    norm = float(np.linalg.norm(twice_sine))
+    angle = math.atan2(norm, float(np.trace(rotation)) - 1.0)
+    if norm > 1e-7:
+        return twice_sine * (angle / norm)
+    if angle < 1.0:
+        return twice_sine * 0.5
+    # Half a turn: the axis is the column of (R + I) / 2 that is longest.
+    columns = (rotation + np.eye(3)) / 2.0
+    column = columns[:, int(np.diag(columns).argmax())]
+    axis: FloatArray = column / np.linalg.norm(column) * angle
+    return axis
+
+
+def matrix_of(angles: FloatArray, kind: Parameterization) -> FloatArray:
+    """Return the rotation (3, 3) whose error is `angles` (3,); `rotation_error` inverted."""
+    if kind is Parameterization.ROTATION_VECTOR:
+        angle = float(np.linalg.norm(angles))
+        if angle == 0.0:
+            return np.eye(3)
+        x, y, z = angles / angle
+        cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        turned: FloatArray = (
+            np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+        )
+        return turned
+    (ca, cb, cc), (sa, sb, sc) = np.cos(angles), np.sin(angles)
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, ca, -sa], [0.0, sa, ca]])
+    about_y = np.array([[cb, 0.0, sb], [0.0, 1.0, 0.0], [-sb, 0.0, cb]])
+    about_z = np.array([[cc, -sc, 0.0], [sc, cc, 0.0], [0.0, 0.0, 1.0]])
+    product: FloatArray = about_x @ about_y @ about_z
+    return product
+
+
+def rotation_error(wanted: FloatArray, actual: FloatArray, kind: Parameterization) -> FloatArray:
+    """Return how far `actual` is from `wanted` (3×3 each), about the axes of `wanted`, rad."""
+    difference = wanted.T @ actual
+    if kind is Parameterization.ROTATION_VECTOR:
+        return rotation_vector(difference)
+    return euler_xyz(difference)
+
+
 ForwardKinematics = Callable[[FloatArray, str], FloatArray]
+
 """Returns the pose of a link, 4×4 in the planning frame, at a configuration."""
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from gazelle.motion.kinematics.kernel_warm_up import warm_up
-from gazelle.motion.kinematics.poses import link_poses
-from gazelle.motion.kinematics.solver import Patience, Solver
+from gazelle.motion.kinematics.solver import Patience, Solver, link_poses
 
 __all__ = ["Patience", "Solver", "link_poses", "warm_up"]

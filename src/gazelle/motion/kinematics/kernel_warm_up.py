@@ -7,8 +7,7 @@ import numpy as np
 from gazelle.description.model import Joint, JointAxis, JointType, Link, Model
 from gazelle.description.srdf import Group, Srdf
 from gazelle.diagnostics import Diagnostics
-from gazelle.motion.kinematics.poses import link_poses
-from gazelle.motion.kinematics.solver import Solver
+from gazelle.motion.kinematics.solver import Solver, link_poses
 from gazelle.motion.model import RobotModel
 
 __all__ = ["warm_up"]

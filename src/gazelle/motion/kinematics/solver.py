@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -12,16 +13,48 @@ import numpy as np
 from gazelle.description.moveit import KinematicsSettings
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
-from gazelle.motion.kinematics.chain import Chain, Goal, chain_to
-from gazelle.motion.kinematics.kernels import chain_jacobian, chain_pose, solve
+from gazelle.motion.kinematics.chain import Chain, Goal, LinkTree, chain_to, link_tree
+from gazelle.motion.kinematics.kernels import chain_jacobian, chain_pose, solve, tree
 from gazelle.motion.model import JointGroup, JointKind, RobotModel
 from gazelle.motion.space import BoolArray, FloatArray, Validity
 
-__all__ = ["Patience", "Solver"]
+__all__ = ["Patience", "Solver", "link_poses"]
+
+
+def link_poses(
+    robot: RobotModel, positions: FloatArray, links: Iterable[str] | None = None
+) -> dict[str, FloatArray]:
+    """Return 4×4 poses of links in the robot's frame.
+
+    Args:
+        robot: the robot.
+        positions: of all its variables, rad or m, see `RobotModel.positions`.
+        links: those that are wanted; all when None.
+
+    Raises:
+        KeyError: there is no such link.
+    """
+    arrays = _tree_of(robot)
+    count = len(arrays.parents)
+    R, p = np.empty((count, 3, 3)), np.empty((count, 3))
+    tree(arrays, np.ascontiguousarray(positions, dtype=np.float64), R, p)
+    poses = np.zeros((count, 4, 4))
+    poses[:, :3, :3], poses[:, :3, 3], poses[:, 3, 3] = R, p, 1.0
+    found = dict(zip(robot.links, poses, strict=True))
+    return found if links is None else {name: found[name] for name in links}
+
+
+@lru_cache(maxsize=8)
+def _tree_of(robot: RobotModel) -> LinkTree:
+    return link_tree(robot)
+
 
 _STEPS = 60
+
 _BATCH = 16
+
 _TURN = 2.0 * math.pi
+
 _IDENTITY = np.eye(4)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gazelle.motion.constraints.rotation import Parameterization, matrix_of, rotation_vector
+from gazelle.motion.constraints.kinds import Parameterization, matrix_of, rotation_vector
 from gazelle.motion.pilz.command import Command
 from gazelle.motion.pilz.motion import Motion, check_limits, grid, joined, measured, thinned
 from gazelle.motion.pilz.planner import PilzPlanner

@@ -7,11 +7,9 @@ from __future__ import annotations
 
 from gazelle.motion.planning.configs import PlannerConfig, configured
 from gazelle.motion.planning.failure import ErrorCode, PlanningError
-from gazelle.motion.planning.path import Path
 from gazelle.motion.planning.planners import PLANNERS
-from gazelle.motion.planning.problem import GoalSource
+from gazelle.motion.planning.problem import GoalSource, Path, PlannerSettings, Search
 from gazelle.motion.planning.rrt_connect import warm_up
-from gazelle.motion.planning.settings import PlannerSettings, Search
 from gazelle.motion.planning.solve import plan
 from gazelle.motion.planning.validation import FINE_STEP, first_fault
 

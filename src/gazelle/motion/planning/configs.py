@@ -12,7 +12,7 @@ from gazelle.description.moveit import Pipeline
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.motion.planning.ompl_planners import NATIVE_PARAMETERS, why_missing
 from gazelle.motion.planning.planners import DEFAULT, PLANNERS, bare_name, find_planner
-from gazelle.motion.planning.settings import PlannerSettings
+from gazelle.motion.planning.problem import PlannerSettings
 from gazelle.motion.space import JointSpace
 
 __all__ = ["PlannerConfig", "configured"]

@@ -2,29 +2,128 @@
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
-from gazelle.motion.planning.settings import PlannerSettings
 from gazelle.motion.planning.validation import FINE_STEP, SWEPT_STEP, ends_of
 from gazelle.motion.space import FloatArray, JointSpace, SweptMotions, SweptValidity, Validity
 
-__all__ = ["GoalSource", "Problem", "Projection", "Waypoints"]
+__all__ = ["GoalSource", "Path", "PlannerSettings", "Problem", "Projection", "Search", "Waypoints"]
+
+
+@dataclass(frozen=True)
+class Path:
+    """Straight motions between waypoints.
+
+    Attributes:
+        names: names of the joints.
+        waypoints: shape (m, n), rad or m, m ≥ 2. Continuous joints go on past pi.
+        planner: the planner that found it, by its MoveIt name.
+        planning_time_s: time until there was a path.
+        simplification_time_s: time that shortcuts took.
+        validation_time_s: time that the fine check took.
+        notes: what was done otherwise than asked, one sentence each.
+        timed_out: whether the time limit ended an optimising planner; where it did not, the same
+            seed gives the same path.
+    """
+
+    names: tuple[str, ...]
+    waypoints: FloatArray
+    planner: str = ""
+    planning_time_s: float = 0.0
+    simplification_time_s: float = 0.0
+    validation_time_s: float = 0.0
+    notes: tuple[str, ...] = ()
+    timed_out: bool = False
+
+    @property
+    def length(self) -> float:
+        """The Euclidean length, rad or m."""
+        return float(np.linalg.norm(np.diff(self.waypoints, axis=0), axis=1).sum())
+
+    def densified(self, step: float) -> FloatArray:
+        """Return the path's states (k, n), no two neighbours further than `step` apart."""
+        rows = [self.waypoints[:1]]
+        for first, last in zip(self.waypoints[:-1], self.waypoints[1:], strict=True):
+            count = max(1, int(np.ceil(np.linalg.norm(last - first) / step)))
+            rows.append(first + (last - first) * (np.arange(1, count + 1) / count)[:, None])
+        return np.concatenate(rows)
+
+
+@dataclass(frozen=True)
+class PlannerSettings:
+    """Parameters of a planner; the defaults are those of a planner that nobody configured.
+
+    Attributes:
+        range: longest motion added to a tree, rad or m; 0 lets the planner choose.
+        goal_bias: how often RRT and RRT* head for a goal, 0 to 1.
+        max_nearest_neighbors: neighbours that PRM connects a configuration with.
+        step: longest motion between two checks while searching, rad or m.
+        max_goal_samples: goals drawn where the goal leaves a choice.
+        max_iterations: configurations that an optimising planner draws before it is content.
+        minimum_waypoint_count: waypoints that a path has at least.
+        simplify: whether shortcuts are taken.
+        native: parameters by name for planners of OMPL and of other packages.
+        projection: joints that KPIECE and its kin look at; OMPL chooses where there are none.
+
+    Raises:
+        ValueError: a motion or a step is of no length that there is.
+    """
+
+    range: float = 0.0
+    goal_bias: float = 0.05
+    max_nearest_neighbors: int = 10
+    step: float = 0.1
+    max_goal_samples: int = 10
+    max_iterations: int = 2000
+    minimum_waypoint_count: int = 2
+    simplify: bool = True
+    native: Mapping[str, float] = field(default_factory=dict)
+    projection: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.range >= 0.0:
+            raise ValueError(f"range is {self.range:g}: the longest motion is 0 or more")
+        if not 0.0 < self.step < math.inf:
+            raise ValueError(f"step is {self.step:g}: checks are more than 0 apart, and finite")
+
+
+@dataclass(frozen=True)
+class Search:
+    """How a path is looked for.
+
+    Attributes:
+        planner: a planner's name or id as MoveIt writes it; empty for the default.
+        seed: of all chance.
+        time_limit_s: MoveIt's allowed_planning_time.
+        settings: parameters of the planner; its usual ones when None.
+    """
+
+    planner: str = ""
+    seed: int = 0
+    time_limit_s: float = 5.0
+    settings: PlannerSettings | None = None
+
 
 GoalSource = Callable[[np.random.Generator], FloatArray | None]
+
 """Draws one more configuration that reaches the goal, None where the draw found none."""
 
 Projection = Callable[[FloatArray], FloatArray | None]
+
 """Moves a configuration to the nearest one that satisfies the path constraints."""
 
 Waypoints = list[FloatArray]
 
 _CHAIN_STEP = 0.1
+
 _MOST_OF_CHAIN = 400
+
 _TRIES_PER_GOAL = 3
 
 

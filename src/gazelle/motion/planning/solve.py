@@ -11,11 +11,16 @@ import numpy as np
 
 from gazelle.motion.constraints import Constrained, PathConstraint, narrowed, projection
 from gazelle.motion.planning.failure import ErrorCode, PlanningError
-from gazelle.motion.planning.path import Path
 from gazelle.motion.planning.planners import Chosen, choose
-from gazelle.motion.planning.problem import GoalSource, Problem, Waypoints
+from gazelle.motion.planning.problem import (
+    GoalSource,
+    Path,
+    PlannerSettings,
+    Problem,
+    Search,
+    Waypoints,
+)
 from gazelle.motion.planning.rrt_connect import warm_up
-from gazelle.motion.planning.settings import PlannerSettings, Search
 from gazelle.motion.planning.shortcut import shortcut
 from gazelle.motion.planning.validation import (
     FINE_STEP,

@@ -17,7 +17,7 @@ from gazelle.motion.space import FloatArray
 from gazelle.motion.timing.geometry import Line
 from gazelle.motion.timing.limits import Limits
 from gazelle.motion.timing.profile import Span
-from gazelle.motion.timing.sampling import States, states_at
+from gazelle.motion.timing.trajectory import States, states_at
 
 __all__ = ["Smoothed", "seven_phases"]
 

@@ -8,15 +8,14 @@ from typing import Literal
 
 import numpy as np
 
-from gazelle.motion.planning.path import Path
+from gazelle.motion.planning.problem import Path
 from gazelle.motion.planning.validation import FINE_STEP, first_fault, first_faulty_motion
 from gazelle.motion.space import FloatArray, JointSpace, Validity
 from gazelle.motion.timing.geometry import Arc, Line, corner_arc, distinct, pieces
 from gazelle.motion.timing.jerk import Smoothed, seven_phases
 from gazelle.motion.timing.limits import Limits, limits_of
 from gazelle.motion.timing.profile import Span, fastest
-from gazelle.motion.timing.sampling import States, states_at, times_of
-from gazelle.motion.timing.trajectory import Trajectory
+from gazelle.motion.timing.trajectory import States, Trajectory, states_at, times_of
 
 __all__ = ["Method", "method_of", "parameterise"]
 

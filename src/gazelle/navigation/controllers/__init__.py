@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.navigation.controllers.mppi import MppiController
-from gazelle.navigation.controllers.mppi_options import MppiOptions
+from gazelle.navigation.controllers.mppi import MppiController, MppiOptions
 from gazelle.navigation.controllers.options import (
     DwaOptions,
     DwbOptions,
@@ -15,8 +14,7 @@ from gazelle.navigation.controllers.registry import (
     ControllerKind,
     ControllerSetting,
 )
-from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController
-from gazelle.navigation.controllers.regulated_pure_pursuit_options import PursuitOptions
+from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController, PursuitOptions
 from gazelle.navigation.controllers.sampling import SamplingController
 from gazelle.navigation.controllers.state import (
     Command,

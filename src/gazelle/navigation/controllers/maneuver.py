@@ -17,8 +17,7 @@ from gazelle.navigation.controllers.state import (
     RobotState,
     Velocity,
 )
-from gazelle.navigation.costmap.collision import footprint_cost
-from gazelle.navigation.costmap.footprint import Footprint
+from gazelle.navigation.costmap.footprint import Footprint, footprint_cost
 from gazelle.navigation.costmap.grid import CostGrid
 
 __all__ = ["Maneuvering", "Pace"]

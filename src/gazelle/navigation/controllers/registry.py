@@ -7,16 +7,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from gazelle.navigation.controllers.maneuver import Maneuvering, Pace
-from gazelle.navigation.controllers.mppi import MppiController
-from gazelle.navigation.controllers.mppi_options import MppiOptions
+from gazelle.navigation.controllers.mppi import MppiController, MppiOptions
 from gazelle.navigation.controllers.options import (
     DwaOptions,
     DwbOptions,
     TrajectoryPlannerOptions,
 )
 from gazelle.navigation.controllers.profile import dwa_profile, dwb_profile
-from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController
-from gazelle.navigation.controllers.regulated_pure_pursuit_options import PursuitOptions
+from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController, PursuitOptions
 from gazelle.navigation.controllers.sampling import SamplingController
 from gazelle.navigation.controllers.state import Controller
 from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.navigation.controllers.arrival import Arrival
 from gazelle.navigation.controllers.following import FollowedPlan
-from gazelle.navigation.controllers.oscillation import Oscillation
 from gazelle.navigation.controllers.profile import Profile
 from gazelle.navigation.controllers.rollout_arguments import (
     Distances,
@@ -19,14 +18,87 @@ from gazelle.navigation.controllers.rollout_arguments import (
     SampleWeights,
     Timing,
 )
-from gazelle.navigation.controllers.samples import grid_of_samples
 from gazelle.navigation.controllers.state import Command, NoCommand, RobotState, Velocity
 from gazelle.navigation.costmap.footprint import Footprint
 from gazelle.navigation.costmap.grid import CostGrid
 
-__all__ = ["SamplingController"]
+__all__ = ["Oscillation", "SamplingController", "grid_of_samples", "samples_between"]
+
+
+def samples_between(low: float, high: float, count: int) -> NDArray[np.float64]:
+    """Return evenly spaced velocities, (n,), with 0 among them where it lies between.
+
+    This is ``VelocityIterator`` of base_local_planner.
+    """
+    if low >= high:
+        return np.array([low])
+    values = np.linspace(low, high, max(count, 2))
+    if low < 0 < high:
+        values = np.union1d(values, [0.0])
+    return values
+
+
+def grid_of_samples(
+    low: NDArray[np.float64], high: NDArray[np.float64], counts: tuple[int, int, int]
+) -> NDArray[np.float64]:
+    """Return all combinations of x, y and turning velocities, (n, 3), x slowest."""
+    axes = [samples_between(float(low[k]), float(high[k]), counts[k]) for k in range(3)]
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+Pose = tuple[float, float, float]
+
+_AXES = range(3)
+
+
+@dataclass
+class Oscillation:
+    """Remembers which way the robot went along x, along y and around z.
+
+    A direction that was reversed is kept until the robot has moved away from where that happened.
+
+    Attributes:
+        reset_m: how far that is.
+        reset_rad: or how far the robot has to turn.
+    """
+
+    reset_m: float
+    reset_rad: float
+    _direction: list[int] = field(default_factory=lambda: [0, 0, 0])
+    _only: list[int] = field(default_factory=lambda: [0, 0, 0])
+    _place: Pose = (0.0, 0.0, 0.0)
+
+    def reset(self) -> None:
+        """Allow every direction again."""
+        self._direction, self._only = [0, 0, 0], [0, 0, 0]
+
+    def allowed(self, samples: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return which velocities do not go back on a reversal, shape (n,)."""
+        only = np.array(self._only)
+        return np.asarray(((samples * only >= 0) | (only == 0)).all(axis=1))
+
+    def remember(self, pose: Pose, velocity: tuple[float, float, float], slow_m_s: float) -> None:
+        """Take in what is driven now; turning and strafing count at low speed only."""
+        reversed_now = False
+        for axis in _AXES:
+            if axis > 0 and abs(velocity[0]) > slow_m_s:
+                break
+            sign = int(np.sign(velocity[axis]))
+            if sign and self._direction[axis] == -sign:
+                self._only[axis] = sign
+                reversed_now = True
+            if sign:
+                self._direction[axis] = sign
+        if reversed_now:
+            self._place = pose
+        away = math.hypot(pose[0] - self._place[0], pose[1] - self._place[1])
+        turned = abs(math.remainder(pose[2] - self._place[2], math.tau))
+        if any(self._only) and (away > self.reset_m or turned > self.reset_rad):
+            self.reset()
+
 
 _Fields = tuple[Distances, NDArray[np.float32]]
+
 _REFUSALS = {
     -3.0: "lead where no way leads to the goal",
     -4.0: "leave the local costmap",

@@ -13,8 +13,7 @@ from gazelle.navigation.controllers.following import FollowedPlan, angle_between
 from gazelle.navigation.controllers.options import TrajectoryPlannerOptions
 from gazelle.navigation.controllers.rollout_arguments import Distances, RolloutTerms, Timing
 from gazelle.navigation.controllers.state import Command, NoCommand, RobotState, Velocity
-from gazelle.navigation.costmap.collision import footprint_cost
-from gazelle.navigation.costmap.footprint import Footprint
+from gazelle.navigation.costmap.footprint import Footprint, footprint_cost
 from gazelle.navigation.costmap.grid import CostGrid
 
 __all__ = ["TrajectoryPlanner"]

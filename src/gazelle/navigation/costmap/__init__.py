@@ -7,8 +7,7 @@ lethal, and updates of the changed window only.
 
 from __future__ import annotations
 
-from gazelle.navigation.costmap.collision import footprint_cost
-from gazelle.navigation.costmap.footprint import Footprint
+from gazelle.navigation.costmap.footprint import Footprint, footprint_cost
 from gazelle.navigation.costmap.grid import (
     FREE,
     INSCRIBED,

@@ -11,7 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Footprint"]
+from gazelle.navigation.costmap.grid import CostGrid
+
+__all__ = ["Footprint", "footprint_cost"]
+
 
 _CIRCLE_CORNERS = 16
 
@@ -107,3 +110,20 @@ def _distance(a: tuple[float, float], b: tuple[float, float]) -> float:
     square = dx * dx + dy * dy
     share = 0.0 if square == 0 else min(max(-(a[0] * dx + a[1] * dy) / square, 0.0), 1.0)
     return math.hypot(a[0] + share * dx, a[1] + share * dy)
+
+
+def footprint_cost(grid: CostGrid, footprint: Footprint, pose: tuple[float, float, float]) -> int:
+    """Return the highest cost under a robot's centre and outline.
+
+    Returns:
+        0 … 253 where it fits; −1 when an obstacle is in the way, −2 when it stands on what is
+        unknown, −3 when it is outside the grid, as ``CostmapModel::footprintCost``.
+    """
+    from gazelle.navigation.costmap.kernels import outline_cost
+
+    x, y, yaw = pose
+    return int(
+        outline_cost(
+            grid.cells, footprint.points, float(x), float(y), math.cos(yaw), math.sin(yaw), 1.0
+        )
+    )

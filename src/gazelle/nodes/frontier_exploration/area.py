@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.mapping.boundary import are_inside
-from gazelle.mapping.frontiers import Frontier, find_frontiers
+from gazelle.mapping.frontiers import Frontier, are_inside, find_frontiers
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.costmap import CostGrid, ObstacleLayer, occupancy_of_costs
 from gazelle.nodes.frontier_exploration.tables import BOUNDED_EXPLORE, LAYER_TYPE

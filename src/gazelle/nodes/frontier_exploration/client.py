@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.graph import Graph
 from gazelle.graph.actions import ActionClient
 from gazelle.interfaces import message_type
-from gazelle.mapping.boundary import are_inside, perimeter_m
+from gazelle.mapping.frontiers import are_inside, perimeter_m
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.motion.constraints import PathConstraint
-from gazelle.motion.constraints.rotation import Parameterization, matrix_of, rotation_vector
+from gazelle.motion.constraints.kinds import Parameterization, matrix_of, rotation_vector
 from gazelle.motion.kinematics import Patience, Solver
 from gazelle.motion.space import FloatArray, Validity
 

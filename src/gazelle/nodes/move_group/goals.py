@@ -13,7 +13,7 @@ from gazelle.motion.constraints import (
     PathConstraint,
     PositionConstraint,
 )
-from gazelle.motion.constraints.rotation import matrix_of
+from gazelle.motion.constraints.kinds import matrix_of
 from gazelle.motion.kinematics import Patience, Solver
 from gazelle.motion.space import FloatArray, Validity
 

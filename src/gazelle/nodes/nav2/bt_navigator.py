@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
 from gazelle.graph.actions import ServerGoal

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.errors import GazelleError
 
 __all__ = ["model_text"]

@@ -10,7 +10,7 @@ from optparse import OptionParser, Values
 
 from gazelle.bag import BagReader, bag_types, open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
-from gazelle.bag.playing.keyboard import keyboard
+from gazelle.bag.playing.controls import keyboard
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments

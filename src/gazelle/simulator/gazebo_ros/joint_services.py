@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.description.model import Joint, JointType
 from gazelle.diagnostics import did_you_mean
-from gazelle.simulator.gazebo_ros.entities import Row
+from gazelle.simulator.gazebo_ros.model_services import Row
 from gazelle.simulator.gazebo_ros.timed_efforts import JointEfforts
 from gazelle.simulator.inputs import InputRefusedError
 from gazelle.simulator.model_rebuild import replace_model

@@ -10,8 +10,7 @@ import numpy as np
 from gazelle.description.model import Inertial, Link
 from gazelle.geometry import Pose
 from gazelle.interfaces.poses import pose_message, twist_message
-from gazelle.simulator.gazebo_ros.entities import Entities, Row
-from gazelle.simulator.gazebo_ros.model_services import place_link, state_from
+from gazelle.simulator.gazebo_ros.model_services import Entities, Row, place_link, state_from
 from gazelle.simulator.gazebo_ros.timed_efforts import at_time, duration_ns
 from gazelle.simulator.model_rebuild import replace_model
 

@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.errors import GazelleError, UserFileError
 from gazelle.interfaces.poses import pose_of
 from gazelle.simulator.description_sources import models_from
-from gazelle.simulator.gazebo_ros.entities import Entities, Row
+from gazelle.simulator.gazebo_ros.model_services import Entities, Row
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from gazelle.description.model import CameraSpec, Model, PluginTag, Sensor
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Qos
-from gazelle.graph.backlog import MOST_WAITING, Backlog
+from gazelle.graph.subscription import MOST_WAITING, Backlog
 from gazelle.interfaces import message_type, service_type
 from gazelle.simulator.commands import CommandQueue
 from gazelle.simulator.inputs import InputRefusedError, Inputs, problem_of, refusal

@@ -7,8 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from gazelle.geometry import Pose
-from gazelle.simulator.plugins.ackermann import steering_angles
-from gazelle.simulator.plugins.ackermann_table import GZ_TABLE
+from gazelle.simulator.plugins.ackermann import GZ_TABLE, steering_angles
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.drive import Velocity, run_drive, take_velocities
 from gazelle.simulator.plugins.drive_odometry import DriveOdometry, gz_odometry_setup

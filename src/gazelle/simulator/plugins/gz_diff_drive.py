@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.diff_drive_table import GZ_TABLE
+from gazelle.simulator.plugins.diff_drive import GZ_TABLE
 from gazelle.simulator.plugins.drive import Velocity, gz_topic, run_drive, take_velocities
 from gazelle.simulator.plugins.drive_odometry import DriveOdometry, gz_odometry_setup
 from gazelle.simulator.plugins.parameters import PluginReader

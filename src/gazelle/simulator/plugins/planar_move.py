@@ -10,20 +10,21 @@ import numpy as np
 from gazelle.geometry import Pose
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.drive import Velocity, take_velocities
+from gazelle.simulator.plugins.drive import (
+    COMMAND_TOPIC,
+    Velocity,
+    covariances,
+    frames,
+    odometry_topics,
+    take_velocities,
+    topics,
+)
 from gazelle.simulator.plugins.drive_odometry import (
     DriveOdometry,
     OdometrySetup,
     frame_prefix,
     given_covariance,
     turned_back,
-)
-from gazelle.simulator.plugins.drive_rows import (
-    COMMAND_TOPIC,
-    covariances,
-    frames,
-    odometry_topics,
-    topics,
 )
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable

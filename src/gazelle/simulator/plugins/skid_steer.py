@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.drive import Velocity, needed_joints, run_drive, take_velocities
+from gazelle.simulator.plugins.drive import (
+    ALWAYS_ON,
+    Velocity,
+    covariances,
+    frames,
+    needed_joints,
+    odometry_topics,
+    run_drive,
+    take_velocities,
+    topics,
+)
 from gazelle.simulator.plugins.drive_odometry import (
     DriveOdometry,
     OdometrySetup,
     frame_prefix,
     given_covariance,
-)
-from gazelle.simulator.plugins.drive_rows import (
-    ALWAYS_ON,
-    covariances,
-    frames,
-    odometry_topics,
-    topics,
 )
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable

@@ -6,12 +6,11 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, cast
 
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.gazebo_ros.entities import Entities, Row
 from gazelle.simulator.gazebo_ros.joint_services import JointServices
-from gazelle.simulator.gazebo_ros.light_services import LightServices
 from gazelle.simulator.gazebo_ros.link_services import LinkServices
-from gazelle.simulator.gazebo_ros.model_services import ModelServices
+from gazelle.simulator.gazebo_ros.model_services import Entities, ModelServices, Row
 from gazelle.simulator.gazebo_ros.states import offer_entity_states
+from gazelle.simulator.gazebo_ros.world_services import LightServices
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable

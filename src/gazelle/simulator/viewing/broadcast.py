@@ -11,22 +11,36 @@ from typing import TYPE_CHECKING, Any, TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.errors import GazelleError
 from gazelle.interfaces import message_type
-from gazelle.simulator.viewing.joint_rows import moving_joints
+from gazelle.simulator.viewing.fields import Fields
+from gazelle.simulator.viewing.gz_topics import GzTopics
+from gazelle.simulator.viewing.requests import Requests
 
 if TYPE_CHECKING:
+    from gazelle.engine import Engine
     from gazelle.simulator.plugins.context import Resources
     from gazelle.simulator.viewing.gz_topics import GzTopics
     from gazelle.simulator.world_server import WorldServer
 
-__all__ = ["Broadcast", "WorldStats"]
+__all__ = ["Broadcast", "WorldStats", "moving_joints", "offer_views"]
+
+
+def moving_joints(engine: Engine) -> tuple[str, ...]:
+    """Return the joints with one position each, ``model::joint``, as the scene value has them."""
+    return tuple(name for name in engine.joint_names if engine.joint(name).is_driveable)
+
 
 _FRAME_S = 1.0 / 30.0
+
 # Every so many frames.
 _STATS_EVERY = 6
+
 _JOINTS_EVERY = 3
+
 # What stands still is told again now and then, for those who have just come.
 _REPEAT_EVERY = 30
+
 _SCENE_WAIT_S = 1.0
 
 Floats = NDArray[np.float32]
@@ -213,3 +227,31 @@ class _Pace:
 
 def _text(value: Mapping[str, Any]) -> Any:
     return message_type("std_msgs/String")(data=json.dumps(value))
+
+
+def offer_views(server: WorldServer, *, is_gz: bool = False) -> None:
+    """Publish ``/_gazelle/*`` while somebody looks, and answer ``/_gazelle/do``.
+
+    A world of the new Gazebo (`is_gz`) has its statistics, clock and poses under ``/world/NAME``.
+
+    Nothing is computed for a topic that nobody listens to.
+    """
+    resources = server.world_resources
+    broadcast = Broadcast(server, resources)
+    if is_gz:
+        broadcast.tell_gz(GzTopics(server, resources))
+    requests = Requests(server, broadcast.touch)
+
+    def answer(request: Any, response: Any) -> None:
+        response.response = json.dumps(_answer(requests, request.request))
+
+    resources.service("/_gazelle/do", "gazelle_msgs/Do", answer)
+    resources.on_close(broadcast.close)
+    broadcast.start()
+
+
+def _answer(requests: Requests, text: str) -> dict[str, Any]:
+    try:
+        return {"value": requests.handle(Fields.read(text))}
+    except GazelleError as error:
+        return {"error": {"message": str(error)}}

@@ -10,7 +10,7 @@ from typing import TypedDict
 from gazelle.bag.formats import OWN_FORMATS
 from gazelle.bag.recording import Recorder, Ros1Files, Selection, default_stem
 from gazelle.bag.rosbag2 import Rosbag2Writer
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 from gazelle.graph import Graph, Node
 from gazelle.studio.errors import StudioError
 

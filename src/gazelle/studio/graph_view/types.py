@@ -7,7 +7,7 @@ from typing import Any, NotRequired, TypedDict
 from gazelle.errors import NotFoundError
 from gazelle.interfaces import Definition, Field, Generation, definition, known_types
 from gazelle.interfaces.definition import Array
-from gazelle.interfaces.type_names import split_name
+from gazelle.interfaces.naming import split_name
 from gazelle.studio.errors import StudioError
 from gazelle.studio.params import Params
 

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan, render_text
 from gazelle.workspace.building.building import Outcome
-from gazelle.workspace.building.catkin_plan import add_catkin
 from gazelle.workspace.building.cmake_plan import (
+    add_catkin,
     add_interfaces,
     compiled_targets,
     plan_cmake,

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan
-from gazelle.documents.names import is_file, is_folder
+from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace.building.cmake import Command, SyntaxProblem, Word, read_commands
 from gazelle.workspace.building.configured import configured_text
 

@@ -6,21 +6,58 @@ from collections.abc import Mapping
 from pathlib import PurePosixPath
 
 from gazelle.diagnostics import Severity, SourceSpan
-from gazelle.documents.names import is_file, is_folder
-from gazelle.workspace.building.catkin_plan import add_catkin
+from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace.building.cmake_lists import CMakeLists, Step, read_cmake_lists
 from gazelle.workspace.building.environment_files import add_environment_file
 from gazelle.workspace.building.install_rules import cmake_rules
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
-from gazelle.workspace.building.python_plan import add_python_folder
+from gazelle.workspace.building.python_plan import (
+    add_python_distribution,
+    add_python_folder,
+    completed,
+)
+from gazelle.workspace.building.setup_file import read_setup
 
-__all__ = ["add_interfaces", "compiled_targets", "plan_cmake", "read_lists"]
+__all__ = ["add_catkin", "add_interfaces", "compiled_targets", "plan_cmake", "read_lists"]
+
+
+def add_catkin(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: Plan) -> None:
+    """Plan Python modules and environment hooks; they are in devel and install spaces alike."""
+    for step in lists.called("catkin_python_setup"):
+        setup = read_setup(package.path)
+        if setup is None or (setup.error is None and not setup.is_called):
+            text = "catkin_python_setup() needs a setup.py with setup()"
+            plan.diagnostics.report("package.no-build-file", text, step.span)
+        elif setup.error is None:
+            add_python_distribution(package, completed(package, setup, plan), layout, plan)
+    for step in lists.called("catkin_add_env_hooks"):
+        _add_hooks(package, step, "etc/catkin/profile.d", plan)
+
+
+def _add_hooks(package: SourcePackage, step: Step, folder: str, plan: Plan) -> None:
+    """Plan the shell files of a ``catkin_add_env_hooks`` call."""
+    words = ("SHELLS", "DIRECTORY", "SKIP_INSTALL")
+    where = "".join(step.after("DIRECTORY", words)[:1]) or "env-hooks"
+    for shell in step.after("SHELLS", words):
+        if shell not in {"sh", "bash", "zsh"} or not step.words:
+            continue
+        names = [f"{where}/{step.words[0]}.{shell}{ending}" for ending in ("", ".in")]
+        found = [name for name in names if is_file(package.path / step.folder / name)]
+        for name in found:
+            add_environment_file(package, step, name, folder, plan)
+        if not found:
+            text = f"'{names[0]}' is not there as it is sourced (an .em file is made by catkin "
+            text += "only); the hook is left out"
+            plan.diagnostics.report("package.install-unread", text, step.span)
+
 
 _FAILURE = 'CMake Error: file INSTALL cannot find "{path}": No such file or directory'
+
 _EXECUTABLES = frozenset(
     {"add_executable", "ament_auto_add_executable", "cs_add_executable", "cuda_add_executable"}
 )
+
 _LIBRARIES = frozenset(
     {
         "add_library",
@@ -30,17 +67,22 @@ _LIBRARIES = frozenset(
         "pybind11_add_module",
     }
 )
+
 _NOT_COMPILED = frozenset({"ALIAS", "IMPORTED", "INTERFACE"})
+
 _INTERFACE_WORDS = frozenset(
     {"ADD_LINTER_TESTS", "DEPENDENCIES", "LIBRARY_NAME", "SKIP_GROUP_MEMBERSHIP_CHECK",
      "SKIP_INSTALL"}
 )  # fmt: skip
+
 _KINDS = (".msg", ".srv", ".action", ".idl")
+
 _CATKIN_INTERFACES = {
     "add_message_files": "msg",
     "add_service_files": "srv",
     "add_action_files": "action",
 }
+
 _INDEX = "share/ament_index/resource_index"
 
 
@@ -134,9 +176,6 @@ def _add_interface_files(package: SourcePackage, names: list[str], step: Step, p
             continue
         kind = PurePosixPath(name).suffix[1:]
         plan.add(Item(f"share/{package.name}/{kind}/{file.name}", file), step.span)
-
-
-# -- ament ------------------------------------------------------------------------------------
 
 
 def _add_ament(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: Plan) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.workspace.building.cmake_lists import Step
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import Plan

@@ -6,17 +6,28 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import GazelleError
 from gazelle.workspace.crawler import FoundPackage, crawl_source
 from gazelle.workspace.manifest import Manifest, ManifestError, read_manifest
 
-__all__ = ["BuildError", "SourcePackage", "find_packages", "in_order", "needed_by"]
+__all__ = [
+    "BuildError",
+    "Selection",
+    "SourcePackage",
+    "find_packages",
+    "in_order",
+    "needed_by",
+    "select",
+]
+
 
 _BUILD = frozenset({"build_depend", "buildtool_depend", "depend"})
+
 _RUN = frozenset(
     {"buildtool_export_depend", "build_export_depend", "depend", "exec_depend", "run_depend"}
 )
+
 _TEST = frozenset({"test_depend"})
 
 
@@ -141,3 +152,62 @@ def _circle(needs: dict[str, set[str]], waiting: set[str]) -> list[str]:
     while way.count(way[-1]) == 1:
         way.append(min(needs[way[-1]] & waiting))
     return way[way.index(way[-1]) :]
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """The options of colcon that choose packages; empty ones choose nothing away.
+
+    Attributes:
+        only: ``--packages-select``.
+        up_to: ``--packages-up-to``: these and what they need.
+        above: ``--packages-above``: these and what needs them.
+        skip: ``--packages-skip``.
+        ignore: ``--packages-ignore``: as if they were not there.
+    """
+
+    only: tuple[str, ...] = ()
+    up_to: tuple[str, ...] = ()
+    above: tuple[str, ...] = ()
+    skip: tuple[str, ...] = ()
+    ignore: tuple[str, ...] = ()
+
+
+def select(
+    packages: Sequence[SourcePackage], selection: Selection
+) -> tuple[tuple[SourcePackage, ...], tuple[str, ...]]:
+    """Return the packages chosen, in the given order, and what to warn of.
+
+    Args:
+        packages: all of the workspace.
+        selection: what the command line says.
+    """
+    here = [item for item in packages if item.name not in selection.ignore]
+    names = {item.name for item in here}
+    if selection.only:
+        names &= set(selection.only)
+    if selection.up_to:
+        names &= needed_by(selection.up_to, here)
+    if selection.above:
+        wanted = set(selection.above)
+        names &= {item.name for item in here if needed_by([item.name], here) & wanted}
+    names -= set(selection.skip)
+    return tuple(item for item in here if item.name in names), _unknown(packages, selection)
+
+
+def _unknown(packages: Sequence[SourcePackage], selection: Selection) -> tuple[str, ...]:
+    known = [item.name for item in packages]
+    warnings = []
+    for option, names in (
+        ("--packages-select", selection.only),
+        ("--packages-up-to", selection.up_to),
+        ("--packages-above", selection.above),
+        ("--packages-skip", selection.skip),
+        ("--packages-ignore", selection.ignore),
+    ):
+        for name in names:
+            if name not in known:
+                hint = did_you_mean(name, known)
+                text = f"ignoring unknown package '{name}' in {option}"
+                warnings.append(f"{text}; {hint}" if hint else text)
+    return tuple(warnings)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.documents.names import exists, is_folder
+from gazelle.documents.files import exists, is_folder
 from gazelle.workspace.building.install_rules import InstallRule
 
 __all__ = ["EnvironmentHook", "Item", "Layout", "Plan", "add_rules", "site_packages"]

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Severity, SourceSpan
-from gazelle.documents.names import is_file, is_folder, names_matching
+from gazelle.documents.files import is_file, is_folder, names_matching
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
 from gazelle.workspace.building.setup_file import SetupFile, read_setup, with_arguments

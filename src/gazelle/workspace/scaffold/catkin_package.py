@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-from gazelle.workspace.scaffold.scaffold import ScaffoldError
-from gazelle.workspace.scaffold.writing import PackageWriter
+from gazelle.workspace.scaffold.scaffold import PackageWriter, ScaffoldError
 
 __all__ = ["CatkinPackage", "write_catkin_package"]
 

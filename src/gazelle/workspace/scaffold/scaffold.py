@@ -4,19 +4,96 @@ from __future__ import annotations
 
 import keyword
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
 from gazelle.errors import GazelleError
-from gazelle.workspace.scaffold.file_lists import FILES
 
-__all__ = ["KINDS", "ScaffoldError", "check_package_name", "create_package"]
+__all__ = [
+    "FILES",
+    "KINDS",
+    "PackageWriter",
+    "ScaffoldError",
+    "check_package_name",
+    "create_package",
+]
+
+
+_ROBOT = {
+    "urdf/inertia.xacro": "robot/inertia.xacro",
+    "urdf/@name@.urdf.xacro": "robot/robot.urdf.xacro",
+    "worlds/@name@.world": "world/world.sdf",
+}
+
+_WORLD = {"worlds/@name@.world": "world/world.sdf"}
+
+_PYTHON = {
+    "setup.cfg": "ros2/setup.cfg",
+    "resource/@name@": "ros2/empty",
+    "@name@/__init__.py": "ros2/empty",
+}
+
+FILES: dict[tuple[str, int], dict[str, str]] = {
+    ("robot", 1): {
+        "package.xml": "ros1/package_robot.xml",
+        "CMakeLists.txt": "ros1/CMakeLists_robot.txt",
+        "config/@name@.yaml": "ros1/robot.yaml",
+        "launch/@name@.launch": "ros1/robot.launch",
+        "scripts/wander.py": "ros1/wander.py",
+        "urdf/gazebo.xacro": "ros1/gazebo.xacro",
+        **_ROBOT,
+    },
+    ("robot", 2): {
+        "package.xml": "ros2/package_robot.xml",
+        "setup.py": "ros2/setup_robot.py",
+        "config/@name@.yaml": "ros2/robot.yaml",
+        "launch/@name@.launch.py": "ros2/robot.launch.py",
+        "@name@/wander.py": "ros2/wander.py",
+        "urdf/gazebo.xacro": "ros2/gazebo.xacro",
+        **_PYTHON,
+        **_ROBOT,
+    },
+    ("world", 1): {
+        "package.xml": "ros1/package_world.xml",
+        "CMakeLists.txt": "ros1/CMakeLists_world.txt",
+        "launch/@name@.launch": "ros1/world.launch",
+        **_WORLD,
+    },
+    ("world", 2): {
+        "package.xml": "ros2/package_world.xml",
+        "setup.py": "ros2/setup_world.py",
+        "launch/@name@.launch.py": "ros2/world.launch.py",
+        **_PYTHON,
+        **_WORLD,
+    },
+    ("package", 1): {
+        "package.xml": "ros1/package_package.xml",
+        "CMakeLists.txt": "ros1/CMakeLists_package.txt",
+        "config/@name@.yaml": "ros1/package.yaml",
+        "launch/@name@.launch": "ros1/package.launch",
+        "scripts/hello.py": "ros1/hello.py",
+    },
+    ("package", 2): {
+        "package.xml": "ros2/package_package.xml",
+        "setup.py": "ros2/setup_package.py",
+        "config/@name@.yaml": "ros2/package.yaml",
+        "launch/@name@.launch.py": "ros2/package.launch.py",
+        "@name@/hello.py": "ros2/hello.py",
+        **_PYTHON,
+    },
+}
+
+"""Path in the package → template, by kind and generation of ROS; ``@name@`` is the package."""
 
 KINDS = ("robot", "world", "package")
+
 """What can be created."""
 
 _TEMPLATES = Path(__file__).parent / "templates"
+
 _NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
+
 _MOST_LISTED = 20
 
 
@@ -99,3 +176,44 @@ def _check_free(folder: Path) -> None:
 def _filled(template: str, name: str) -> str:
     text = (_TEMPLATES / f"{template}.in").read_text(encoding="utf-8")
     return text.replace("@name@", name)
+
+
+class PackageWriter:
+    """Makes folders and files; tells each to `say`.
+
+    Args:
+        say: takes one line.
+        folder_words: what a folder's line begins with.
+        file_words: what a file's line begins with.
+    """
+
+    def __init__(self, say: Callable[[str], None], folder_words: str, file_words: str) -> None:
+        self.say = say
+        self._folder_words = folder_words
+        self._file_words = file_words
+
+    def folder(self, path: Path | str) -> Path:
+        """Make a folder.
+
+        Raises:
+            ScaffoldError: that is not possible.
+        """
+        self.say(f"{self._folder_words} {path}")
+        made = Path(path)
+        try:
+            made.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise ScaffoldError(f"unable to create folder: {path}: {error.strerror}") from error
+        return made
+
+    def file(self, path: Path | str, text: str) -> None:
+        """Write a file.
+
+        Raises:
+            ScaffoldError: that is not possible.
+        """
+        self.say(f"{self._file_words} {path}")
+        try:
+            Path(path).write_text(text, encoding="utf-8", newline="\n")
+        except OSError as error:
+            raise ScaffoldError(f"cannot write {path}: {error.strerror}") from error

@@ -12,7 +12,7 @@ from scipy.interpolate import BPoly
 from tests.control.trajectory_messages import goal, point, trajectory
 from tests.shared_files import skip_module_without_shared
 
-from gazelle.control.trajectory.errors import ErrorCode
+from gazelle.control.trajectory.waypoints import ErrorCode
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph.actions import LocalGoal

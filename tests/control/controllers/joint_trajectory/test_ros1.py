@@ -13,7 +13,7 @@ from tests.control.plant import PlantJoint
 from tests.control.trajectory_messages import goal, point, trajectory
 
 from gazelle.control.errors import ControllerError
-from gazelle.control.trajectory.errors import ErrorCode
+from gazelle.control.trajectory.waypoints import ErrorCode
 from gazelle.description.model import Joint, JointType, Model
 
 POSITION = "position_controllers/JointTrajectoryController"

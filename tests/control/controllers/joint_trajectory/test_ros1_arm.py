@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from tests.control.trajectory_messages import goal, point, trajectory
 
-from gazelle.control.trajectory.errors import ErrorCode
+from gazelle.control.trajectory.waypoints import ErrorCode
 from gazelle.simulator import Simulation
 
 JOINTS = ("shoulder", "elbow")

@@ -13,7 +13,7 @@ from tests.control.trajectory_messages import goal, point, trajectory
 
 from gazelle.control.errors import ControllerError
 from gazelle.control.robot import JointLimits
-from gazelle.control.trajectory.errors import ErrorCode
+from gazelle.control.trajectory.waypoints import ErrorCode
 from gazelle.interfaces import message_type
 
 TOPIC = "~/joint_trajectory"

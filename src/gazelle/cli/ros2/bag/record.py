@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from gazelle.bag.formats import MCAP, ROS1, storage_names
-from gazelle.bag.playing.keyboard import keyboard
+from gazelle.bag.playing.controls import keyboard
 from gazelle.bag.recording import Limits, Recorder, Selection
 from gazelle.bag.rosbag2 import Rosbag2Writer
 from gazelle.cli.ros2.bag.speaking import say

@@ -26,7 +26,7 @@ from gazelle.graph.actions import (
     Ros2Status,
     ServerGoal,
 )
-from gazelle.graph.actions.states import next_status, state_error
+from gazelle.graph.actions.goal import next_status, state_error
 from gazelle.interfaces import message_type
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Array
-from gazelle.control.trajectory.angles import wrap_in_place
 from gazelle.control.trajectory.tolerances import Tolerances
+from gazelle.control.trajectory.waypoints import wrap_in_place
 from gazelle.description.model import JointType
 
 __all__ = ["TrackedJoints", "joint_names", "read_tolerances"]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.control.interface_values import Array
 from gazelle.control.ports import GoalPort, Ports, PublisherPort
-from gazelle.control.trajectory.errors import ErrorCode
+from gazelle.control.trajectory.waypoints import ErrorCode
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import set_stamp, stamped
 

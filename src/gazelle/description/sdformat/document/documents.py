@@ -22,7 +22,7 @@ from gazelle.description.sdformat.urdf import urdf_to_sdf
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents import TEXT_BYTES, read_limited
-from gazelle.documents.names import exists, is_folder
+from gazelle.documents.files import exists, is_folder
 
 __all__ = ["normalised", "read_document", "read_document_file"]
 

@@ -21,7 +21,7 @@ from gazelle.description.sdformat.document.records import Document
 from gazelle.description.sdformat.document.specification import Definition, specification
 from gazelle.description.sdformat.document.values import bool_of, default_text
 from gazelle.description.sdformat.element import SdfElement
-from gazelle.documents.names import is_folder
+from gazelle.documents.files import is_folder
 
 __all__ = ["read_include"]
 

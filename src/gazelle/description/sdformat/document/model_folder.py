@@ -7,7 +7,7 @@ from pathlib import Path
 from gazelle.description.sdformat.document.console import Console
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 
 __all__ = ["model_file", "version_numbers"]
 

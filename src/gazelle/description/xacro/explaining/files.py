@@ -9,7 +9,7 @@ from pathlib import Path
 from gazelle.description.xacro.explaining.finding import Finding, one_line
 from gazelle.description.xacro.failure import Failure
 from gazelle.diagnostics import did_you_mean
-from gazelle.documents.names import exists, is_folder
+from gazelle.documents.files import exists, is_folder
 from gazelle.documents.yaml import ProblemKind, PyYamlError, problem_of
 from gazelle.errors import NotFoundError
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import did_you_mean
-from gazelle.documents.names import exists
+from gazelle.documents.files import exists
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.actions.configurations import SetLaunchConfiguration

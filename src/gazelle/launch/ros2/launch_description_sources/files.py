@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from gazelle.diagnostics import SourceSpan, did_you_mean
-from gazelle.documents.names import exists, is_file, is_folder
+from gazelle.documents.files import exists, is_file, is_folder
 from gazelle.launch.environment import drop_in_folder
 from gazelle.launch.ros2.description import LaunchDescription
 from gazelle.launch.ros2.frontend import Parser

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.launch.environment import drop_in_folder
 from gazelle.launch.ros2.description import argument_lines
 from gazelle.launch.ros2.place import raising_place

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.boundary import are_inside
+from gazelle.mapping.frontiers import are_inside
 
 __all__ = ["Action", "Band", "Points", "Velocity", "Verdict", "Zone", "guarded"]
 

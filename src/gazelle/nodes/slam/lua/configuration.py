@@ -15,7 +15,7 @@ from typing import Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.documents import read_text_limited
-from gazelle.documents.names import is_file
+from gazelle.documents.files import is_file
 from gazelle.errors import LaunchError
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.slam.lua.parser import parse

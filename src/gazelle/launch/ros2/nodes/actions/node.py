@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.documents.names import is_file, is_folder
+from gazelle.documents.files import is_file, is_folder
 from gazelle.documents.yaml import MESSAGE_STYLE, PYTHON_STYLE, Layout, Writer, dump_yaml
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.actions import ExecuteProcess
