@@ -99,7 +99,10 @@ def test_keys_drive_and_letting_go_stops(bench: Any, look: Any) -> None:
 def test_the_pad_drives_until_it_is_let_go(bench: Any, look: Any) -> None:
     heard = bench.listen("/cmd_vel", "geometry_msgs/msg/Twist")
     seen = look(bench.url, "rqt_robot_steering")
-    box = seen.page.get_by_label("Joystick: drag to drive").bounding_box()
+    pad = seen.page.get_by_label("Joystick: drag to drive")
+    # A panel is laid out below the page first; this waits until it has come to rest.
+    pad.hover()
+    box = pad.bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     seen.page.mouse.move(x, y)
     seen.page.mouse.down()

@@ -117,11 +117,17 @@ def test_meshes_are_held_kept_in_files_and_come_back(desk: Any, tmp_path: Path) 
     ui.place_object(x=-0.5, y=0.25, roll=0.5)
     ui.eventually(lambda: desk.objects()["Cylinder"].pose.orientation.x > 0.1)
     before = {name: _told(item) for name, item in desk.objects().items()}
-    with ui.page.expect_download() as saved:
-        ui.press("Export")
     file = tmp_path / "kept.scene"
-    saved.value.save_as(file)
-    assert saved.value.suggested_filename == "heron.scene"
+
+    # What is exported is what the page has heard of move_group's scene by then.
+    def kept() -> bool:
+        with ui.page.expect_download() as saved:
+            ui.press("Export")
+        saved.value.save_as(file)
+        assert saved.value.suggested_filename == "heron.scene"
+        return "-0.5 0.25 0" in file.read_text("utf-8")
+
+    ui.eventually(kept)
     ui.press("Clear scene")
     ui.shows(objects=0)
     _choose_file(ui, "Import…", file)
