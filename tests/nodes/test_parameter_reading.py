@@ -54,6 +54,19 @@ def test_the_command_line_counts_more_than_the_store(bench: Any, said: list[str]
     assert not said
 
 
+def test_names_that_nobody_reads_are_told_also_where_the_node_ends(
+    bench: Any, said: list[str]
+) -> None:
+    arguments = read_arguments(["_raet:=5", "_rate:=fast"], "thing")
+    node = start_node(arguments, bench.graph)
+    with (
+        pytest.raises(LaunchError, match="is no thing"),
+        private_parameters(node, arguments, _TABLE) as own,
+    ):
+        raise LaunchError(f"{own.number('rate')} is no thing")
+    assert [line.split()[0] for line in said] == ["parameter.bad-value", "parameter.unknown"]
+
+
 def test_what_is_wrong_is_logged_once_with_the_node_s_name(bench: Any, said: list[str]) -> None:
     bench.graph.parameters.set("/thing", {"rate": "fast", "raet": 5, "ghost": 1})
     assert _rate(bench) == 50.0

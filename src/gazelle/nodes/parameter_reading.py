@@ -67,8 +67,9 @@ def private_parameters(
     reader = node_reader(table, tree, node.name, found, generation=arguments.generation)
     try:
         yield reader
-        reader.report_unknown()
     finally:
+        # Also where the node ends: a name that is misspelt is often why.
+        reader.report_unknown()
         log_findings(node, found)
 
 

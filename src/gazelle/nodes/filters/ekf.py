@@ -108,8 +108,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     table = ekf_table(parameter_tree(node, arguments))
     try:
         with private_parameters(node, arguments, table) as own:
-            filter_ = _Localization(node, own)
             period_ns = int(1e9 / own.number("frequency"))
+            filter_ = _Localization(node, own)
     except LaunchError:
         node.shutdown()
         raise
