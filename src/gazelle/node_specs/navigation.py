@@ -55,7 +55,7 @@ NAVIGATION = (
         entry="gazelle.nodes.move_group:run",
         does="plans and executes motions of arms, as MoveIt does",
         is_light=False,
-        parameters="gazelle.nodes.move_group.tables:MOVE_GROUP",
+        parameters="gazelle.nodes.move_group.parameters:MOVE_GROUP",
         topics=(
             publishes("display_planned_path", "moveit_msgs/msg/DisplayTrajectory"),
             publishes("monitored_planning_scene", "moveit_msgs/msg/PlanningScene"),

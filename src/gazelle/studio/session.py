@@ -6,13 +6,13 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from gazelle.graph import Graph
-from gazelle.studio.bags.parts import Bags
+from gazelle.studio.bags.bag_services import Bags
 from gazelle.studio.bags.playing import Playing
 from gazelle.studio.bags.recording import Recording
 from gazelle.studio.displays.showing import DisplayContext
 from gazelle.studio.downloads import Downloads
 from gazelle.studio.frames import Frames
-from gazelle.studio.graph_view.parts import graph_parts
+from gazelle.studio.graph_view.graph_services import graph_parts
 from gazelle.studio.once import closed_with
 from gazelle.studio.pages import Pages
 from gazelle.studio.plugins.shown_panels import Desk
@@ -20,7 +20,7 @@ from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.robot import RobotContext
 from gazelle.studio.taps import Taps
 from gazelle.studio.workers import Workers
-from gazelle.studio.world.parts import world_parts
+from gazelle.studio.world.world_services import world_parts
 
 __all__ = ["Studio"]
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.filters.options import (
+from gazelle.navigation.filters.laser_filter_parameters import (
     BoundsOptions,
     BoxOptions,
     FootprintOptions,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, TypedDict
 
-from gazelle.studio.bags.parts import Bags
+from gazelle.studio.bags.bag_services import Bags
 from gazelle.studio.bags.playing import PlayerState
 from gazelle.studio.bags.recording import RecorderState
 from gazelle.studio.params import Params

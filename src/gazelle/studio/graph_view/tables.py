@@ -6,6 +6,7 @@ from gazelle.graph import Node
 from gazelle.studio.frames import Frames
 from gazelle.studio.graph_view.actions import open_action
 from gazelle.studio.graph_view.echo import open_echo
+from gazelle.studio.graph_view.graph_services import GraphParts
 from gazelle.studio.graph_view.joints import publish_joints
 from gazelle.studio.graph_view.nodes import get_node, kill_node, list_loggers, set_logger
 from gazelle.studio.graph_view.parameters import (
@@ -16,7 +17,6 @@ from gazelle.studio.graph_view.parameters import (
     set_node_parameter,
     set_parameter,
 )
-from gazelle.studio.graph_view.parts import GraphParts
 from gazelle.studio.graph_view.plot import open_plot
 from gazelle.studio.graph_view.publishers import (
     Publishers,

@@ -17,7 +17,6 @@ from gazelle.studio.world.editing import (
 from gazelle.studio.world.inserting import insert
 from gazelle.studio.world.link import WorldLink
 from gazelle.studio.world.models import list_models, thumbnail
-from gazelle.studio.world.parts import WorldParts
 from gazelle.studio.world.time import pause, play, reset, set_factor, step
 from gazelle.studio.world.watching import (
     Scene,
@@ -27,6 +26,7 @@ from gazelle.studio.world.watching import (
     open_scene,
     open_stats,
 )
+from gazelle.studio.world.world_services import WorldParts
 
 __all__ = ["METHODS", "ROUTES", "STREAMS"]
 

@@ -12,7 +12,7 @@ from gazelle.description.moveit.pipelines import read_pipelines
 from gazelle.description.moveit.settings import Settings
 from gazelle.description.srdf import Group, Srdf
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.move_group.tables import report_parameters
+from gazelle.nodes.move_group.parameters import report_parameters
 from gazelle.parameters.trees import nested
 
 _OMPL = {"planning_plugin": "ompl_interface/OMPLPlanner"}
