@@ -5,7 +5,8 @@ from __future__ import annotations
 import importlib.util
 import re
 from pathlib import Path
-from typing import Any
+
+from tests.ci_scripts import ci_script
 
 from gazelle.compat.refused_page import refused_markdown
 from gazelle.diagnostics.catalogue import all_entries
@@ -35,7 +36,7 @@ def test_page_of_nodes_is_generated_from_their_rows() -> None:
 
 
 def test_one_command_writes_every_page_that_is_generated() -> None:
-    pages = _script("pages")
+    pages = ci_script("pages")
     heads = {path.name: path.read_text(encoding="utf-8")[:600] for path in ROOT.glob("docs/*.md")}
     generated = {name for name, text in heads.items() if re.search("[Gg]enerated", text)}
     assert generated <= set(pages.PAGES)
@@ -44,7 +45,7 @@ def test_one_command_writes_every_page_that_is_generated() -> None:
 
 
 def test_pictures_of_the_architecture_are_those_of_its_table_and_modules() -> None:
-    drawn = _script("pictures")
+    drawn = ci_script("pictures")
     for name, text in drawn.pictures().items():
         path = ROOT / "docs" / "pictures" / name
         assert path.read_text(encoding="utf-8") == text, "run: python .ci/pages.py"
@@ -86,14 +87,6 @@ def test_places_to_add_something_are_there() -> None:
     assert len(named) > 25
     roots = (ROOT, ROOT / "src" / "gazelle")
     assert not [one for one in sorted(named) if not any((root / one).exists() for root in roots)]
-
-
-def _script(name: str) -> Any:
-    spec = importlib.util.spec_from_file_location(name, ROOT / ".ci" / f"{name}.py")
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def _named(code: str, text: str) -> bool:

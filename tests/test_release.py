@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+import os
 import subprocess
 import sys
 import sysconfig
@@ -13,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from tests.ci_scripts import ci_script
 
 ROOT = Path(__file__).parents[1]
 _STAMP_S = 1_800_000_000
@@ -27,11 +28,7 @@ with gazelle.Simulation.load("unit_box", world="empty") as sim:
 @pytest.fixture(scope="module")
 def release() -> ModuleType:
     """The script that builds a release, as a module."""
-    spec = importlib.util.spec_from_file_location("release", ROOT / ".ci" / "release.py")
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return ci_script("release")
 
 
 @pytest.fixture(scope="module")
@@ -92,6 +89,7 @@ def _run(*command: str | Path) -> str:
     done = subprocess.run(
         [str(one) for one in command], capture_output=True, text=True, check=False,
         cwd=Path(command[0]).parent,
+        env={name: value for name, value in os.environ.items() if name != "PYTHONPATH"},
     )  # fmt: skip
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
