@@ -11,7 +11,7 @@ import pytest
 from gazelle.bag import Connection, Encoding, learn_definitions
 from gazelle.graph.wire import hash_of
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     add_package,
     exists,
     keep_text,
@@ -27,7 +27,7 @@ _TURNS = pytest.mark.parametrize("turn", [1, 2])
 def test_texts_that_came_in_are_forgotten(turn: int) -> None:
     assert ros1_definition("std_msgs/String") == "string data\n"
     text = f"# Of the peer of test {turn}.\nstring data\n"
-    assert keep_text("std_msgs/String", Generation.ROS1, text)
+    assert keep_text("std_msgs/String", RosVersion.ROS1, text)
     assert ros1_definition("std_msgs/String") == text
 
 
@@ -37,7 +37,7 @@ def test_packages_are_forgotten(turn: int, tmp_path: Path) -> None:
     assert hash_of("left_behind_msgs/msg/Own") == hash_of("nowhere_msgs/msg/Own")
     (tmp_path / "msg").mkdir()
     (tmp_path / "msg" / "Own.msg").write_text(f"int32[{turn}] counts\n")
-    add_package("left_behind_msgs", tmp_path, Generation.ROS2)
+    add_package("left_behind_msgs", tmp_path, RosVersion.ROS2)
     assert hash_of("left_behind_msgs/msg/Own") == type_hash("left_behind_msgs/msg/Own")
 
 

@@ -16,7 +16,7 @@ from gazelle.bag import Connection, Encoding, Storage, create_bag, open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.texts import TextShare, fetch_text
 from gazelle.graph import Graph
-from gazelle.interfaces import Generation, md5sum
+from gazelle.interfaces import RosVersion, md5sum
 
 
 def test_texts_and_unknown_types_come_from_the_player(tmp_path: Path, free_port: int) -> None:
@@ -73,7 +73,7 @@ def test_texts_of_definitions_are_asked_for_and_answered_with_anything(
         share.close()
         queryable = graph.session.declare_queryable(f"{space}/**", answer, complete=True)
         for _data in HOSTILE:
-            fetch_text(other, "nowhere_msgs/Thing", Generation.ROS1)
+            fetch_text(other, "nowhere_msgs/Thing", RosVersion.ROS1)
         queryable.undeclare()
     assert next(answers, None) is None
     assert "Traceback" not in capsys.readouterr().err

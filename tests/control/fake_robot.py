@@ -94,7 +94,7 @@ class Recorder(Controller):
             raise ValueError("broken on purpose")
 
 
-def fake_robot(generation: int) -> tuple[Robot, Hardware]:
+def fake_robot(ros_version: int) -> tuple[Robot, Hardware]:
     """Return a robot with joints ``left`` and ``right``."""
     interfaces = ("position", "velocity", "effort")
     names = ("hardware_interface/EffortJointInterface",)
@@ -107,5 +107,5 @@ def fake_robot(generation: int) -> tuple[Robot, Hardware]:
     bank.freeze()
     hardware = Hardware(bank, joints)
     return Robot(
-        generation, Model("mira"), bank, (hardware,), {j.name: j for j in joints}
+        ros_version, Model("mira"), bank, (hardware,), {j.name: j for j in joints}
     ), hardware

@@ -25,7 +25,7 @@ from gazelle.simulator.world_server import ServerSettings, WorldServer
 def manager_world(
     graph: Graph,
     monkeypatch: pytest.MonkeyPatch,
-    generation: int = 1,
+    ros_version: int = 1,
     controllers: Mapping[str, Mapping[str, Any]] | None = None,
     *,
     namespace: str = "/mira",
@@ -37,7 +37,7 @@ def manager_world(
     server = WorldServer(World(), node=node, settings=ServerSettings(paused=True))
     resources = Resources(server)
     source: Any
-    if generation == 1:
+    if ros_version == 1:
         for name, values in wanted.items():
             node.parameters.set(f"{namespace}/{name}", {"type": RECORDER, **values})
         source = StoreSource(node.parameters, namespace)
@@ -45,9 +45,9 @@ def manager_world(
         overrides = {name: {"type": RECORDER, **values} for name, values in wanted.items()}
         source = FileSource([], namespace, Diagnostics(), overrides=overrides)
     manager = ControllerManager(
-        fake_robot(generation)[0],
+        fake_robot(ros_version)[0],
         namespace=namespace,
-        make_ports=lambda name: make_ports(server, resources, namespace, name, generation),
+        make_ports=lambda name: make_ports(server, resources, namespace, name, ros_version),
         source=source,
         diagnostics=Diagnostics(),
         update_rate_hz=100.0,

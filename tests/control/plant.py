@@ -139,7 +139,7 @@ class Plant:
 def make_robot(
     joints: Sequence[PlantJoint],
     *,
-    generation: int = 1,
+    ros_version: int = 1,
     sensors: Mapping[str, Mapping[str, float]] | None = None,
     sensor_frames: Mapping[str, str] | None = None,
     model: Model | None = None,
@@ -152,7 +152,7 @@ def make_robot(
             bank.add_state(f"{sensor}/{interface}", value)
     bank.freeze()
     robot = Robot(
-        generation,
+        ros_version,
         model or Model("robot"),
         bank,
         (plant,),

@@ -27,7 +27,7 @@ from gazelle.bag.rosbag2.metadata import read_qos
 from gazelle.bag.types import split_texts
 from gazelle.bag.zstandard import compress
 from gazelle.diagnostics import Diagnostics
-from gazelle.interfaces import Generation, message_type, ros1_message_type, to_cdr, to_ros1
+from gazelle.interfaces import RosVersion, message_type, ros1_message_type, to_cdr, to_ros1
 from gazelle.interfaces.parser import parse_message
 from gazelle.workspace import Workspace
 
@@ -62,9 +62,9 @@ def _look_through(bag: BagReader, diagnostics: Diagnostics) -> None:
     summary, errors, types = bag.summary, [], bag_types(bag.connections).store
     assert summary.messages >= 0 or summary.duration_ns
     for one in bag.connections:
-        generation = Generation.ROS2 if bag.storage != Storage.ROS1 else Generation.ROS1
+        ros_version = RosVersion.ROS2 if bag.storage != Storage.ROS1 else RosVersion.ROS1
         for name, text in split_texts(one):
-            parse_message(text, name, generation, diagnostics=diagnostics)
+            parse_message(text, name, ros_version, diagnostics=diagnostics)
         if one.qos:
             read_qos(one.qos)
     played = outgoing(

@@ -26,7 +26,7 @@ from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.geometry.loading import load_mesh_reported
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 from gazelle.interfaces.parser import parse_message, split_parts
 from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.workspace import Workspace
@@ -63,21 +63,21 @@ def _launch(path: Path, diagnostics: Diagnostics, workspace: Workspace) -> None:
 
 def _message(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     text = path.read_bytes().decode("utf-8", "replace")
-    parse_message(text, "p/msg/M", Generation.ROS2, file=str(path), diagnostics=diagnostics)
+    parse_message(text, "p/msg/M", RosVersion.ROS2, file=str(path), diagnostics=diagnostics)
 
 
 def _action(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     text = path.read_bytes().decode("utf-8", "replace")
     for part, line in split_parts(text, 3, file=str(path), diagnostics=diagnostics) or ():
-        for generation in Generation:
-            parse_message(part, "p/action/M", generation, diagnostics=diagnostics, first_line=line)
+        for ros_version in RosVersion:
+            parse_message(part, "p/action/M", ros_version, diagnostics=diagnostics, first_line=line)
 
 
 def _controllers(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     """Read a parameter file, and make and run the controllers it describes on ideal joints."""
     source = FileSource((), "/", diagnostics)
     source.add_sections(read_parameter_file(path, diagnostics))
-    robot, _ = make_robot([PlantJoint("a"), PlantJoint("b")], generation=2)
+    robot, _ = make_robot([PlantJoint("a"), PlantJoint("b")], ros_version=2)
     manager = ControllerManager(
         robot,
         namespace="/",

@@ -46,15 +46,15 @@ def _map(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     picture = path.with_name("map.pgm")
     if not picture.exists():
         picture.write_bytes(_pgm())
-    for generation in (1, 2):
-        read_map(path, diagnostics, generation=generation)
+    for ros_version in (1, 2):
+        read_map(path, diagnostics, ros_version=ros_version)
 
 
 def _picture_of_map(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     described = path.with_name("map.yaml")
     described.write_text(_MAP % path.name)
-    for generation in (1, 2):
-        read_map(described, diagnostics, generation=generation)
+    for ros_version in (1, 2):
+        read_map(described, diagnostics, ros_version=ros_version)
 
 
 def _texture(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:

@@ -103,7 +103,7 @@ def _nav2(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     tree = _tree(path)
     for name in ("local_costmap", "global_costmap"):
         own = _group(tree, name, name, "ros__parameters")
-        assemble(own, f"/{name}/{name}", diagnostics, generation=2)
+        assemble(own, f"/{name}/{name}", diagnostics, ros_version=2)
     for plugins, table, server in (
         (PLANNERS, planner_table, "planner_server"),
         (CONTROLLERS, controller_table, "controller_server"),
@@ -136,10 +136,10 @@ def _small_nodes(path: Path, diagnostics: Diagnostics, _workspace: Workspace) ->
     tree = _tree(path)
     for kind in ("topics", "locks"):
         read_inputs(kind, tree.get(kind), "/twist_mux", diagnostics)
-    for generation in (1, 2):
-        read_options(_group(tree, "joy"), "/joy", cast(Any, generation), diagnostics)
+    for ros_version in (1, 2):
+        read_options(_group(tree, "joy"), "/joy", cast(Any, ros_version), diagnostics)
         own = _group(tree, "teleop")
-        read_driving(own, "/teleop", diagnostics, is_ros2=generation == 2)
+        read_driving(own, "/teleop", diagnostics, is_ros2=ros_version == 2)
     ekf = _group(tree, "ekf")
     node_reader(ekf_table(ekf), ekf, "/ekf", diagnostics).report_unknown()
     for key, value in ekf.items():
@@ -189,7 +189,7 @@ def _perspective(path: Path, _diagnostics: Diagnostics, _workspace: Workspace) -
 
 def _parameters(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     check_parameter_file(path, diagnostics=diagnostics)
-    check_parameter_file(path, diagnostics=diagnostics, generation=1, joints=("wheel_left",))
+    check_parameter_file(path, diagnostics=diagnostics, ros_version=1, joints=("wheel_left",))
     words = ["--ros-args", "--params-file", str(path), "-p", "a.b:=[1, 2]"]
     parse_ros_arguments(words).parameters("/robot/talker")
 

@@ -15,11 +15,11 @@ from gazelle.interfaces.definition import (
     NUMPY_NAMES,
     Array,
     FieldType,
-    Generation,
+    RosVersion,
     attribute_name,
 )
 
-Maker = Callable[[str, Generation, int], Any]
+Maker = Callable[[str, RosVersion, int], Any]
 
 
 @pytest.fixture(scope="session")
@@ -35,17 +35,17 @@ def every_message() -> tuple[str, ...]:
 @pytest.fixture(scope="session")
 def make_message() -> Maker:
     """A function: full name, generation, seed → a message full of random values."""
-    return lambda name, generation, seed: _message(name, generation, random.Random(seed))
+    return lambda name, ros_version, seed: _message(name, ros_version, random.Random(seed))
 
 
-def _message(name: str, generation: Generation, rng: random.Random) -> Any:
-    cls: Any = default_types().class_of(name, generation)
+def _message(name: str, ros_version: RosVersion, rng: random.Random) -> Any:
+    cls: Any = default_types().class_of(name, ros_version)
     made = cls()
     if name in ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"):
         made.sec, made.nanosec = rng.randrange(2**31), rng.randrange(10**9)
         return made
     for item in cls.FIELDS:
-        setattr(made, attribute_name(item.name), _value(item.type, generation, rng))
+        setattr(made, attribute_name(item.name), _value(item.type, ros_version, rng))
     if name == "rosgraph_msgs/msg/Log":
         made.level = 8
     if name == "shape_msgs/msg/SolidPrimitive":
@@ -55,15 +55,15 @@ def _message(name: str, generation: Generation, rng: random.Random) -> Any:
     return made
 
 
-def _value(kind: FieldType, generation: Generation, rng: random.Random) -> Any:
+def _value(kind: FieldType, ros_version: RosVersion, rng: random.Random) -> Any:
     if kind.array is not Array.ONE:
-        return _values(kind, generation, rng)
+        return _values(kind, ros_version, rng)
     if kind.base == "time":
         return Time(rng.randrange(2**31), rng.randrange(10**9))
     if kind.base == "duration":
         return Duration(rng.randrange(-(2**31), 2**31), rng.randrange(10**9))
     if kind.is_message:
-        return _message(kind.base, generation, rng)
+        return _message(kind.base, ros_version, rng)
     if kind.is_string:
         return "".join(rng.choice("abc äß€😀") for _ in range(rng.randrange(9)))
     return _number(FORMATS[kind.base], kind.base, rng)
@@ -81,12 +81,12 @@ def _number(letter: str, base: str, rng: random.Random) -> Any:
     return low + rng.randrange(2**bits)
 
 
-def _values(kind: FieldType, generation: Generation, rng: random.Random) -> Any:
+def _values(kind: FieldType, ros_version: RosVersion, rng: random.Random) -> Any:
     count = kind.size if kind.array is Array.FIXED else rng.randrange(min(4, kind.size or 4) + 1)
     one = FieldType(kind.base)
-    found = [_value(one, generation, rng) for _ in range(count)]
+    found = [_value(one, ros_version, rng) for _ in range(count)]
     if kind.base not in FORMATS:
         return found
-    if generation is Generation.ROS2:
+    if ros_version is RosVersion.ROS2:
         return np.array(found, NUMPY_NAMES[FORMATS[kind.base]])
     return bytes(found) if kind.base in ("uint8", "char") else tuple(found)

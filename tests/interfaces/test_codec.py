@@ -8,7 +8,7 @@ from tests.sets import few, part
 
 from gazelle.errors import InterfaceError
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     convert,
     from_cdr,
     from_ros1,
@@ -29,15 +29,15 @@ RELAXED = settings(
 @given(data=st.data())
 def test_any_message_survives_both_wires(data, every_message, make_message):
     name = data.draw(st.sampled_from(every_message))
-    generation = data.draw(st.sampled_from(Generation))
-    message = make_message(name, generation, data.draw(st.integers(0, 10**6)))
+    ros_version = data.draw(st.sampled_from(RosVersion))
+    message = make_message(name, ros_version, data.draw(st.integers(0, 10**6)))
     _round_trip(message)
 
 
-@pytest.mark.parametrize("generation", Generation)
-def test_every_shipped_message_survives_both_wires(generation, every_message, make_message):
+@pytest.mark.parametrize("ros_version", RosVersion)
+def test_every_shipped_message_survives_both_wires(ros_version, every_message, make_message):
     for name in part(every_message, 250):
-        _round_trip(make_message(name, generation, 7))
+        _round_trip(make_message(name, ros_version, 7))
 
 
 def _round_trip(message):
@@ -45,18 +45,18 @@ def _round_trip(message):
     data = to_cdr(message)
     back = from_cdr(cls, data)
     assert to_cdr(back) == data, name
-    if cls.GENERATION is Generation.ROS2:
+    if cls.GENERATION is RosVersion.ROS2:
         assert back == message, name
     if name != NOT_CONVERTIBLE:
         data = to_ros1(message)
         back = from_ros1(cls, data)
         assert to_ros1(back) == data, name
-        assert cls.GENERATION is Generation.ROS2 or back == message, name
+        assert cls.GENERATION is RosVersion.ROS2 or back == message, name
 
 
 def test_ros1_view_writes_the_bytes_of_the_canonical_type(make_message):
     for name in ("LaserScan", "CameraInfo", "JointState", "PointCloud2", "Imu", "Image"):
-        message = make_message(f"sensor_msgs/msg/{name}", Generation.ROS2, 3)
+        message = make_message(f"sensor_msgs/msg/{name}", RosVersion.ROS2, 3)
         view = convert(message, ros1_message_type(f"sensor_msgs/{name}"))
         assert to_cdr(view) == to_cdr(message)
         assert convert(view, type(message)) == message

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     add_package,
     default_types,
     installed,
@@ -78,7 +78,7 @@ def test_layout_is_that_of_genpy(tmp_path: Path) -> None:
     put(tmp_path / "usr/share/std_msgs/msg/Header.msg", HEADER)
     mine = "# Mine.\nHeader header\ngeometry_msgs/Vector3 a  # no line end"
     put(tmp_path / "my_msgs/msg/Mine.msg", mine)
-    add_package("my_msgs", tmp_path / "my_msgs", Generation.ROS1)
+    add_package("my_msgs", tmp_path / "my_msgs", RosVersion.ROS1)
     assert ros1_definition("my_msgs/Mine") == (
         f"{mine}\n{RULE}\nMSG: std_msgs/Header\n{HEADER}\n"
         f"{RULE}\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n"
@@ -88,7 +88,7 @@ def test_layout_is_that_of_genpy(tmp_path: Path) -> None:
 def test_layout_of_rosbag2_is_by_name_and_depth_first(tmp_path: Path) -> None:
     mine = "std_msgs/Header header\ngeometry_msgs/Pose a\n"
     put(tmp_path / "my_msgs/msg/Mine.msg", mine)
-    add_package("my_msgs", tmp_path / "my_msgs", Generation.ROS2)
+    add_package("my_msgs", tmp_path / "my_msgs", RosVersion.ROS2)
     order = [
         line[5:] for line in ros2_definition("my_msgs/Mine").splitlines() if line[:4] == "MSG:"
     ]
@@ -107,11 +107,11 @@ def test_texts_of_ros2_are_installed_too(tmp_path: Path) -> None:
 
 def test_the_text_that_came_in_counts_first(tmp_path: Path) -> None:
     put(tmp_path / "usr/share/std_msgs/msg/String.msg", "# Installed.\nstring data\n")
-    assert keep_text("std_msgs/String", Generation.ROS1, "# Sent.\nstring data\n")
+    assert keep_text("std_msgs/String", RosVersion.ROS1, "# Sent.\nstring data\n")
     assert ros1_definition("std_msgs/String") == "# Sent.\nstring data\n"
-    assert not keep_text("std_msgs/String", Generation.ROS1, "int32 data\n")
-    assert not keep_text("std_msgs/String", Generation.ROS1, "")
-    assert not keep_text("no_msgs/None", Generation.ROS1, "int32 data\n")
+    assert not keep_text("std_msgs/String", RosVersion.ROS1, "int32 data\n")
+    assert not keep_text("std_msgs/String", RosVersion.ROS1, "")
+    assert not keep_text("no_msgs/None", RosVersion.ROS1, "int32 data\n")
     assert ros1_definition("std_msgs/String") == "# Sent.\nstring data\n"
 
 

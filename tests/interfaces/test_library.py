@@ -7,7 +7,7 @@ import pytest
 
 from gazelle.errors import InterfaceError, NotFoundError, UserFileError
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     action_type,
     add_package,
     add_search_path,
@@ -212,4 +212,4 @@ def test_packages_of_the_sample_workspaces(workspaces_dir):
     state = ros1_message_type("turtlebot3_msgs/SensorState")(battery=11.5)
     back = from_cdr(message_type("turtlebot3_msgs/SensorState"), to_cdr(state))
     assert back.battery == 11.5
-    assert Generation.ROS2 is back.GENERATION
+    assert RosVersion.ROS2 is back.GENERATION

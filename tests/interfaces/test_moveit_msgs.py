@@ -10,7 +10,7 @@ import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 import gazelle.interfaces
-from gazelle.interfaces import Generation, action_type, md5sum, message_type, to_cdr, type_hash
+from gazelle.interfaces import RosVersion, action_type, md5sum, message_type, to_cdr, type_hash
 
 pytestmark = pytest.mark.reference
 PACKAGES = ("moveit_msgs", "object_recognition_msgs", "octomap_msgs")
@@ -26,14 +26,14 @@ PUBLISHED = {
 }
 
 
-def _peer(generation: Generation) -> tuple[Any, list[str]]:
+def _peer(ros_version: RosVersion) -> tuple[Any, list[str]]:
     """A store of the other implementation with our texts read by its own parser."""
     store = get_typestore(
-        Stores.ROS1_NOETIC if generation is Generation.ROS1 else Stores.ROS2_JAZZY
+        Stores.ROS1_NOETIC if ros_version is RosVersion.ROS1 else Stores.ROS2_JAZZY
     )
     found = {}
     for package in PACKAGES:
-        text = (DEFINITIONS / f"ros{generation.value}" / f"{package}.txt").read_text("utf-8")
+        text = (DEFINITIONS / f"ros{ros_version.value}" / f"{package}.txt").read_text("utf-8")
         for block in text.split("=== ")[1:]:
             key, _, fields = block.partition("\n")
             if key.startswith("msg/"):
@@ -47,7 +47,7 @@ def test_md5_sums_are_those_that_noetic_published() -> None:
 
 
 def test_md5_sums_equal_those_of_another_implementation() -> None:
-    store, names = _peer(Generation.ROS1)
+    store, names = _peer(RosVersion.ROS1)
     assert len(names) > 50
     assert [n for n in names if md5sum(n) != store.generate_msgdef(n, ros_version=1)[1]] == []
 
@@ -55,11 +55,11 @@ def test_md5_sums_equal_those_of_another_implementation() -> None:
 def test_type_hashes_and_bytes_equal_those_of_another_implementation(
     make_message: Callable[..., Any],
 ) -> None:
-    store, names = _peer(Generation.ROS2)
+    store, names = _peer(RosVersion.ROS2)
     assert len(names) > 50
     assert [n for n in names if type_hash(n) != store.hash_rihs01(n)] == []
     for name in names:
-        message = make_message(name, Generation.ROS2, 1)
+        message = make_message(name, RosVersion.ROS2, 1)
         again = store.serialize_cdr(store.deserialize_cdr(to_cdr(message), name), name)
         assert bytes(again) == to_cdr(message), name
 

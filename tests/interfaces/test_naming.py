@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     default_types,
     definition,
     known_types,
@@ -37,9 +37,9 @@ def test_service_names():
 def test_no_field_is_lost_between_the_generations_unless_known():
     """What ROS 1 has and the wire has not; a new definition shows up here."""
     lost = {}
-    names = [name for name in known_types() if definition(name, Generation.ROS1).native]
+    names = [name for name in known_types() if definition(name, RosVersion.ROS1).native]
     for name in names:
-        layout = bind(default_types(), name, Generation.ROS1, Wire.CDR)
+        layout = bind(default_types(), name, RosVersion.ROS1, Wire.CDR)
         if layout.missing:
             lost[name] = layout.missing
     assert lost == {"std_msgs/msg/Header": ("seq",)}

@@ -4,16 +4,16 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import InterfaceError
-from gazelle.interfaces.definition import Array, FieldType, Generation
+from gazelle.interfaces.definition import Array, FieldType, RosVersion
 from gazelle.interfaces.parser import parse_message, split_parts
 
-ROS1, ROS2 = Generation.ROS1, Generation.ROS2
+ROS1, ROS2 = RosVersion.ROS1, RosVersion.ROS2
 
 
-def _parse(text, generation=ROS2, *, package="my_pkg"):
+def _parse(text, ros_version=ROS2, *, package="my_pkg"):
     diagnostics = Diagnostics()
     found = parse_message(
-        text, f"{package}/msg/Thing", generation, diagnostics=diagnostics, file="Thing.msg"
+        text, f"{package}/msg/Thing", ros_version, diagnostics=diagnostics, file="Thing.msg"
     )
     return found, [str(item).split("\n")[0] for item in diagnostics]
 
@@ -80,7 +80,7 @@ def test_comments_and_empty_lines_say_nothing():
 
 
 @pytest.mark.parametrize(
-    ("text", "generation", "expected"),
+    ("text", "ros_version", "expected"),
     [
         ("int32", ROS2, "Thing.msg:1:1: error: 'int32' has a type but no name"),
         ("int32 9a", ROS2, "Thing.msg:1:7: error: '9a' cannot be a name"),
@@ -102,8 +102,8 @@ def test_comments_and_empty_lines_say_nothing():
         ("Pose a 5", ROS2, "error: Pose fields have no default"),
     ],
 )
-def test_wrong_lines_are_reported_at_their_place(text, generation, expected):
-    _, problems = _parse(text, generation)
+def test_wrong_lines_are_reported_at_their_place(text, ros_version, expected):
+    _, problems = _parse(text, ros_version)
     assert len(problems) == 1
     assert expected in problems[0]
 

@@ -5,7 +5,7 @@ import pytest
 
 from gazelle.errors import InterfaceError
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     convert,
     fill,
     message_type,
@@ -42,8 +42,8 @@ def test_list_of_one_dict_is_the_dict_and_none_is_no_fields(form):
 @FORMS
 def test_every_message_comes_back_from_its_plain_form(form, make_message):
     for name in ("sensor_msgs/msg/JointState", "nav_msgs/msg/Path", "sensor_msgs/msg/CameraInfo"):
-        generation = form(name).GENERATION
-        message = make_message(name, generation, 4)
+        ros_version = form(name).GENERATION
+        message = make_message(name, ros_version, 4)
         twin = form(name)()
         fill(twin, to_plain(message))
         assert twin == message
@@ -121,4 +121,4 @@ def test_strify_follows_genpy():
     assert shown == "range_min: 0.0"
     flag = ros1_message_type("std_msgs/Bool")(data=True)
     assert strify(flag) == "data: True"
-    assert Generation.ROS1 is scan.GENERATION
+    assert RosVersion.ROS1 is scan.GENERATION

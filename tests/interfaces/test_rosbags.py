@@ -13,7 +13,7 @@ from tests.shared_files import SHARED, shared_cases
 
 from gazelle.interfaces import (
     Duration,
-    Generation,
+    RosVersion,
     Time,
     from_cdr,
     from_ros1,
@@ -31,56 +31,56 @@ from gazelle.interfaces.definition import FORMATS, NUMPY_NAMES, Array, attribute
 RECORDED = Path(__file__).parents[1] / "workspaces/recorded/ros1"
 pytestmark = pytest.mark.reference
 STORES = {
-    Generation.ROS1: get_typestore(Stores.ROS1_NOETIC),
-    Generation.ROS2: get_typestore(Stores.ROS2_JAZZY),
+    RosVersion.ROS1: get_typestore(Stores.ROS1_NOETIC),
+    RosVersion.ROS2: get_typestore(Stores.ROS2_JAZZY),
 }
 OTHERS = ("rmw_dds_common", "rosbag2_interfaces")
 TIMES = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
 
 
-def _names(generation: Generation) -> list[str]:
+def _names(ros_version: RosVersion) -> list[str]:
     return [
         name
-        for name in STORES[generation].fielddefs
+        for name in STORES[ros_version].fielddefs
         if name.split("/")[0] not in OTHERS
-        and not (generation is Generation.ROS1 and name in TIMES)
+        and not (ros_version is RosVersion.ROS1 and name in TIMES)
     ]
 
 
-def _peer(message: Any, generation: Generation) -> Any:
+def _peer(message: Any, ros_version: RosVersion) -> Any:
     """The same values in rosbags' class."""
-    cls = STORES[generation].types[message.TYPE_NAME]
-    if not message.FIELDS and generation is Generation.ROS2:
+    cls = STORES[ros_version].types[message.TYPE_NAME]
+    if not message.FIELDS and ros_version is RosVersion.ROS2:
         return cls(structure_needs_at_least_one_member=0)
     values = {
         attribute_name(item.name): _peer_value(
-            getattr(message, attribute_name(item.name)), item.type, generation
+            getattr(message, attribute_name(item.name)), item.type, ros_version
         )
         for item in message.FIELDS
     }
     return cls(**values)
 
 
-def _peer_value(value: Any, kind: Any, generation: Generation) -> Any:
+def _peer_value(value: Any, kind: Any, ros_version: RosVersion) -> Any:
     if isinstance(value, Time | Duration):
-        cls = STORES[generation].types[f"builtin_interfaces/msg/{type(value).__name__}"]
+        cls = STORES[ros_version].types[f"builtin_interfaces/msg/{type(value).__name__}"]
         return cls(value.secs, value.nsecs)
     if hasattr(value, "FIELDS"):
-        return _peer(value, generation)
+        return _peer(value, ros_version)
     if kind.array is not Array.ONE and kind.base in FORMATS:
         name = "i1" if kind.base == "byte" else NUMPY_NAMES[FORMATS[kind.base]]
         return np.frombuffer(value, "u1") if isinstance(value, bytes) else np.array(value, name)
     if isinstance(value, list):
-        return [_peer_value(item, kind, generation) for item in value]
+        return [_peer_value(item, kind, ros_version) for item in value]
     return value
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_cdr_bytes_equal_rosbags_of_every_type_both_have(seed, make_message):
-    store = STORES[Generation.ROS2]
-    for name in _names(Generation.ROS2):
-        message = make_message(name, Generation.ROS2, seed)
-        peer = _peer(message, Generation.ROS2)
+    store = STORES[RosVersion.ROS2]
+    for name in _names(RosVersion.ROS2):
+        message = make_message(name, RosVersion.ROS2, seed)
+        peer = _peer(message, RosVersion.ROS2)
         assert to_cdr(message) == bytes(store.serialize_cdr(peer, name)), name
         big_endian = bytes(store.serialize_cdr(peer, name, little_endian=False))
         assert from_cdr(type(message), big_endian) == message, name
@@ -88,19 +88,19 @@ def test_cdr_bytes_equal_rosbags_of_every_type_both_have(seed, make_message):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_ros1_bytes_equal_rosbags_of_every_type_both_have(seed, make_message):
-    store = STORES[Generation.ROS1]
-    for name in _names(Generation.ROS1):
-        message = make_message(name, Generation.ROS1, seed)
-        expected = bytes(store.serialize_ros1(_peer(message, Generation.ROS1), name))
+    store = STORES[RosVersion.ROS1]
+    for name in _names(RosVersion.ROS1):
+        message = make_message(name, RosVersion.ROS1, seed)
+        expected = bytes(store.serialize_ros1(_peer(message, RosVersion.ROS1), name))
         assert to_ros1(message) == expected, name
 
 
 def test_md5_sums_of_all_noetic_messages_are_equal():
-    names = _names(Generation.ROS1)
+    names = _names(RosVersion.ROS1)
     different = [
         name
         for name in names
-        if md5sum(name) != STORES[Generation.ROS1].generate_msgdef(name, ros_version=1)[1]
+        if md5sum(name) != STORES[RosVersion.ROS1].generate_msgdef(name, ros_version=1)[1]
     ]
     assert not different
     assert len(names) > 150
@@ -109,8 +109,8 @@ def test_md5_sums_of_all_noetic_messages_are_equal():
 def test_type_hashes_of_all_jazzy_messages_are_equal():
     # rosbags hashes char as its own type; rosidl turns it into uint8 (see the published ones)
     own = {"std_msgs/msg/Char", "service_msgs/msg/ServiceEventInfo"}
-    names = [name for name in _names(Generation.ROS2) if name not in own]
-    hashes = STORES[Generation.ROS2]
+    names = [name for name in _names(RosVersion.ROS2) if name not in own]
+    hashes = STORES[RosVersion.ROS2]
     assert [name for name in names if type_hash(name) != hashes.hash_rihs01(name)] == []
 
 

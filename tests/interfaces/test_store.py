@@ -11,7 +11,7 @@ import pytest
 
 from gazelle.errors import NotFoundError
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     TypeStore,
     default_types,
     from_cdr,
@@ -33,7 +33,7 @@ def over(**texts: str) -> TypeStore:
     """A store over the process's own that knows other messages of ROS 1."""
     store = TypeStore(below=default_types())
     for name, text in texts.items():
-        store.add_text(name.replace("__", "/"), Generation.ROS1, text)
+        store.add_text(name.replace("__", "/"), RosVersion.ROS1, text)
     return store
 
 
@@ -89,12 +89,12 @@ def test_what_the_process_learns_later_shows_through(tmp_path: Path) -> None:
 
 def test_a_text_that_means_the_same_is_kept_where_the_type_is() -> None:
     store = over(own_msgs__Count="int16 count\n")
-    assert store.keep_text(STRING, Generation.ROS1, "# Of a bag.\nstring data\n")
-    assert store.keep_text("own_msgs/Count", Generation.ROS1, "# Mine.\nint16 count\n")
+    assert store.keep_text(STRING, RosVersion.ROS1, "# Of a bag.\nstring data\n")
+    assert store.keep_text("own_msgs/Count", RosVersion.ROS1, "# Mine.\nint16 count\n")
     assert store.ros1_definition(STRING) == "# Of a bag.\nstring data\n"
-    assert kept_text(STRING, Generation.ROS1) == ""
-    assert keep_text(STRING, Generation.ROS1, "# Of a peer.\nstring data\n")
-    assert store.kept_text(STRING, Generation.ROS1) == "# Of a bag.\nstring data\n"
+    assert kept_text(STRING, RosVersion.ROS1) == ""
+    assert keep_text(STRING, RosVersion.ROS1, "# Of a peer.\nstring data\n")
+    assert store.kept_text(STRING, RosVersion.ROS1) == "# Of a bag.\nstring data\n"
 
 
 def test_a_store_that_is_reset_knows_what_it_knew_first(tmp_path: Path) -> None:
@@ -103,7 +103,7 @@ def test_a_store_that_is_reset_knows_what_it_knew_first(tmp_path: Path) -> None:
     store = TypeStore()
     plain = store.message_type(STRING)
     store.add_package("std_msgs", tmp_path)
-    store.add_text(STRING, Generation.ROS2, TURNED)
+    store.add_text(STRING, RosVersion.ROS2, TURNED)
     store.taught_by.add("me")
     assert store.message_type(STRING) is not plain and store.exists("std_msgs/One")
     store.reset()

@@ -201,8 +201,8 @@ def test_a_manager_that_still_comes_is_not_taken_for_the_other_generations(graph
 
     node.create_service("/cm/load_controller", load, lambda _request: None)
     monkeypatch.setattr(graph, "has_service", look_and_go_on)
-    assert client.generation == 2
-    assert ManagerClient(node, "/nowhere", generation=2).generation == 2
+    assert client.ros_version == 2
+    assert ManagerClient(node, "/nowhere", ros_version=2).ros_version == 2
 
 
 def test_ros1_unspawner_stops_controllers_and_starts_them_again(graph, monkeypatch):

@@ -24,7 +24,7 @@ _TABLE = ParameterTable(
     ("pkg/thing",),
     (
         Parameter("rate", "number", 50.0, "how often", "Hz", ros2_default=20.0),
-        Parameter("prefix", "text", "", "before frames", generations=(1,)),
+        Parameter("prefix", "text", "", "before frames", ros_versions=(1,)),
         *refused("there is no such thing here", "ghost"),
     ),
 )

@@ -214,10 +214,10 @@ _ON_WORLD = ROBOT.replace(
 )
 
 
-@pytest.mark.parametrize("generation", [1, 2])
-def test_a_root_link_called_world_is_a_frame(bench: Any, tmp_path: Path, generation: int) -> None:
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_a_root_link_called_world_is_a_frame(bench: Any, tmp_path: Path, ros_version: int) -> None:
     static = bench.listen("/tf_static", "tf2_msgs/msg/TFMessage")
-    if generation == 2:
+    if ros_version == 2:
         (tmp_path / "r.urdf").write_text(_ON_WORLD)
         bench.start(_NODE, str(tmp_path / "r.urdf"), "--ros-args")
     else:

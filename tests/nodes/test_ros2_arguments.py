@@ -17,7 +17,7 @@ def test_rules_parameters_and_own_words_are_told_apart() -> None:
     assert found.remappings == {"/x": "/y"}
     assert (found.name, found.namespace) == ("n", "/r1")
     assert found.params == {"rate": 5, "wheels/radius": 0.1}
-    assert found.generation == 2
+    assert found.ros_version == 2
 
 
 def test_node_name_before_a_rule_is_left_out() -> None:
@@ -55,9 +55,9 @@ def test_section_may_begin_anew_within_itself() -> None:
 
 def test_generation_is_the_environments_without_the_section(monkeypatch) -> None:
     monkeypatch.delenv("ROS_VERSION", raising=False)
-    assert read_arguments([], "n").generation == 1
+    assert read_arguments([], "n").ros_version == 1
     monkeypatch.setenv("ROS_VERSION", "2")
-    assert read_arguments([], "n").generation == 2
+    assert read_arguments([], "n").ros_version == 2
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ def test_camel_case_counts_in_ros1_and_snake_case_in_ros2() -> None:
 
 def test_a_key_of_one_spelling_counts_in_its_generations() -> None:
     assert Parameter("alwaysOn", "flag", True, "on").spellings(2) == ("alwaysOn",)
-    assert Parameter("alwaysOn", "flag", True, "on", generations=(1,)).spellings(2) == ()
+    assert Parameter("alwaysOn", "flag", True, "on", ros_versions=(1,)).spellings(2) == ()
 
 
 def test_refused_rows_share_their_reason() -> None:

@@ -33,8 +33,8 @@ def server() -> Iterator[WorldServer]:
     made.close()
 
 
-def _ports(server: WorldServer, generation: int = 1, **options: Any) -> ControllerPorts:
-    return make_ports(server, Resources(server), "mira", "roll", generation, **options)
+def _ports(server: WorldServer, ros_version: int = 1, **options: Any) -> ControllerPorts:
+    return make_ports(server, Resources(server), "mira", "roll", ros_version, **options)
 
 
 def test_names_are_the_controllers_the_managers_or_global(server):
@@ -146,14 +146,14 @@ def test_an_action_is_found_by_name_until_its_controller_closes(server):
     assert server.controls.actions == {}
 
 
-def _manager(server: WorldServer, resources: Resources, generation: int) -> ControllerManager:
+def _manager(server: WorldServer, resources: Resources, ros_version: int) -> ControllerManager:
     bank = InterfaceBank()
     bank.freeze()
-    robot = Robot(generation, Model("mira"), bank, (), {})
+    robot = Robot(ros_version, Model("mira"), bank, (), {})
     manager = ControllerManager(
         robot,
         namespace="mira",
-        make_ports=lambda name: make_ports(server, resources, "mira", name, generation),
+        make_ports=lambda name: make_ports(server, resources, "mira", name, ros_version),
         source=StoreSource(server.node.parameters, "mira"),
         diagnostics=Diagnostics(),
         update_rate_hz=100.0,

@@ -23,7 +23,7 @@ def test_graph_names_nodes_topics_services_and_actions(page: Page, node: Node) -
     node.create_subscription("/heard", "std_msgs/Int32", lambda _message: None)
     node.create_service("/asked", _service("std_srvs/Trigger"), lambda request: request)
     server = ActionServer(
-        node, "/count", _FIBONACCI, on_goal=lambda goal: goal.accept(), generation=2
+        node, "/count", _FIBONACCI, on_goal=lambda goal: goal.accept(), ros_version=2
     )
     value = page.call("graph.get")
     server.close()
@@ -262,18 +262,18 @@ def test_rosout_gives_the_last_ones_first(page: Page, graph: Graph) -> None:
 
 
 @pytest.mark.parametrize(
-    ("generation", "kind"), [(1, "actionlib_tutorials/action/Fibonacci"), (2, _FIBONACCI)]
+    ("ros_version", "kind"), [(1, "actionlib_tutorials/action/Fibonacci"), (2, _FIBONACCI)]
 )
 def test_action_tells_feedback_and_result(
-    page: Page, node: Node, generation: Any, kind: str
+    page: Page, node: Node, ros_version: Any, kind: str
 ) -> None:
     def run(goal: Any) -> None:
         goal.accept()
         goal.publish_feedback(goal_type.Feedback(sequence=[0, 1]))
         goal.succeed(goal_type.Result(sequence=[0, 1, 1]))
 
-    name = f"/fib_{generation}"
-    server = ActionServer(node, name, kind, on_goal=_later(run), generation=generation)
+    name = f"/fib_{ros_version}"
+    server = ActionServer(node, name, kind, on_goal=_later(run), ros_version=ros_version)
     goal_type = server.types
     stream = page.open("action", action=name, goal={"order": "3"})
     assert stream.info["type"] == kind
@@ -297,7 +297,7 @@ def test_closing_an_action_cancels_it(page: Page, node: Node) -> None:
         return True
 
     server = ActionServer(
-        node, "/long", _FIBONACCI, on_goal=on_goal, on_cancel=on_cancel, generation=2
+        node, "/long", _FIBONACCI, on_goal=on_goal, on_cancel=on_cancel, ros_version=2
     )
     stream = page.open("action", action="/long", goal={"order": 3})
     stream.until(lambda item: item["state"] == "EXECUTING")

@@ -17,7 +17,7 @@ from gazelle.interfaces import message_type
 pytestmark = pytest.mark.tutorial
 
 NODES = Path(__file__).parents[1] / "compat" / "tutorial_nodes"
-BOTH = pytest.mark.parametrize("generation", ["ros1", "ros2"])
+BOTH = pytest.mark.parametrize("ros_version", ["ros1", "ros2"])
 
 Start = Callable[..., Any]
 
@@ -33,17 +33,17 @@ def graph(free_port: int) -> Iterator[Graph]:
 def start(gazelle: Callable[..., Any]) -> Start:
     """Starts a node by generation and name."""
 
-    def run(generation: str, name: str, *words: str) -> Any:
-        file = NODES / generation / f"{name}.py"
+    def run(ros_version: str, name: str, *words: str) -> Any:
+        file = NODES / ros_version / f"{name}.py"
         return gazelle(str(file), *words, module="gazelle.compat.runner", PYTHONUNBUFFERED="1")
 
     return run
 
 
 @BOTH
-def test_listener_hears_what_the_talker_says(start: Start, generation: str) -> None:
-    talker, listener = start(generation, "talker"), start(generation, "listener")
-    if generation == "ros1":
+def test_listener_hears_what_the_talker_says(start: Start, ros_version: str) -> None:
+    talker, listener = start(ros_version, "talker"), start(ros_version, "listener")
+    if ros_version == "ros1":
         line = listener.wait_for_line(r"I heard hello world")
         assert re.search(
             r"\[INFO\] \[\d+\.\d+\]: /listener_\S+_\d+_\d+I heard hello world \d+", line
@@ -57,18 +57,18 @@ def test_listener_hears_what_the_talker_says(start: Start, generation: str) -> N
 
 
 @BOTH
-def test_server_adds_two_numbers(start: Start, generation: str) -> None:
-    server = start(generation, "add_two_ints_server")
-    client = start(generation, "add_two_ints_client", "41", "1")
+def test_server_adds_two_numbers(start: Start, ros_version: str) -> None:
+    server = start(ros_version, "add_two_ints_server")
+    client = start(ros_version, "add_two_ints_client", "41", "1")
     assert client.wait() == 0, client.text
-    wanted = "41 + 1 = 42" if generation == "ros1" else "Result of add_two_ints: 42"
+    wanted = "41 + 1 = 42" if ros_version == "ros1" else "Result of add_two_ints: 42"
     assert wanted in client.text
-    told = "Returning [41 + 1 = 42]" if generation == "ros1" else "Incoming request a: 41 b: 1"
+    told = "Returning [41 + 1 = 42]" if ros_version == "ros1" else "Incoming request a: 41 b: 1"
     server.wait_for_line(re.escape(told))
 
 
 @BOTH
-def test_turtle_follows_by_tf(start: Start, graph: Graph, generation: str) -> None:
+def test_turtle_follows_by_tf(start: Start, graph: Graph, ros_version: str) -> None:
     params = {"ros1": ["_turtle:=turtle1"], "ros2": ["--ros-args", "-p", "turtlename:=turtle1"]}
     node = graph.create_node("test", rosout=False)
     frame = StampedPose("world", "turtle2", 0, Pose((1.0, 2.0, 0.0)))
@@ -79,8 +79,8 @@ def test_turtle_follows_by_tf(start: Start, graph: Graph, generation: str) -> No
     )
     where = message_type("turtlesim/Pose")
     poses = node.create_publisher("/turtle1/pose", where)
-    start(generation, "tf_broadcaster", *params[generation])
-    listener = start(generation, "tf_listener")
+    start(ros_version, "tf_broadcaster", *params[ros_version])
+    listener = start(ros_version, "tf_listener")
 
     def steered() -> bool:
         poses.publish(where(x=4.0, y=6.0, theta=0.5))
@@ -92,16 +92,16 @@ def test_turtle_follows_by_tf(start: Start, graph: Graph, generation: str) -> No
 
 
 @BOTH
-def test_goal_is_counted_to_its_result(start: Start, generation: str) -> None:
+def test_goal_is_counted_to_its_result(start: Start, ros_version: str) -> None:
     server = start(
-        generation, "fibonacci_server", *(["__name:=fibonacci"] * (generation == "ros1"))
+        ros_version, "fibonacci_server", *(["__name:=fibonacci"] * (ros_version == "ros1"))
     )
-    client = start(generation, "fibonacci_client")
+    client = start(ros_version, "fibonacci_client")
     assert client.wait() == 0, client.text + server.text
     numbers = "0, 1, 1, 2, 3, 5, 8, 13, 21"
-    wanted = f"Result: {numbers}" if generation == "ros1" else f"Result: [{numbers}]"
+    wanted = f"Result: {numbers}" if ros_version == "ros1" else f"Result: [{numbers}]"
     assert wanted in client.text
-    if generation == "ros2":
+    if ros_version == "ros2":
         assert "Goal accepted :)" in client.text and "Received feedback of 9 numbers" in client.text
     else:
         server.wait_for_line("/fibonacci: Succeeded")

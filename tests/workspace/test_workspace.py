@@ -222,8 +222,8 @@ def test_example_workspaces_are_found(examples_dir: Path, discover, folder, name
 
 def test_generations_of_the_example_packages_are_known(examples_dir: Path, discover):
     workspace = discover(extra=(examples_dir,))
-    assert workspace.package("scout_robot").ros_generation == 1
-    assert workspace.package("heron_bringup").ros_generation == 2
+    assert workspace.package("scout_robot").ros_version == 1
+    assert workspace.package("heron_bringup").ros_version == 2
     assert workspace.package("heron_bringup").build_type == "ament_python"
 
 
@@ -236,8 +236,8 @@ def test_sample_workspaces_and_their_generations_are_known(workspaces_dir: Path,
         assert set(names) <= set(own(workspace))
         assert not len(workspace.diagnostics)
     workspace = discover(extra=(workspaces_dir,))
-    assert workspace.package("slam_robot").ros_generation == 1
-    assert workspace.package("luck_gazebo").ros_generation == 2
+    assert workspace.package("slam_robot").ros_version == 1
+    assert workspace.package("luck_gazebo").ros_version == 2
     assert workspace.package("luck_gazebo").build_type == "ament_python"
     assert workspace.package("turtlebot3_gazebo").version == "1.3.2"
 

@@ -16,7 +16,7 @@ from gazelle.errors import GazelleError
 from gazelle.interfaces import (
     Definition,
     Field,
-    Generation,
+    RosVersion,
     TypeStore,
     default_types,
     definition,
@@ -99,7 +99,7 @@ class _BagTypes:
         for part, text in split_texts(one):
             full = "/".join(split_name(part))
             try:
-                parsed = parse_message(text, full, Generation.ROS1, diagnostics=None)
+                parsed = parse_message(text, full, RosVersion.ROS1, diagnostics=None)
             except GazelleError as error:
                 raise BagError(f"the bag's definition of {part} cannot be read: {error}") from None
             self._types[full] = parsed
@@ -110,7 +110,7 @@ class _BagTypes:
         if name in changes:
             return
         try:
-            own, own_sum = definition(name, Generation.ROS1), md5sum(name)
+            own, own_sum = definition(name, RosVersion.ROS1), md5sum(name)
         except GazelleError:
             changes[name] = Change(short, bag_sum, "", ("the type is not known here",))
             return
@@ -134,8 +134,8 @@ class _BagTypes:
         store = TypeStore(below=default_types())
         for name, source in self._types.items():
             if self._is_changed(name):
-                text = definition_text(source.constants, source.fields, Generation.ROS1)
-                store.add_text(name, Generation.ROS1, text + "\n")
+                text = definition_text(source.constants, source.fields, RosVersion.ROS1)
+                store.add_text(name, RosVersion.ROS1, text + "\n")
         return store
 
     def carry(self, name: str) -> _Carry:
@@ -173,7 +173,7 @@ class _BagTypes:
         lines = [f"{item.type} {item.name}={item.text}" for item in source.constants]
         for item in source.fields:
             kind = item.type
-            word = self._sum(kind.base) if kind.is_message else kind.text(Generation.ROS1)
+            word = self._sum(kind.base) if kind.is_message else kind.text(RosVersion.ROS1)
             lines.append(f"{word} {item.name}")
         return hashlib.md5("\n".join(lines).encode(), usedforsecurity=False).hexdigest()
 
@@ -181,5 +181,5 @@ class _BagTypes:
 def _difference(theirs: Field, mine: Field) -> str:
     if theirs.type == mine.type:
         return ""
-    kinds = (item.type.text(Generation.ROS1) for item in (theirs, mine))
+    kinds = (item.type.text(RosVersion.ROS1) for item in (theirs, mine))
     return f"field '{mine.name}' was {next(kinds)} and is {next(kinds)}"

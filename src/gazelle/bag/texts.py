@@ -13,7 +13,7 @@ from gazelle.bag.records import Connection, Encoding
 from gazelle.bag.types import learn_definitions
 from gazelle.errors import GazelleError
 from gazelle.graph.delivery import Mailbox
-from gazelle.interfaces import Generation, TypeStore, default_types, keep_text
+from gazelle.interfaces import RosVersion, TypeStore, default_types, keep_text
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph
@@ -56,9 +56,12 @@ class TextShare:
         start, _, rest = str(query.key_expr).rpartition("/definition/")
         words = rest.split("/")
         if len(words) == 4 and words[0] in ("1", "2"):
-            generation, name = Generation(int(words[0])), f"{words[1]}/{words[2]}"
+            ros_version, name = RosVersion(int(words[0])), f"{words[1]}/{words[2]}"
             for types in self._stores:
-                text, meaning = types.kept_text(name, generation), _meaning(types, name, generation)
+                text, meaning = (
+                    types.kept_text(name, ros_version),
+                    _meaning(types, name, ros_version),
+                )
                 if text and words[3] in (meaning, _ANY):
                     key = f"{start}/definition/{words[0]}/{name}/{meaning}"
                     query.reply(key, text.encode())
@@ -66,7 +69,7 @@ class TextShare:
         query.drop()
 
 
-def fetch_text(graph: Graph, name: str, generation: Generation) -> None:
+def fetch_text(graph: Graph, name: str, ros_version: RosVersion) -> None:
     """Keep the text that another process has of a type, or learn the type from it.
 
     Nothing happens when no process has one; what is known here counts then.
@@ -74,26 +77,26 @@ def fetch_text(graph: Graph, name: str, generation: Generation) -> None:
     Args:
         graph: where to ask.
         name: ``pkg/Name``.
-        generation: whose text.
+        ros_version: whose text.
     """
-    meaning = _meaning(default_types(), name, generation)
-    key = _KEY.format(graph.domain, f"{int(generation)}/{name}/{meaning or _ANY}")
+    meaning = _meaning(default_types(), name, ros_version)
+    key = _KEY.format(graph.domain, f"{int(ros_version)}/{name}/{meaning or _ANY}")
     for reply in graph.session.get(key, timeout=_ASK_S):
         if reply.ok is None:
             continue
         text = reply.ok.payload.to_bytes().decode("utf-8", "replace")
         if not meaning:
             found = str(reply.ok.key_expr).rpartition("/")[2]
-            learn_definitions([Connection(0, "", name, _ENCODINGS[generation], text, found)])
-        if keep_text(name, generation, text):
+            learn_definitions([Connection(0, "", name, _ENCODINGS[ros_version], text, found)])
+        if keep_text(name, ros_version, text):
             return
 
 
-_ENCODINGS = {Generation.ROS1: Encoding.ROS1, Generation.ROS2: Encoding.CDR}
+_ENCODINGS = {RosVersion.ROS1: Encoding.ROS1, RosVersion.ROS2: Encoding.CDR}
 
 
-def _meaning(types: TypeStore, name: str, generation: Generation) -> str:
+def _meaning(types: TypeStore, name: str, ros_version: RosVersion) -> str:
     try:
-        return types.md5sum(name) if generation is Generation.ROS1 else types.type_hash(name)
+        return types.md5sum(name) if ros_version is RosVersion.ROS1 else types.type_hash(name)
     except GazelleError:
         return ""

@@ -10,7 +10,7 @@ from gazelle.bag.records import BagError, Connection, Encoding
 from gazelle.bag.rosbag2.metadata import offered_qos
 from gazelle.errors import GazelleError
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     TypeStore,
     default_types,
     from_cdr,
@@ -189,7 +189,7 @@ def learn_definitions(
     return tuple(differing)
 
 
-_GENERATIONS = {Encoding.ROS1: Generation.ROS1, Encoding.CDR: Generation.ROS2}
+_GENERATIONS = {Encoding.ROS1: RosVersion.ROS1, Encoding.CDR: RosVersion.ROS2}
 
 
 def split_texts(one: Connection) -> list[tuple[str, str]]:
@@ -202,7 +202,7 @@ def _known_sum(one: Connection, types: TypeStore) -> str:
     try:
         if one.encoding is Encoding.ROS1:
             return types.md5sum(one.type_name)
-        types.definition(one.type_name, Generation.ROS2)
+        types.definition(one.type_name, RosVersion.ROS2)
     except GazelleError:
         return ""
     return "known"
@@ -210,20 +210,20 @@ def _known_sum(one: Connection, types: TypeStore) -> str:
 
 def _teach(one: Connection, types: TypeStore) -> None:
     """Define a type; what it contains only where that is not known, or differs too."""
-    generation = _GENERATIONS[one.encoding]
+    ros_version = _GENERATIONS[one.encoding]
     (_, first), *parts = split_texts(one)
-    _define(one.type_name, first, generation, types)
+    _define(one.type_name, first, ros_version, types)
     for name, text in parts:
         if not types.exists(canonical_name(name)):
-            _define(name, text, generation, types)
+            _define(name, text, ros_version, types)
     if _known_sum(one, types) in ("known", one.md5sum):
         return
     for name, text in parts:
-        _define(name, text, generation, types)
+        _define(name, text, ros_version, types)
 
 
-def _define(name: str, text: str, generation: Generation, types: TypeStore) -> None:
+def _define(name: str, text: str, ros_version: RosVersion, types: TypeStore) -> None:
     package, part, bare = split_name(name)
     if not package.isidentifier() or not bare.isidentifier() or part != "msg":
         raise BagError(f"the bag names a type '{name}', which is no name of a message")
-    types.add_text(name, generation, text)
+    types.add_text(name, ros_version, text)

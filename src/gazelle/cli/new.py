@@ -21,12 +21,12 @@ def main(argv: list[str]) -> int:
     taken = Workspace.discover().packages.get(options.name)
     if taken is not None and taken.path.resolve() != (parent / options.name).resolve():
         raise ScaffoldError(f"there is a package '{options.name}' already: {taken.path}")
-    generation: Literal[1, 2] = 2 if options.ros2 else 1
-    written = create_package(options.kind, options.name, parent, generation=generation)
+    ros_version: Literal[1, 2] = 2 if options.ros2 else 1
+    written = create_package(options.kind, options.name, parent, ros_version=ros_version)
     for path in written:
         print(os.path.relpath(path))
     print()
-    print("\n".join(_next_steps(options.kind, options.name, generation)))
+    print("\n".join(_next_steps(options.kind, options.name, ros_version)))
     return 0
 
 
@@ -38,9 +38,9 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add("kind", choices=KINDS, help="a robot with its world, a world, or a node")
     add("name", help="of the package")
-    generation = parser.add_mutually_exclusive_group()
-    generation.add_argument("--ros1", action="store_true", help="for ROS 1, catkin (the default)")
-    generation.add_argument("--ros2", action="store_true", help="for ROS 2, ament_python")
+    ros_version = parser.add_mutually_exclusive_group()
+    ros_version.add_argument("--ros1", action="store_true", help="for ROS 1, catkin (the default)")
+    ros_version.add_argument("--ros2", action="store_true", help="for ROS 2, ament_python")
     add("--into", type=Path, metavar="FOLDER", help="where to (default: src here, else here)")
     return parser
 
@@ -51,8 +51,8 @@ def _source_folder(here: Path) -> Path:
     return here / "src" if is_top else here
 
 
-def _next_steps(kind: str, name: str, generation: int) -> list[str]:
-    if generation == 1:
+def _next_steps(kind: str, name: str, ros_version: int) -> list[str]:
+    if ros_version == 1:
         steps = [f"start it:   gazelle roslaunch {name} {name}.launch"]
     else:
         steps = [f"start it:   ros2 launch {name} {name}.launch.py   (in ROS 2)"]

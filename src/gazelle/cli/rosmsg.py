@@ -19,7 +19,7 @@ from gazelle.interfaces import (
     show_message,
     show_service,
 )
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 
 __all__ = ["main"]
 
@@ -173,8 +173,8 @@ def _types(mode: _Mode, package: str = "") -> list[str]:
     found = []
     for full in known_types(mode.part, package):
         owner, part, name = full.split("/")
-        is_ros1 = find_source(owner, part, name, Generation.ROS1) is not None
-        if is_ros1 or find_source(owner, part, name, Generation.ROS2) is None:
+        is_ros1 = find_source(owner, part, name, RosVersion.ROS1) is not None
+        if is_ros1 or find_source(owner, part, name, RosVersion.ROS2) is None:
             found.append(f"{owner}/{name}")
     return found
 
@@ -196,9 +196,9 @@ def _text(mode: _Mode, name: str, *, raw: bool) -> str:
 def _raw_text(mode: _Mode, name: str) -> str:
     package, _, bare = name.partition("/")
     if mode.part == "msg":
-        return definition(f"{package}/msg/{bare}", Generation.ROS1).text
+        return definition(f"{package}/msg/{bare}", RosVersion.ROS1).text
     full = f"{package}/srv/{bare}"
-    parts = (definition(f"{full}{end}", Generation.ROS1) for end in ("_Request", "_Response"))
+    parts = (definition(f"{full}{end}", RosVersion.ROS1) for end in ("_Request", "_Response"))
     return "\n---\n".join(part.text.strip("\n") for part in parts)
 
 

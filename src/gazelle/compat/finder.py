@@ -1,6 +1,6 @@
 """Imports that only exist here: message packages, and packages of the workspace.
 
-Message classes take the form of ROS 1 or ROS 2, see `gazelle.compat.generation`.
+Message classes take the form of ROS 1 or ROS 2, see `gazelle.compat.ros_version`.
 They stand last in ``sys.meta_path``, so whatever is installed wins; before them only Gazelle's own
 drop-in modules are looked at, for the sentences of what they do not have.
 """
@@ -16,10 +16,10 @@ from pathlib import Path
 from types import CodeType, ModuleType
 from typing import Any
 
-from gazelle.compat.generation import message_generation
 from gazelle.compat.import_bases import Loader, MetaPathFinder
 from gazelle.compat.refused import RefusingFinder
 from gazelle.compat.refusing import AttachingFinder
+from gazelle.compat.ros_version import message_ros_version
 
 __all__ = ["install"]
 
@@ -170,7 +170,7 @@ class _PartLoader(Loader):
     def exec_module(self, module: ModuleType) -> None:
         from gazelle.interfaces import known_types
 
-        self._is_ros1 = message_generation() == 1
+        self._is_ros1 = message_ros_version() == 1
         names = known_types(self._part, self._package)
         exported = [name.rsplit("/", 1)[-1] for name in names]
         if self._part == "srv" and self._is_ros1:

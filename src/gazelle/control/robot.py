@@ -108,7 +108,7 @@ class Robot:
     """Everything a controller manager drives.
 
     Attributes:
-        generation: 1 for ros_control, 2 for ros2_control.
+        ros_version: 1 for ros_control, 2 for ros2_control.
         model: description of the robot.
         bank: values; interfaces are named ``joint/interface``, without the model's name.
         components: hardware, in the order of the file.
@@ -120,7 +120,7 @@ class Robot:
         lifecycle: states of the components.
     """
 
-    generation: int
+    ros_version: int
     model: Model
     bank: InterfaceBank
     components: tuple[HardwareComponent, ...]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gazelle.interfaces.codec import convert, from_cdr, from_ros1, to_cdr, to_ros1
-from gazelle.interfaces.definition import Constant, Definition, Field, FieldType, Generation
+from gazelle.interfaces.definition import Constant, Definition, Field, FieldType, RosVersion
 from gazelle.interfaces.message import Message
 from gazelle.interfaces.naming import ros1_name, ros1_type_of, split_name, wire_type
 from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message
@@ -29,10 +29,10 @@ __all__ = [
     "Duration",
     "Field",
     "FieldType",
-    "Generation",
     "Message",
     "Ros1Message",
     "Ros1Service",
+    "RosVersion",
     "ServiceType",
     "TVal",
     "Time",

@@ -15,7 +15,7 @@ from gazelle.interfaces.definition import (
     Array,
     Definition,
     Field,
-    Generation,
+    RosVersion,
     attribute_name,
 )
 from gazelle.interfaces.forms import Types
@@ -77,25 +77,25 @@ class Layout(NamedTuple):
     Attributes:
         name: full type name, for messages of errors.
         cls: the class.
-        generation: whose form the class has.
+        ros_version: whose form the class has.
         slots: in the order of the bytes.
         missing: attributes that the bytes do not hold.
     """
 
     name: str
     cls: type[Any]
-    generation: Generation
+    ros_version: RosVersion
     slots: tuple[Slot, ...]
     missing: tuple[str, ...]
 
 
-def bind(types: Types, name: str, generation: Generation, wire: Wire) -> Layout:
+def bind(types: Types, name: str, ros_version: RosVersion, wire: Wire) -> Layout:
     """Return the layout of a class in the bytes of a wire.
 
     Args:
         types: where definitions and classes come from.
         name: full type name.
-        generation: form of the class.
+        ros_version: form of the class.
         wire: which bytes.
 
     Raises:
@@ -103,13 +103,13 @@ def bind(types: Types, name: str, generation: Generation, wire: Wire) -> Layout:
         InterfaceError: the two definitions give one field two kinds of values.
     """
     # Messages hold the same few others, which writer and reader of each need.
-    key = ("layout", name, generation, wire)
-    return types.remembered(key, lambda: _bound(types, name, generation, wire))
+    key = ("layout", name, ros_version, wire)
+    return types.remembered(key, lambda: _bound(types, name, ros_version, wire))
 
 
-def _bound(types: Types, name: str, generation: Generation, wire: Wire) -> Layout:
-    own = types.definition(name, generation)
-    target = _wire_definition(types, name, generation, wire)
+def _bound(types: Types, name: str, ros_version: RosVersion, wire: Wire) -> Layout:
+    own = types.definition(name, ros_version)
+    target = _wire_definition(types, name, ros_version, wire)
     own_fields = {item.name: item for item in own.fields}
     used, slots = set(), []
     for item in target.fields:
@@ -117,38 +117,38 @@ def _bound(types: Types, name: str, generation: Generation, wire: Wire) -> Layou
         if mine is not None:
             _check_kinds(name, mine, item)
             used.add(mine.name)
-        slots.append(_slot(types, name, item, mine, generation, wire))
+        slots.append(_slot(types, name, item, mine, ros_version, wire))
     missing = tuple(attribute_name(key) for key in own_fields if key not in used)
-    return Layout(name, types.class_of(name, generation), generation, tuple(slots), missing)
+    return Layout(name, types.class_of(name, ros_version), ros_version, tuple(slots), missing)
 
 
-def _wire_definition(types: Types, name: str, generation: Generation, wire: Wire) -> Definition:
+def _wire_definition(types: Types, name: str, ros_version: RosVersion, wire: Wire) -> Definition:
     if wire is Wire.ROS1:
-        return types.definition(name, Generation.ROS1)
-    if generation is Generation.ROS1:
+        return types.definition(name, RosVersion.ROS1)
+    if ros_version is RosVersion.ROS1:
         return wire_definition(types, name)
-    return types.definition(name, Generation.ROS2)
+    return types.definition(name, RosVersion.ROS2)
 
 
 def _slot(
-    types: Types, name: str, item: Field, mine: Field | None, generation: Generation, wire: Wire
+    types: Types, name: str, item: Field, mine: Field | None, ros_version: RosVersion, wire: Wire
 ) -> Slot:
     kind = item.type
     base = _TIME_NAMES.get(kind.base, kind.base)
-    wire_generation = Generation.ROS1 if wire is Wire.ROS1 else Generation.ROS2
-    child_generation = generation if mine is not None else wire_generation
+    wire_version = RosVersion.ROS1 if wire is Wire.ROS1 else RosVersion.ROS2
+    child_version = ros_version if mine is not None else wire_version
     child = None
     if base in _TIME_NAMES.values():
-        child = _time_layout(types, base, child_generation, wire)
+        child = _time_layout(types, base, child_version, wire)
     elif "/" in base:
-        child = bind(types, base, child_generation, wire)
-    byte_like = mine is not None and generation is Generation.ROS1
+        child = bind(types, base, child_version, wire)
+    byte_like = mine is not None and ros_version is RosVersion.ROS1
     letter = FORMATS.get(base if mine is None else mine.type.base, "")
     if byte_like and mine is not None and mine.type.base == "byte":
         letter = "b"  # ROS 1's byte is an int8
     return Slot(
         attribute=attribute_name(mine.name) if mine is not None else None,
-        default=None if mine is not None else _wire_default(types, name, item, wire_generation),
+        default=None if mine is not None else _wire_default(types, name, item, wire_version),
         letter=letter,
         base=base,
         array=kind.array,
@@ -159,31 +159,31 @@ def _slot(
     )
 
 
-def _wire_default(types: Types, name: str, item: Field, generation: Generation) -> Any:
+def _wire_default(types: Types, name: str, item: Field, ros_version: RosVersion) -> Any:
     """Return the default of a field that the class lacks, from the other form's class."""
-    return getattr(types.class_of(name, generation)(), attribute_name(item.name))
+    return getattr(types.class_of(name, ros_version)(), attribute_name(item.name))
 
 
-def _time_layout(types: Types, base: str, generation: Generation, wire: Wire) -> Layout:
+def _time_layout(types: Types, base: str, ros_version: RosVersion, wire: Wire) -> Layout:
     is_time = base.endswith("Time")
     letters = _TIME_LETTERS[wire, is_time]
-    if generation is Generation.ROS1:
+    if ros_version is RosVersion.ROS1:
         cls: type[Any] = Time if is_time else Duration
         names = ("secs", "nsecs")
     else:
-        cls, names = types.class_of(base, generation), ("sec", "nanosec")
+        cls, names = types.class_of(base, ros_version), ("sec", "nanosec")
     slots = tuple(
         Slot(name, None, letter, "int32", Array.ONE, 0, 0, None, False)
         for name, letter in zip(names, letters, strict=True)
     )
-    return Layout(base, cls, generation, slots, ())
+    return Layout(base, cls, ros_version, slots, ())
 
 
 def _check_kinds(name: str, mine: Field, theirs: Field) -> None:
     if mine.type.array is not theirs.type.array or _kind(mine) != _kind(theirs):
         raise InterfaceError(
-            f"'{name}': field '{mine.name}' is {mine.type.text(Generation.ROS1)} in one ROS and "
-            f"{theirs.type.text(Generation.ROS1)} in the other; they cannot be converted"
+            f"'{name}': field '{mine.name}' is {mine.type.text(RosVersion.ROS1)} in one ROS and "
+            f"{theirs.type.text(RosVersion.ROS1)} in the other; they cannot be converted"
         )
 
 

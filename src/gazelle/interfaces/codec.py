@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError, InterfaceError
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 from gazelle.interfaces.forms import Form
 
 __all__ = ["convert", "from_cdr", "from_ros1", "to_cdr", "to_ros1"]
@@ -138,9 +138,9 @@ def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
     from gazelle.interfaces.translate import CONVERTED
     from gazelle.interfaces.writer import compile_writer
 
-    if is_cdr and cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
+    if is_cdr and cls.GENERATION is RosVersion.ROS1 and cls.TYPE_NAME in CONVERTED:
         conversion = CONVERTED[cls.TYPE_NAME]
-        travels = cls._types.class_of(conversion.wire_name, Generation.ROS2)
+        travels = cls._types.class_of(conversion.wire_name, RosVersion.ROS2)
         return lambda msg: to_cdr(conversion.to_wire(msg, travels))
     wire = Wire.CDR if is_cdr else Wire.ROS1
     return compile_writer(bind(cls._types, cls.TYPE_NAME, cls.GENERATION, wire), wire)
@@ -152,10 +152,10 @@ def _compiled_reader(cls: type[Any], *, is_cdr: bool = True, endian: str = "<") 
     from gazelle.interfaces.reader import compile_reader
     from gazelle.interfaces.translate import CONVERTED
 
-    if is_cdr and cls.GENERATION is Generation.ROS1 and cls.TYPE_NAME in CONVERTED:
+    if is_cdr and cls.GENERATION is RosVersion.ROS1 and cls.TYPE_NAME in CONVERTED:
         conversion = CONVERTED[cls.TYPE_NAME]
-        travels = cls._types.class_of(conversion.wire_name, Generation.ROS2)
-        own = cls._types.class_of(cls.TYPE_NAME, Generation.ROS1)
+        travels = cls._types.class_of(conversion.wire_name, RosVersion.ROS2)
+        own = cls._types.class_of(cls.TYPE_NAME, RosVersion.ROS1)
         return lambda data: conversion.from_wire(from_cdr(travels, data), own)
     wire = Wire.CDR if is_cdr else Wire.ROS1
     return compile_reader(bind(cls._types, cls.TYPE_NAME, cls.GENERATION, wire), wire, endian)

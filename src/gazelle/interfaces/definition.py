@@ -14,7 +14,7 @@ __all__ = [
     "Definition",
     "Field",
     "FieldType",
-    "Generation",
+    "RosVersion",
     "Scalar",
     "attribute_name",
 ]
@@ -22,7 +22,7 @@ __all__ = [
 Scalar = bool | int | float | str
 
 
-class Generation(enum.IntEnum):
+class RosVersion(enum.IntEnum):
     """Which ROS a definition was written for."""
 
     ROS1 = 1
@@ -120,13 +120,13 @@ class FieldType(NamedTuple):
             return f"{base}[{self.size}]"
         return f"sequence<{base}, {self.size}>" if self.size else f"sequence<{base}>"
 
-    def text(self, generation: Generation) -> str:
+    def text(self, ros_version: RosVersion) -> str:
         """Return the type as that generation writes it."""
         base = self.base
         if self.is_message:
             package, _, name = base.split("/")
             base = f"{package}/{name}"
-        if generation is Generation.ROS1:
+        if ros_version is RosVersion.ROS1:
             return base + {Array.ONE: "", Array.FIXED: f"[{self.size}]"}.get(self.array, "[]")
         bound = f"<={self.string_bound}" if self.string_bound else ""
         if self.array is Array.ONE:
@@ -158,15 +158,15 @@ class Definition(NamedTuple):
 
     Attributes:
         name: full name, such as ``std_msgs/msg/Header`` or ``std_srvs/srv/Empty_Request``.
-        generation: whose rules the types follow.
+        ros_version: whose rules the types follow.
         constants: in the order written.
         fields: in the order written.
         text: the definition's text; of a translated definition, a text that would define it.
-        native: whether the text was written for `generation`, not translated.
+        native: whether the text was written for `ros_version`, not translated.
     """
 
     name: str
-    generation: Generation
+    ros_version: RosVersion
     constants: tuple[Constant, ...]
     fields: tuple[Field, ...]
     text: str

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from gazelle.interfaces.arrays import is_array, is_array_item
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 from gazelle.interfaces.forms import Form
 from gazelle.interfaces.ros1_time import Time, TVal
 
@@ -53,7 +53,7 @@ class _Printer:
             return _quoted(value) if value else "''"
         if isinstance(value, TVal):
             return self._time(value, indent)
-        if isinstance(value, Form) and value.GENERATION is Generation.ROS1:
+        if isinstance(value, Form) and value.GENERATION is RosVersion.ROS1:
             return self._message(value, indent)
         if is_array(value):
             return self._sequence(value.tolist(), indent)

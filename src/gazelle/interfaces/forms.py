@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from typing import Any, ClassVar, Protocol, TypeVar
 
-from gazelle.interfaces.definition import Definition, Field, Generation
+from gazelle.interfaces.definition import Definition, Field, RosVersion
 from gazelle.interfaces.library import Source
 
 __all__ = ["Form", "Types"]
@@ -16,21 +16,21 @@ _T = TypeVar("_T")
 class Types(Protocol):
     """Where definitions and classes come from; `gazelle.interfaces.store.TypeStore` is one."""
 
-    def definition(self, name: str, generation: Generation) -> Definition:
+    def definition(self, name: str, ros_version: RosVersion) -> Definition:
         """Return a message's definition by the rules of one generation."""
         ...
 
     def find_source(
-        self, package: str, part: str, name: str, generation: Generation
+        self, package: str, part: str, name: str, ros_version: RosVersion
     ) -> Source | None:
         """Return the text of a definition of one generation, None when there is none."""
         ...
 
-    def class_of(self, full: str, generation: Generation) -> type[Form]:
+    def class_of(self, full: str, ros_version: RosVersion) -> type[Form]:
         """Return the class of a message in the form of one generation."""
         ...
 
-    def kept_text(self, name: str, generation: Generation) -> str:
+    def kept_text(self, name: str, ros_version: RosVersion) -> str:
         """Return the text that came in with a type, empty when none did."""
         ...
 
@@ -38,7 +38,7 @@ class Types(Protocol):
         """Return what `make` gives, made once for as long as definitions stay what they are."""
         ...
 
-    def rebuilt(self, full: str, generation: Generation, values: list[Any]) -> Form:
+    def rebuilt(self, full: str, ros_version: RosVersion, values: list[Any]) -> Form:
         """Return a message with these values of its fields, as `copy` and `pickle` ask for it."""
         ...
 
@@ -57,7 +57,7 @@ class Form:
     TYPE_NAME: ClassVar[str] = ""
     FIELDS: ClassVar[tuple[Field, ...]] = ()
     DEFINITION: ClassVar[Definition]
-    GENERATION: ClassVar[Generation]
+    GENERATION: ClassVar[RosVersion]
     _names: ClassVar[tuple[str, ...]] = ()
     _types: ClassVar[Types]
     _cdr_writer: ClassVar[Any] = None

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 from gazelle.errors import GazelleError
-from gazelle.interfaces.definition import Definition, Generation
+from gazelle.interfaces.definition import Definition, RosVersion
 from gazelle.interfaces.forms import Types
 from gazelle.interfaces.installed import installed_texts
 from gazelle.interfaces.naming import canonical_name, ros1_name, split_name
@@ -33,12 +33,12 @@ def ros1_definition(types: Types, name: str) -> str:
         NotFoundError: nothing defines it.
     """
     full = canonical_name(name)
-    kept = types.kept_text(full, Generation.ROS1)
+    kept = types.kept_text(full, RosVersion.ROS1)
     if kept:
         return kept
-    text = _own_text(types, full, Generation.ROS1) + "\n"
+    text = _own_text(types, full, RosVersion.ROS1) + "\n"
     for item in _contained(types, full, []):
-        text += f"{_RULE}MSG: {ros1_name(item)}\n{_own_text(types, item, Generation.ROS1)}\n"
+        text += f"{_RULE}MSG: {ros1_name(item)}\n{_own_text(types, item, RosVersion.ROS1)}\n"
     return text[:-1]
 
 
@@ -49,7 +49,7 @@ def ros2_definition(types: Types, name: str) -> str:
         NotFoundError: nothing defines it.
     """
     full = canonical_name(name)
-    return types.kept_text(full, Generation.ROS2) or _ros2_text(types, full, set())
+    return types.kept_text(full, RosVersion.ROS2) or _ros2_text(types, full, set())
 
 
 class KeptTexts:
@@ -62,47 +62,47 @@ class KeptTexts:
             types: says what types mean here.
         """
         self._types = types
-        self._kept: dict[tuple[str, Generation], tuple[str, str]] = {}
+        self._kept: dict[tuple[str, RosVersion], tuple[str, str]] = {}
 
-    def keep(self, name: str, generation: Generation, text: str) -> bool:
+    def keep(self, name: str, ros_version: RosVersion, text: str) -> bool:
         """Keep a text when it means what is known here; return whether it does.
 
         Args:
             name: ``pkg/Name`` or ``pkg/msg/Name``.
-            generation: whose rules it follows.
+            ros_version: whose rules it follows.
             text: with the texts of all that the message contains.
         """
         full = canonical_name(name)
-        known = self._kept.get((full, generation))
+        known = self._kept.get((full, ros_version))
         if known is not None and known[1] == text:
             return True
         try:
-            own = self._types.definition(full, generation)
+            own = self._types.definition(full, ros_version)
         except GazelleError:
             return False
         if not text.strip() or not _means(own, _PART.split(text, maxsplit=1)[0]):
             return False
-        self._kept[full, generation] = (_meaning(self._types, full, generation), text)
+        self._kept[full, ros_version] = (_meaning(self._types, full, ros_version), text)
         return True
 
-    def find(self, name: str, generation: Generation) -> str:
+    def find(self, name: str, ros_version: RosVersion) -> str:
         """Return the text of a type, empty when none came in or the type has changed since."""
         full = canonical_name(name)
-        found = self._kept.get((full, generation))
+        found = self._kept.get((full, ros_version))
         if found is None:
             return ""
         meaning, text = found
-        return text if meaning == _meaning(self._types, full, generation) else ""
+        return text if meaning == _meaning(self._types, full, ros_version) else ""
 
 
-def _meaning(types: Types, name: str, generation: Generation) -> str:
-    return md5sum(types, name) if generation is Generation.ROS1 else type_hash(types, name)
+def _meaning(types: Types, name: str, ros_version: RosVersion) -> str:
+    return md5sum(types, name) if ros_version is RosVersion.ROS1 else type_hash(types, name)
 
 
 def _ros2_text(types: Types, name: str, seen: set[str]) -> str:
     """A type's text and, by name, those it contains: depth first, each once (rosbag2_cpp)."""
-    text = _own_text(types, name, Generation.ROS2)
-    fields = types.definition(name, Generation.ROS2).fields
+    text = _own_text(types, name, RosVersion.ROS2)
+    fields = types.definition(name, RosVersion.ROS2).fields
     for base in sorted({item.type.base for item in fields if item.type.is_message}):
         if base not in seen:
             seen.add(base)
@@ -110,19 +110,19 @@ def _ros2_text(types: Types, name: str, seen: set[str]) -> str:
     return text
 
 
-def _own_text(types: Types, name: str, generation: Generation) -> str:
-    key = ("text", name, generation)
-    return types.remembered(key, lambda: _text(types, name, generation))
+def _own_text(types: Types, name: str, ros_version: RosVersion) -> str:
+    key = ("text", name, ros_version)
+    return types.remembered(key, lambda: _text(types, name, ros_version))
 
 
-def _text(types: Types, name: str, generation: Generation) -> str:
-    own = types.definition(name, generation)
+def _text(types: Types, name: str, ros_version: RosVersion) -> str:
+    own = types.definition(name, ros_version)
     package, part, bare = split_name(name)
-    source = types.find_source(package, part, bare, generation)
+    source = types.find_source(package, part, bare, ros_version)
     if source is not None and source.is_own:
         return source.text
     if part == "msg":
-        for text in installed_texts(package, bare, generation):
+        for text in installed_texts(package, bare, ros_version):
             if _means(own, text):
                 return text
     return own.text + "\n" if own.text else ""
@@ -131,13 +131,13 @@ def _text(types: Types, name: str, generation: Generation) -> str:
 def _means(own: Definition, text: str) -> bool:
     """Whether a text defines the same as a definition: what sums and hashes are made of."""
     try:
-        other = parse_message(text, own.name, own.generation, diagnostics=None, file="")
+        other = parse_message(text, own.name, own.ros_version, diagnostics=None, file="")
     except (GazelleError, ValueError):
         return False
     kinds = [(item.name, item.type) for item in own.fields]
     if [(item.name, item.type) for item in other.fields] != kinds:
         return False
-    if own.generation is Generation.ROS2:
+    if own.ros_version is RosVersion.ROS2:
         return True
     constants = [(item.type, item.name, item.text) for item in own.constants]
     return [(item.type, item.name, item.text) for item in other.constants] == constants
@@ -145,7 +145,7 @@ def _means(own: Definition, text: str) -> bool:
 
 def _contained(types: Types, name: str, found: list[str]) -> list[str]:
     """All messages inside, each once, in the order of genmsg: depth first."""
-    for item in types.definition(name, Generation.ROS1).fields:
+    for item in types.definition(name, RosVersion.ROS1).fields:
         base = item.type.base
         if item.type.is_message and base not in found:
             found.append(base)

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 
 __all__ = ["installed_texts"]
 
@@ -27,13 +27,13 @@ _LITERAL = re.compile(r'^  _full_text = (""".*?(?<!\\)""")$', re.MULTILINE | re.
 _RULE = re.compile(r"\n={80}\nMSG: \S+\n")
 
 
-def installed_texts(package: str, name: str, generation: Generation) -> Iterator[str]:
+def installed_texts(package: str, name: str, ros_version: RosVersion) -> Iterator[str]:
     """Yield the texts that this machine has for a message, nearest first; none is checked.
 
     Args:
         package: such as ``std_msgs``.
         name: such as ``Header``.
-        generation: ROS 1's Python modules are looked at for ROS 1 only.
+        ros_version: ROS 1's Python modules are looked at for ROS 1 only.
     """
     values = tuple(os.environ.get(variable, "") for variable in _VARIABLES)
     for folder in _share_folders(values, _SYSTEM, _DISTRIBUTIONS):
@@ -44,7 +44,7 @@ def installed_texts(package: str, name: str, generation: Generation) -> Iterator
             text = _read(place / "msg" / f"{name}.msg")
             if text is not None:
                 yield text
-    if generation is Generation.ROS1:
+    if ros_version is RosVersion.ROS1:
         for folder in _module_folders(values, _SYSTEM, _DISTRIBUTIONS):
             text = _read(folder / package / "msg" / f"_{name}.py")
             if text is not None:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from gazelle.documents.files import is_file
 from gazelle.errors import NotFoundError, UserFileError
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 
 __all__ = ["Library", "Source"]
 
@@ -29,13 +29,13 @@ class Source(NamedTuple):
     Attributes:
         text: the whole text, all parts.
         file: path of the file, or the name in angle brackets for built-in data.
-        generation: which ROS it was written for.
+        ros_version: which ROS it was written for.
         is_own: whether a user or a bag wrote it, not Gazelle.
     """
 
     text: str
     file: str
-    generation: Generation
+    ros_version: RosVersion
     is_own: bool = False
 
 
@@ -53,8 +53,8 @@ class Library:
         """
         self._below = below
         self._lock = threading.Lock()
-        self._packages: dict[str, tuple[Path, Generation | None]] = {}
-        self._texts: dict[tuple[str, str, Generation], str] = {}
+        self._packages: dict[str, tuple[Path, RosVersion | None]] = {}
+        self._texts: dict[tuple[str, str, RosVersion], str] = {}
         self._spoken_of: set[str] = set()  # packages that texts are of
         self._changes = 0
         self._listed: tuple[int, dict[tuple[Path, str], dict[str, Path]]] = (0, {})
@@ -65,14 +65,14 @@ class Library:
         return self._changes if self._below is None else self._changes + self._below.revision
 
     def add_package(
-        self, name: str, path: Path | str, generation: Generation | None = None
+        self, name: str, path: Path | str, ros_version: RosVersion | None = None
     ) -> None:
         """Let a user's own package define types; its msg/, srv/ and action/ are read when needed.
 
         Args:
             name: the package's name.
             path: its folder.
-            generation: which ROS the files are written for; read from ``package.xml`` when None.
+            ros_version: which ROS the files are written for; read from ``package.xml`` when None.
 
         Raises:
             NotFoundError: there is no such folder.
@@ -82,7 +82,7 @@ class Library:
             hint = f"package '{name}' is not added"
             raise NotFoundError("package folder", str(folder), hint=hint)
         with self._lock:
-            entry = (folder, generation or _package_generation(folder))
+            entry = (folder, ros_version or _package_ros_version(folder))
             if self._packages.get(name) != entry:
                 self._packages[name] = entry
                 self._changes += 1
@@ -96,18 +96,18 @@ class Library:
                 found.append(path.name)
         return tuple(found)
 
-    def add_text(self, package: str, name: str, generation: Generation, text: str) -> None:
+    def add_text(self, package: str, name: str, ros_version: RosVersion, text: str) -> None:
         """Let a text define one message, before the package that it is of.
 
         Args:
             package: such as ``std_msgs``.
             name: such as ``Header``.
-            generation: which ROS it is written for.
+            ros_version: which ROS it is written for.
             text: the definition, without those that it contains.
         """
         with self._lock:
-            if self._texts.get((package, name, generation)) != text:
-                self._texts[package, name, generation] = text
+            if self._texts.get((package, name, ros_version)) != text:
+                self._texts[package, name, ros_version] = text
                 self._spoken_of.add(package)
                 self._changes += 1
 
@@ -124,24 +124,24 @@ class Library:
         """Return whether what was added here, not below, says what a message is."""
         if package in self._packages:
             return True
-        return any((package, name, one) in self._texts for one in Generation)
+        return any((package, name, one) in self._texts for one in RosVersion)
 
     def adds_to(self, package: str) -> bool:
         """Return whether something was added here, not below, under a package's name."""
         return package in self._packages or package in self._spoken_of
 
-    def texts(self) -> tuple[tuple[str, str, Generation, str], ...]:
+    def texts(self) -> tuple[tuple[str, str, RosVersion, str], ...]:
         """Return what `add_text` took."""
         with self._lock:
             return tuple((*key, text) for key, text in self._texts.items())
 
-    def packages(self) -> tuple[tuple[str, Path, Generation | None], ...]:
+    def packages(self) -> tuple[tuple[str, Path, RosVersion | None], ...]:
         """Return what `add_package` took."""
         with self._lock:
             return tuple((name, *entry) for name, entry in self._packages.items())
 
     def find_source(
-        self, package: str, part: str, name: str, generation: Generation
+        self, package: str, part: str, name: str, ros_version: RosVersion
     ) -> Source | None:
         """Return the text of a definition of one generation, None when there is none.
 
@@ -151,48 +151,48 @@ class Library:
             package: such as ``std_msgs``.
             part: ``msg``, ``srv`` or ``action``.
             name: such as ``Header``.
-            generation: which ROS it must be written for.
+            ros_version: which ROS it must be written for.
 
         Raises:
             UserFileError: the file is there and cannot be read.
         """
-        if part == "msg" and (text := self._texts.get((package, name, generation))) is not None:
-            return Source(text, f"{package}/msg/{name}.msg", generation, is_own=True)
+        if part == "msg" and (text := self._texts.get((package, name, ros_version))) is not None:
+            return Source(text, f"{package}/msg/{name}.msg", ros_version, is_own=True)
         if (entry := self._packages.get(package)) is not None:
             folder, written_for = entry
             file = folder / part / f"{name}.{part}"
             if not is_file(file):
                 file = self._files(folder, part).get(name, file)
-            if written_for in (None, generation) and is_file(file):
+            if written_for in (None, ros_version) and is_file(file):
                 text = _read(file)
-                if written_for is generation or _fits(text, generation):
-                    return Source(text, str(file), generation, is_own=True)
+                if written_for is ros_version or _fits(text, ros_version):
+                    return Source(text, str(file), ros_version, is_own=True)
         if self._below is not None:
-            return self._below.find_source(package, part, name, generation)
-        found = _blocks(package, generation).get(f"{part}/{name}")
-        return None if found is None else Source(found, f"<{package}/{part}/{name}>", generation)
+            return self._below.find_source(package, part, name, ros_version)
+        found = _blocks(package, ros_version).get(f"{part}/{name}")
+        return None if found is None else Source(found, f"<{package}/{part}/{name}>", ros_version)
 
     def block_names(
-        self, generation: Generation, package: str = ""
+        self, ros_version: RosVersion, package: str = ""
     ) -> Iterator[tuple[str, str, str]]:
         """Yield package, part and name of every definition of one generation.
 
         Args:
-            generation: which ROS they are written for.
+            ros_version: which ROS they are written for.
             package: whose, all packages' when empty; reading them all takes a program's start
                 longer than anything else.
         """
         if self._below is None:
-            yield from _shipped_names(generation, package)
+            yield from _shipped_names(ros_version, package)
         else:
-            yield from self._below.block_names(generation, package)
+            yield from self._below.block_names(ros_version, package)
         for owner, path, written_for in sorted(self.packages()):
-            if written_for in (None, generation) and package in ("", owner):
+            if written_for in (None, ros_version) and package in ("", owner):
                 for part in _PARTS:
                     for name in self._files(path, part):
                         yield owner, part, name
         for owner, name, written_for, _ in self.texts():
-            if written_for is generation and package in ("", owner):
+            if written_for is ros_version and package in ("", owner):
                 yield owner, "msg", name
 
     def _files(self, folder: Path, part: str) -> dict[str, Path]:
@@ -210,11 +210,11 @@ class Library:
         return listed[folder, part]
 
 
-def _shipped_names(generation: Generation, package: str) -> Iterator[tuple[str, str, str]]:
-    folder = _DATA / f"ros{generation.value}"
+def _shipped_names(ros_version: RosVersion, package: str) -> Iterator[tuple[str, str, str]]:
+    folder = _DATA / f"ros{ros_version.value}"
     owners = [package] if package else [file.stem for file in sorted(folder.glob("*.txt"))]
     for owner in owners:
-        for key in _blocks(owner, generation):
+        for key in _blocks(owner, ros_version):
             part, name = key.split("/")
             yield owner, part, name
 
@@ -233,10 +233,10 @@ def _read(file: Path) -> str:
 
 
 @cache
-def _blocks(package: str, generation: Generation) -> dict[str, str]:
+def _blocks(package: str, ros_version: RosVersion) -> dict[str, str]:
     if not package.isidentifier():
         return {}
-    file = _DATA / f"ros{generation.value}" / f"{package}.txt"
+    file = _DATA / f"ros{ros_version.value}" / f"{package}.txt"
     if not is_file(file):
         return {}
     blocks: dict[str, str] = {}
@@ -246,23 +246,23 @@ def _blocks(package: str, generation: Generation) -> dict[str, str]:
     return blocks
 
 
-def _package_generation(folder: Path) -> Generation | None:
+def _package_ros_version(folder: Path) -> RosVersion | None:
     """Read from the build tool that ``package.xml`` names; REP-140 and REP-149."""
     manifest = folder / "package.xml"
     if not manifest.is_file():
-        return Generation.ROS1 if (folder / "manifest.xml").is_file() else None
+        return RosVersion.ROS1 if (folder / "manifest.xml").is_file() else None
     text = manifest.read_text(encoding="utf-8", errors="replace")
     ros1 = "catkin" in text or "message_generation" in text
     ros2 = "ament" in text or "rosidl" in text
     if ros1 == ros2:
         return None
-    return Generation.ROS1 if ros1 else Generation.ROS2
+    return RosVersion.ROS1 if ros1 else RosVersion.ROS2
 
 
-def _fits(text: str, generation: Generation) -> bool:
+def _fits(text: str, ros_version: RosVersion) -> bool:
     """Guess from what only one generation can write; a neutral text fits both."""
     lines = [line.partition("#")[0].split() for line in text.splitlines()]
-    if generation is Generation.ROS2:
+    if ros_version is RosVersion.ROS2:
         return not any(words and words[0].partition("[")[0] in _ROS1_WORDS for words in lines)
     return not any(_is_ros2_line(words) for words in lines)
 

@@ -6,10 +6,10 @@ import re
 from typing import TYPE_CHECKING
 
 from gazelle.errors import NotFoundError
-from gazelle.interfaces.definition import Definition, Field, FieldType, Generation
+from gazelle.interfaces.definition import Definition, Field, FieldType, RosVersion
 from gazelle.interfaces.library import Library, Source
 from gazelle.interfaces.naming import split_name
-from gazelle.interfaces.translate import as_generation, definition_text
+from gazelle.interfaces.translate import as_ros_version, definition_text
 
 if TYPE_CHECKING:
     from gazelle.diagnostics import Diagnostics
@@ -22,7 +22,7 @@ _UUID = FieldType("unique_identifier_msgs/msg/UUID")
 _TIME = FieldType("builtin_interfaces/msg/Time")
 
 
-def read_definition(library: Library, name: str, generation: Generation) -> Definition:
+def read_definition(library: Library, name: str, ros_version: RosVersion) -> Definition:
     """Return a message's definition by the rules of one generation.
 
     One written for that generation comes first; else the other generation's is translated.
@@ -30,26 +30,26 @@ def read_definition(library: Library, name: str, generation: Generation) -> Defi
     Args:
         library: has the texts.
         name: full name; parts of services and actions are ``pkg/srv/Name_Request`` and so on.
-        generation: whose rules.
+        ros_version: whose rules.
 
     Raises:
         NotFoundError: nothing defines it.
         UserFileError: its text has errors.
     """
     package, part, bare = split_name(name)
-    other = Generation.ROS1 if generation is Generation.ROS2 else Generation.ROS2
-    for candidate in (generation, other):
+    other = RosVersion.ROS1 if ros_version is RosVersion.ROS2 else RosVersion.ROS2
+    for candidate in (ros_version, other):
         where = _where(library, package, part, bare, candidate)
         if where is not None:
             found = _read(library, f"{package}/{part}/{bare}", where, candidate)
-            return as_generation(found, generation)
+            return as_ros_version(found, ros_version)
     raise _not_found(library, name, part, bare)
 
 
 def exists(library: Library, name: str) -> bool:
     """Return whether something defines this message, without reading its text."""
     package, part, bare = split_name(name)
-    return any(_where(library, package, part, bare, one) is not None for one in Generation)
+    return any(_where(library, package, part, bare, one) is not None for one in RosVersion)
 
 
 def known_types(library: Library, part: str = "msg", package: str = "") -> tuple[str, ...]:
@@ -58,49 +58,49 @@ def known_types(library: Library, part: str = "msg", package: str = "") -> tuple
     Messages that ROS 1 makes from actions (``FibonacciActionGoal`` …) are in the list too.
     """
     names = set()
-    for generation in Generation:
-        for owner, its_part, bare in library.block_names(generation, package):
+    for ros_version in RosVersion:
+        for owner, its_part, bare in library.block_names(ros_version, package):
             if its_part == part:
                 names.add(f"{owner}/{part}/{bare}")
-            if its_part == "action" and part == "msg" and generation is Generation.ROS1:
+            if its_part == "action" and part == "msg" and ros_version is RosVersion.ROS1:
                 names |= {f"{owner}/msg/{bare}{suffix}" for suffix in _DERIVED}
     return tuple(sorted(names))
 
 
 def _where(
-    library: Library, package: str, part: str, bare: str, generation: Generation
+    library: Library, package: str, part: str, bare: str, ros_version: RosVersion
 ) -> tuple[str, str] | None:
     """Return part and name of the file that defines a message, None when there is none."""
     if part == "msg":
-        if library.find_source(package, "msg", bare, generation):
+        if library.find_source(package, "msg", bare, ros_version):
             return "msg", bare
-        if generation is Generation.ROS1:
+        if ros_version is RosVersion.ROS1:
             for suffix in _DERIVED:
                 base = bare.removesuffix(suffix)
-                if base != bare and library.find_source(package, "action", base, generation):
+                if base != bare and library.find_source(package, "action", base, ros_version):
                     return "action", base
         return None
     pattern = _SRV_NAME if part == "srv" else _ACTION_NAME
     match = re.fullmatch(pattern, bare)
-    if match and library.find_source(package, part, match[1], generation):
+    if match and library.find_source(package, part, match[1], ros_version):
         return part, match[1]
     return None
 
 
 def _read(
-    library: Library, name: str, where: tuple[str, str], generation: Generation
+    library: Library, name: str, where: tuple[str, str], ros_version: RosVersion
 ) -> Definition:
     from gazelle.interfaces.parser import parse_message, split_parts
 
     package, part, bare = split_name(name)
     file_part, file_name = where
-    source = library.find_source(package, file_part, file_name, generation)
+    source = library.find_source(package, file_part, file_name, ros_version)
     if source is None:
         raise NotFoundError("type", name)
     diagnostics = _collector(source)
     if file_part == "msg":
         found = parse_message(
-            source.text, name, generation, diagnostics=diagnostics, file=source.file
+            source.text, name, ros_version, diagnostics=diagnostics, file=source.file
         )
         _check_references(library, found, source.file, 1, diagnostics)
         _raise_findings(diagnostics)
@@ -111,7 +111,7 @@ def _read(
     for suffix, (text, line) in zip(suffixes, pieces or (), strict=False):
         piece = f"{package}/{file_part}/{file_name}{suffix}"
         found_parts[suffix] = parse_message(
-            text, piece, generation, diagnostics=diagnostics, file=source.file, first_line=line
+            text, piece, ros_version, diagnostics=diagnostics, file=source.file, first_line=line
         )
         _check_references(library, found_parts[suffix], source.file, line, diagnostics)
     _raise_findings(diagnostics)
@@ -121,7 +121,7 @@ def _read(
     if suffix in found_parts:
         return found_parts[suffix]
     fields = _implied_fields(package, part, file_name)[suffix]
-    return Definition(name, generation, (), fields, definition_text((), fields, generation))
+    return Definition(name, ros_version, (), fields, definition_text((), fields, ros_version))
 
 
 def _collector(source: Source) -> Diagnostics | None:
@@ -145,7 +145,7 @@ def _ros1_action_message(
     full = f"{package}/msg/{name}{suffix}"
     if f"_{suffix}" in parts:
         part = parts[f"_{suffix}"]
-        return Definition(full, Generation.ROS1, part.constants, part.fields, part.text)
+        return Definition(full, RosVersion.ROS1, part.constants, part.fields, part.text)
     own = f"{package}/msg/{name}"
     header = Field("header", FieldType("std_msgs/msg/Header"))
     status = Field("status", FieldType("actionlib_msgs/msg/GoalStatus"))
@@ -164,10 +164,10 @@ def _ros1_action_message(
         ),
     }[suffix]
     text = "\n".join(
-        f"{item.type.text(Generation.ROS1).removeprefix(package + '/')} {item.name}"
+        f"{item.type.text(RosVersion.ROS1).removeprefix(package + '/')} {item.name}"
         for item in fields
     ).replace("std_msgs/Header header", "Header header")
-    return Definition(full, Generation.ROS1, (), fields, text)
+    return Definition(full, RosVersion.ROS1, (), fields, text)
 
 
 def _implied_fields(package: str, part: str, name: str) -> dict[str, tuple[Field, ...]]:

@@ -16,7 +16,7 @@ from gazelle.interfaces.definition import (
     Array,
     Definition,
     Field,
-    Generation,
+    RosVersion,
     attribute_name,
 )
 from gazelle.interfaces.forms import Form, Types
@@ -31,7 +31,7 @@ class Message(Form):
     """Base of all message classes in the form of ROS 2."""
 
     __slots__ = ()
-    GENERATION: ClassVar[Generation] = Generation.ROS2
+    GENERATION: ClassVar[RosVersion] = RosVersion.ROS2
 
     __hash__ = None  # type: ignore[assignment]
 

@@ -7,9 +7,9 @@ ROS 2 definitions are canonical on the wire. Fields are matched by name; ``D`` i
 from __future__ import annotations
 
 from gazelle.errors import NotFoundError
-from gazelle.interfaces.definition import Definition, Field, Generation
+from gazelle.interfaces.definition import Definition, Field, RosVersion
 from gazelle.interfaces.forms import Types
-from gazelle.interfaces.translate import as_generation
+from gazelle.interfaces.translate import as_ros_version
 
 __all__ = [
     "canonical_name",
@@ -103,8 +103,8 @@ def ros1_type_of(wire: str) -> str:
 def wire_definition(types: Types, name: str) -> Definition:
     """Return the definition that lays out a ROS 1 type's CDR, by ROS 2's rules."""
     if name.split("/", 1)[0] in _OWN_LAYOUT:
-        return as_generation(types.definition(name, Generation.ROS1), Generation.ROS2)
-    return types.definition(name, Generation.ROS2)
+        return as_ros_version(types.definition(name, RosVersion.ROS1), RosVersion.ROS2)
+    return types.definition(name, RosVersion.ROS2)
 
 
 def wire_field(wire: Definition, item: Field, own: dict[str, Field]) -> Field | None:

@@ -13,7 +13,7 @@ from gazelle.interfaces.definition import (
     Definition,
     Field,
     FieldType,
-    Generation,
+    RosVersion,
 )
 from gazelle.interfaces.values import constant_value, default_value
 
@@ -33,10 +33,10 @@ _TIMES = {"time": "builtin_interfaces/msg/Time", "duration": "builtin_interfaces
 
 class _Reading:
     def __init__(
-        self, name: str, generation: Generation, file: str, diagnostics: Diagnostics | None
+        self, name: str, ros_version: RosVersion, file: str, diagnostics: Diagnostics | None
     ) -> None:
         self.name = name
-        self.generation = generation
+        self.ros_version = ros_version
         self.file = file
         self.diagnostics = diagnostics
         self.constants: list[Constant] = []
@@ -81,7 +81,7 @@ def split_parts(
             parts[-1].append(line)
     if len(parts) != count:
         kind = "a service" if count == 2 else "an action"
-        reading = _Reading("", Generation.ROS2, file, diagnostics)
+        reading = _Reading("", RosVersion.ROS2, file, diagnostics)
         reading.number = starts[-1] - 1 if len(parts) > 1 else 1
         reading.report(
             "interfaces.missing-separator",
@@ -94,7 +94,7 @@ def split_parts(
 def parse_message(
     text: str,
     name: str,
-    generation: Generation,
+    ros_version: RosVersion,
     *,
     diagnostics: Diagnostics | None,
     file: str = "",
@@ -105,7 +105,7 @@ def parse_message(
     Args:
         text: the definition.
         name: full name, such as ``my_robot/msg/Battery``; bare type names are of its package.
-        generation: ROS 1 knows ``time``, ``duration``, bare ``Header`` and no defaults.
+        ros_version: ROS 1 knows ``time``, ``duration``, bare ``Header`` and no defaults.
         diagnostics: takes all findings; lines with errors are left out of the result. None for
             texts that have none, such as Gazelle's own data.
         file: name of the file in findings; the message's name in angle brackets when empty.
@@ -117,11 +117,11 @@ def parse_message(
     Raises:
         InterfaceError: there is a finding and nothing that takes it.
     """
-    reading = _Reading(name, generation, file or f"<{name}>", diagnostics)
+    reading = _Reading(name, ros_version, file or f"<{name}>", diagnostics)
     for number, line in enumerate(text.splitlines(), first_line):
         reading.line, reading.number = line, number
         _read_line(reading)
-    return Definition(name, generation, tuple(reading.constants), tuple(reading.fields), text)
+    return Definition(name, ros_version, tuple(reading.constants), tuple(reading.fields), text)
 
 
 def _read_line(reading: _Reading) -> None:
@@ -129,7 +129,7 @@ def _read_line(reading: _Reading) -> None:
     if not line or line.startswith(("#", "@")):
         return
     if match := _STRING_CONSTANT.match(line):
-        _add_constant(reading, match[1], match[2], _string_text(match[3], reading.generation))
+        _add_constant(reading, match[1], match[2], _string_text(match[3], reading.ros_version))
         return
     code = _without_comment(line)
     words = code.split(None, 1)
@@ -159,9 +159,9 @@ def _without_comment(line: str) -> str:
     return line
 
 
-def _string_text(text: str, generation: Generation) -> str:
+def _string_text(text: str, ros_version: RosVersion) -> str:
     """A ROS 1 string constant is the rest of the line, comments included (genmsg)."""
-    return text.strip() if generation is Generation.ROS1 else _without_comment(text.strip())
+    return text.strip() if ros_version is RosVersion.ROS1 else _without_comment(text.strip())
 
 
 def _add_constant(reading: _Reading, kind: str, name: str, text: str) -> None:
@@ -172,7 +172,7 @@ def _add_constant(reading: _Reading, kind: str, name: str, text: str) -> None:
     if not _new_name(reading, name):
         return
     try:
-        value = constant_value(base, text, quoted=reading.generation is Generation.ROS2)
+        value = constant_value(base, text, quoted=reading.ros_version is RosVersion.ROS2)
     except ValueError as error:
         reading.report("interfaces.bad-value", f"{kind} {name}: {error}", text)
         return
@@ -185,7 +185,7 @@ def _add_field(reading: _Reading, kind: str, name: str, default: str) -> None:
         return
     value = None
     if default:
-        if reading.generation is Generation.ROS1:
+        if reading.ros_version is RosVersion.ROS1:
             reading.report(
                 "interfaces.bad-line",
                 f"'{default}' follows the field's name; ROS 1 fields have no default",
@@ -241,8 +241,8 @@ def _resolved(reading: _Reading, base: str) -> str | None:
     if base in _PRIMITIVES:
         return base
     if base in _TIMES:
-        return base if reading.generation is Generation.ROS1 else _TIMES[base]
-    if base == "Header" and reading.generation is Generation.ROS1:
+        return base if reading.ros_version is RosVersion.ROS1 else _TIMES[base]
+    if base == "Header" and reading.ros_version is RosVersion.ROS1:
         return "std_msgs/msg/Header"
     parts = base.split("/")
     if len(parts) == 1 and base[0].isupper():

@@ -17,7 +17,7 @@ from gazelle.interfaces.definition import (
     NUMPY_NAMES,
     Array,
     Field,
-    Generation,
+    RosVersion,
     attribute_name,
 )
 from gazelle.interfaces.forms import Form, Types
@@ -45,16 +45,16 @@ def to_plain(value: Any) -> Any:
     return value
 
 
-def time_keys(types: Types, now_ns: int, generation: Generation) -> dict[str, Any]:
+def time_keys(types: Types, now_ns: int, ros_version: RosVersion) -> dict[str, Any]:
     """Return what ``now`` and ``auto`` stand for in `fill`: a time and a header of now."""
-    header: Any = types.class_of("std_msgs/msg/Header", generation)
+    header: Any = types.class_of("std_msgs/msg/Header", ros_version)
     secs, nsecs = divmod(now_ns, _NANO)
-    if generation is Generation.ROS1:
+    if ros_version is RosVersion.ROS1:
         return {
             "now": Time(secs, nsecs),
             "auto": header(stamp=Time(secs, nsecs)),
         }
-    make: Any = types.class_of("builtin_interfaces/msg/Time", generation)
+    make: Any = types.class_of("builtin_interfaces/msg/Time", ros_version)
     return {"now": make(secs, nsecs), "auto": header(stamp=make(secs, nsecs))}
 
 
@@ -153,7 +153,7 @@ def _time(base: str, value: Any, path: str) -> TVal:
 
 def _sequence(msg: Any, item: Field, value: Any, keys: Mapping[str, Any], path: str) -> Any:
     kind = item.type
-    is_ros1 = msg.GENERATION is Generation.ROS1
+    is_ros1 = msg.GENERATION is RosVersion.ROS1
     if isinstance(value, bytes) or is_array(value):
         return value
     if value == "":

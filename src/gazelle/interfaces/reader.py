@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 from gazelle.interfaces.binding import Layout, Slot, Wire
-from gazelle.interfaces.definition import NUMPY_NAMES, Array, Generation
+from gazelle.interfaces.definition import NUMPY_NAMES, Array, RosVersion
 from gazelle.interfaces.emitter import Emitter, fixed_leaves
 
 __all__ = ["compile_reader"]
@@ -25,7 +25,7 @@ def compile_reader(layout: Layout, wire: Wire, endian: str = "<") -> Callable[[A
         wire: which bytes; the encapsulation header of CDR is skipped, not looked at.
         endian: byte order of the numbers.
     """
-    is_ros1 = layout.generation is Generation.ROS1
+    is_ros1 = layout.ros_version is RosVersion.ROS1
     reader = _Reader(wire, endian, tuples=is_ros1)
     reader.space |= {"N": object.__new__, "unpack": struct.unpack_from}
     keep = "bytes(b)" if is_ros1 else "memoryview(b).toreadonly()"

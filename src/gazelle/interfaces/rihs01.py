@@ -6,7 +6,7 @@ import hashlib
 import json
 from typing import Any
 
-from gazelle.interfaces.definition import Array, Field, FieldType, Generation
+from gazelle.interfaces.definition import Array, Field, FieldType, RosVersion
 from gazelle.interfaces.forms import Types
 from gazelle.interfaces.naming import canonical_name, split_name
 
@@ -123,7 +123,7 @@ def _fields(types: Types, name: str) -> tuple[Field, ...]:
             Field("get_result_service", FieldType(f"{name}_GetResult")),
             Field("feedback_message", FieldType(f"{name}_FeedbackMessage")),
         )
-    return types.definition(name, Generation.ROS2).fields
+    return types.definition(name, RosVersion.ROS2).fields
 
 
 def _event_fields(service: str) -> tuple[Field, ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gazelle.interfaces.definition import Definition, Generation
+from gazelle.interfaces.definition import Definition, RosVersion
 from gazelle.interfaces.forms import Types
 from gazelle.interfaces.naming import canonical_name
 
@@ -60,7 +60,7 @@ def show_service(types: Types, name: str) -> str:
 
 
 def _definition(types: Types, name: str) -> Definition:
-    return types.definition(canonical_name(name), Generation.ROS1)
+    return types.definition(canonical_name(name), RosVersion.ROS1)
 
 
 def _md5(text: str) -> str:
@@ -73,7 +73,7 @@ def _md5_text(types: Types, source: Definition) -> str:
     lines = [f"{item.type} {item.name}={item.text}" for item in source.constants]
     for item in source.fields:
         kind = item.type
-        word = md5sum(types, kind.base) if kind.is_message else kind.text(Generation.ROS1)
+        word = md5sum(types, kind.base) if kind.is_message else kind.text(RosVersion.ROS1)
         lines.append(f"{word} {item.name}")
     return "\n".join(lines)
 
@@ -82,7 +82,7 @@ def _shown(types: Types, source: Definition, indent: str) -> Iterator[str]:
     for constant in source.constants:
         yield f"{indent}{constant.type} {constant.name}={_constant(constant.value, constant.text)}"
     for item in source.fields:
-        yield f"{indent}{item.type.text(Generation.ROS1)} {item.name}"
+        yield f"{indent}{item.type.text(RosVersion.ROS1)} {item.name}"
         if item.type.is_message:
             yield from _shown(types, _definition(types, item.type.base), indent + "  ")
 

@@ -10,7 +10,7 @@ from gazelle.interfaces.definition import (
     Array,
     Definition,
     Field,
-    Generation,
+    RosVersion,
     attribute_name,
 )
 from gazelle.interfaces.forms import Form, Types
@@ -47,7 +47,7 @@ class Ros1Message(Form):
     """Base of all message classes in the form of ROS 1."""
 
     __slots__ = ("_connection_header",)
-    GENERATION: ClassVar[Generation] = Generation.ROS1
+    GENERATION: ClassVar[RosVersion] = RosVersion.ROS1
     _slot_types: ClassVar[list[str]] = []
     _type: ClassVar[str] = ""
     _md5sum: ClassVar[str] = _Lazy("_md5sum")  # type: ignore[assignment]
@@ -210,7 +210,7 @@ def make_ros1_class(
         "DEFINITION": source,
         "_names": names,
         "_types": types,
-        "_slot_types": [item.type.text(Generation.ROS1) for item in source.fields],
+        "_slot_types": [item.type.text(RosVersion.ROS1) for item in source.fields],
         "_type": short,
         "_has_header": first is not None
         and first.type.base == "std_msgs/msg/Header"

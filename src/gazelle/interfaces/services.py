@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 from gazelle.interfaces.forms import Types
 from gazelle.interfaces.message import Message
 from gazelle.interfaces.naming import ros1_name
@@ -133,4 +133,4 @@ def make_ros1_service(
 
 
 def _message(types: Types, full: str) -> type[Message]:
-    return types.class_of(full, Generation.ROS2)  # type: ignore[return-value]
+    return types.class_of(full, RosVersion.ROS2)  # type: ignore[return-value]

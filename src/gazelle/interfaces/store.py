@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError
 from gazelle.interfaces import lookup, ros1_digest
-from gazelle.interfaces.definition import Definition, Generation
+from gazelle.interfaces.definition import Definition, RosVersion
 from gazelle.interfaces.forms import Form
 from gazelle.interfaces.library import Library, Source
 from gazelle.interfaces.message import Message, make_message_class, recursion
@@ -70,37 +70,37 @@ class TypeStore:
         return self._library.revision
 
     def add_package(
-        self, name: str, path: Path | str, generation: Generation | None = None
+        self, name: str, path: Path | str, ros_version: RosVersion | None = None
     ) -> None:
         """Let a user's own package define types; its msg/, srv/ and action/ are read when needed.
 
         Args:
             name: the package's name.
             path: its folder.
-            generation: which ROS the files are written for; read from ``package.xml`` when None.
+            ros_version: which ROS the files are written for; read from ``package.xml`` when None.
 
         Raises:
             NotFoundError: there is no such folder.
         """
-        self._library.add_package(name, path, generation)
+        self._library.add_package(name, path, ros_version)
 
     def add_search_path(self, folder: Path | str) -> tuple[str, ...]:
         """Add every package with definitions directly under a folder; return their names."""
         return self._library.add_search_path(folder)
 
-    def add_text(self, name: str, generation: Generation, text: str) -> None:
+    def add_text(self, name: str, ros_version: RosVersion, text: str) -> None:
         """Let a text define one message.
 
         Args:
             name: ``pkg/Name`` or ``pkg/msg/Name``.
-            generation: whose rules it follows.
+            ros_version: whose rules it follows.
             text: without the texts of what the message contains.
 
         Raises:
             NotFoundError: the name is not written as a type's name.
         """
         package, _, bare = split_name(name)
-        self._library.add_text(package, bare, generation, text)
+        self._library.add_text(package, bare, ros_version, text)
 
     def reset(self) -> None:
         """Forget all that was taught."""
@@ -123,26 +123,28 @@ class TypeStore:
             found = memory[key] = make()
         return found
 
-    def definition(self, name: str, generation: Generation) -> Definition:
+    def definition(self, name: str, ros_version: RosVersion) -> Definition:
         """Return a message's definition by the rules of one generation.
 
         One written for that generation comes first; else the other generation's is translated.
 
         Args:
             name: full name; parts of services and actions are ``pkg/srv/Name_Request`` and so on.
-            generation: whose rules.
+            ros_version: whose rules.
 
         Raises:
             NotFoundError: nothing defines it.
             UserFileError: its text has errors.
         """
         if self._below is not None and not self._library.adds_to(split_name(name)[0]):
-            return self._below.definition(name, generation)
-        key = ("definition", name, generation)
-        return self.remembered(key, lambda: lookup.read_definition(self._library, name, generation))
+            return self._below.definition(name, ros_version)
+        key = ("definition", name, ros_version)
+        return self.remembered(
+            key, lambda: lookup.read_definition(self._library, name, ros_version)
+        )
 
     def find_source(
-        self, package: str, part: str, name: str, generation: Generation
+        self, package: str, part: str, name: str, ros_version: RosVersion
     ) -> Source | None:
         """Return the text of a definition of one generation, None when there is none.
 
@@ -152,12 +154,12 @@ class TypeStore:
             package: such as ``std_msgs``.
             part: ``msg``, ``srv`` or ``action``.
             name: such as ``Header``.
-            generation: which ROS it must be written for.
+            ros_version: which ROS it must be written for.
 
         Raises:
             UserFileError: the file is there and cannot be read.
         """
-        return self._library.find_source(package, part, name, generation)
+        return self._library.find_source(package, part, name, ros_version)
 
     def exists(self, name: str) -> bool:
         """Return whether something defines this message, without reading its text."""
@@ -204,18 +206,18 @@ class TypeStore:
         full = canonical_name("std_msgs/Header" if name == "Header" else name)
         return self._ros1_class(_RENAMED.get(full, full))
 
-    def class_of(self, full: str, generation: Generation) -> type[Form]:
+    def class_of(self, full: str, ros_version: RosVersion) -> type[Form]:
         """Return the class of a message in the form of one generation.
 
         Args:
             full: full name; parts of services are ``pkg/srv/Name_Request``.
-            generation: whose form.
+            ros_version: whose form.
 
         Raises:
             NotFoundError: nothing defines it.
             UserFileError: its definition has errors.
         """
-        if generation is Generation.ROS1:
+        if ros_version is RosVersion.ROS1:
             return self._ros1_class(full)
         return self.message_type(full)
 
@@ -264,12 +266,12 @@ class TypeStore:
                 self._services[full] = found
             return found
 
-    def keep_text(self, name: str, generation: Generation, text: str) -> bool:
+    def keep_text(self, name: str, ros_version: RosVersion, text: str) -> bool:
         """Keep a whole text that came in, when it means what is known here; return whether it does.
 
         Args:
             name: ``pkg/Name`` or ``pkg/msg/Name``.
-            generation: whose rules it follows.
+            ros_version: whose rules it follows.
             text: with the texts of all that the message contains.
         """
         from gazelle.interfaces.full_text import KeptTexts
@@ -277,15 +279,15 @@ class TypeStore:
         with self._lock:
             if self._texts is None:
                 self._texts = KeptTexts(self)
-            return bool(self._texts.keep(name, generation, text))
+            return bool(self._texts.keep(name, ros_version, text))
 
-    def kept_text(self, name: str, generation: Generation) -> str:
+    def kept_text(self, name: str, ros_version: RosVersion) -> str:
         """Return the text that came in with a type, empty when none did or the type has changed."""
         kept = self._texts
-        found = "" if kept is None else kept.find(name, generation)
-        if found or self._below is None or not self._inherits(canonical_name(name), generation):
+        found = "" if kept is None else kept.find(name, ros_version)
+        if found or self._below is None or not self._inherits(canonical_name(name), ros_version):
             return str(found)
-        return self._below.kept_text(name, generation)
+        return self._below.kept_text(name, ros_version)
 
     def md5sum(self, name: str) -> str:
         """Return the MD5 sum of a message in ROS 1.
@@ -371,15 +373,15 @@ class TypeStore:
 
         return type_description(self, name)
 
-    def time_keys(self, now_ns: int, generation: Generation) -> dict[str, Any]:
+    def time_keys(self, now_ns: int, ros_version: RosVersion) -> dict[str, Any]:
         """Return what ``now`` and ``auto`` stand for in `fill`: a time and a header of now."""
         from gazelle.interfaces.plain import time_keys
 
-        return time_keys(self, now_ns, generation)
+        return time_keys(self, now_ns, ros_version)
 
-    def rebuilt(self, full: str, generation: Generation, values: list[Any]) -> Form:
+    def rebuilt(self, full: str, ros_version: RosVersion, values: list[Any]) -> Form:
         """Return a message with these values of its fields, as `copy` and `pickle` ask for it."""
-        made = self.class_of(full, generation)()
+        made = self.class_of(full, ros_version)()
         for name, value in zip(made._names, values, strict=True):
             setattr(made, name, value)
         return made
@@ -401,11 +403,11 @@ class TypeStore:
 
     def _is_current(self, known: Definition) -> bool:
         try:
-            return self.definition(known.name, known.generation) == known
+            return self.definition(known.name, known.ros_version) == known
         except GazelleError:
             return False
 
-    def _inherits(self, full: str, generation: Generation) -> bool:
+    def _inherits(self, full: str, ros_version: RosVersion) -> bool:
         """Return whether a message and all that it contains are as they are below."""
         left, seen = [full], {full}
         while left:
@@ -413,7 +415,7 @@ class TypeStore:
             package, _, bare = split_name(name)
             if self._library.defines(package, bare):
                 return False
-            fields = self.definition(name, generation).fields
+            fields = self.definition(name, ros_version).fields
             new = {item.type.base for item in fields if item.type.is_message} - seen
             left += new
             seen |= new
@@ -425,8 +427,8 @@ class TypeStore:
             return found
         if full in above:
             raise recursion(full, above)
-        source = self.definition(full, Generation.ROS2)
-        if self._below is not None and self._inherits(full, Generation.ROS2):
+        source = self.definition(full, RosVersion.ROS2)
+        if self._below is not None and self._inherits(full, RosVersion.ROS2):
             found = self._below.message_type(full)
         else:
             inside = (*above, full)
@@ -443,8 +445,8 @@ class TypeStore:
             found = self._ros1_messages.get(full)
             if found is not None:
                 return found
-            source = self.definition(full, Generation.ROS1)
-            if self._below is not None and self._inherits(full, Generation.ROS1):
+            source = self.definition(full, RosVersion.ROS1)
+            if self._below is not None and self._inherits(full, RosVersion.ROS1):
                 found = self._below._ros1_class(full)
             else:
                 self.message_type(full)  # finds circles before they are followed here
@@ -470,13 +472,13 @@ def types_of(message: object) -> TypeStore:
 @lru_cache(maxsize=64)
 def _taught(
     below: TypeStore | None,
-    packages: tuple[tuple[str, Path, Generation | None], ...],
-    texts: tuple[tuple[str, str, Generation, str], ...],
+    packages: tuple[tuple[str, Path, RosVersion | None], ...],
+    texts: tuple[tuple[str, str, RosVersion, str], ...],
 ) -> TypeStore:
     """Return a store that was taught so; one for each content, so that classes stay the same."""
     made = TypeStore(below)
-    for name, folder, generation in packages:
-        made.add_package(name, folder, generation)
-    for package, bare, generation, text in texts:
-        made.add_text(f"{package}/{bare}", generation, text)
+    for name, folder, ros_version in packages:
+        made.add_package(name, folder, ros_version)
+    for package, bare, ros_version, text in texts:
+        made.add_text(f"{package}/{bare}", ros_version, text)
     return made

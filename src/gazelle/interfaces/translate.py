@@ -15,10 +15,10 @@ from gazelle.interfaces.definition import (
     Definition,
     Field,
     FieldType,
-    Generation,
+    RosVersion,
 )
 
-__all__ = ["CONVERTED", "Conversion", "as_generation", "definition_text"]
+__all__ = ["CONVERTED", "Conversion", "as_ros_version", "definition_text"]
 
 
 _LEVELS = {1: 10, 2: 20, 4: 30, 8: 40, 16: 50}
@@ -76,36 +76,36 @@ _TO_ROS1 = {
 }
 
 
-def as_generation(definition: Definition, generation: Generation) -> Definition:
+def as_ros_version(definition: Definition, ros_version: RosVersion) -> Definition:
     """Return the definition by the rules of a generation; the same object when it has them.
 
     Field names stay. ROS 1 ``byte`` is signed and ``char`` unsigned; ROS 1 has no bounds, no
     defaults and no wide strings.
     """
-    if definition.generation is generation:
+    if definition.ros_version is ros_version:
         return definition
-    table = _TO_ROS2 if generation is Generation.ROS2 else _TO_ROS1
-    fields = tuple(_field(item, table, generation) for item in definition.fields)
+    table = _TO_ROS2 if ros_version is RosVersion.ROS2 else _TO_ROS1
+    fields = tuple(_field(item, table, ros_version) for item in definition.fields)
     constants = tuple(
         item._replace(type=table.get(item.type, item.type)) for item in definition.constants
     )
-    text = definition_text(constants, fields, generation)
-    return Definition(definition.name, generation, constants, fields, text, native=False)
+    text = definition_text(constants, fields, ros_version)
+    return Definition(definition.name, ros_version, constants, fields, text, native=False)
 
 
 def definition_text(
-    constants: tuple[Constant, ...], fields: tuple[Field, ...], generation: Generation
+    constants: tuple[Constant, ...], fields: tuple[Field, ...], ros_version: RosVersion
 ) -> str:
     """Return the lines that define these constants and fields, constants first."""
     lines = [f"{item.type} {item.name}={item.text}" for item in constants]
-    lines += [f"{item.type.text(generation)} {item.name}" for item in fields]
+    lines += [f"{item.type.text(ros_version)} {item.name}" for item in fields]
     return "\n".join(lines)
 
 
-def _field(item: Field, table: dict[str, str], generation: Generation) -> Field:
+def _field(item: Field, table: dict[str, str], ros_version: RosVersion) -> Field:
     kind = item.type
     base = table.get(kind.base, kind.base)
-    if generation is Generation.ROS2:
+    if ros_version is RosVersion.ROS2:
         return Field(item.name, kind._replace(base=base), item.default)
     size = kind.size if kind.array is Array.FIXED else 0
     return Field(item.name, FieldType(base, kind.array, size))

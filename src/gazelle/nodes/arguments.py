@@ -54,7 +54,7 @@ class NodeArguments:
     parameter_files: tuple[Path, ...] = ()
 
     @property
-    def generation(self) -> Literal[1, 2]:
+    def ros_version(self) -> Literal[1, 2]:
         """The generation of ROS that whoever started the node speaks."""
         return 2 if self.started_by == _ROS2 else 1
 

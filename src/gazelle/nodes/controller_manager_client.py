@@ -41,7 +41,7 @@ class ManagerClient:
         name: str,
         stop: threading.Event | None = None,
         *,
-        generation: int = 0,
+        ros_version: int = 0,
     ) -> None:
         """Take a node and the manager's name; nothing is called yet.
 
@@ -49,25 +49,25 @@ class ManagerClient:
             node: a started node of the graph.
             name: resolved by the node.
             stop: ends waiting early.
-            generation: of the manager, where the program is of one; 0 when its services tell.
+            ros_version: of the manager, where the program is of one; 0 when its services tell.
         """
         self.name = node.resolve_name(name)
         self._node = node
         self._stop = stop or threading.Event()
-        self._generation = generation
+        self._ros_version = ros_version
 
     @property
-    def generation(self) -> int:
+    def ros_version(self) -> int:
         """1 for ros_control, 2 for ros2_control, told from the services; 0 when it is not there."""
         graph = self._node.graph
-        if not self._generation and graph.has_service(f"{self.name}/load_controller"):
+        if not self._ros_version and graph.has_service(f"{self.name}/load_controller"):
             own = f"{self.name}/configure_controller"
             is_ros2 = graph.discovery.settles(
                 lambda known: any(one.kind is Kind.SERVICE and one.name == own for one in known),
                 quiet_s=_QUIET_S,
             )
-            self._generation = 2 if is_ros2 else 1
-        return self._generation
+            self._ros_version = 2 if is_ros2 else 1
+        return self._ros_version
 
     def wait(
         self,
@@ -191,7 +191,7 @@ class ManagerClient:
         full = kind if "/" in kind else f"{_PACKAGE}/{kind}"
         kind_class: Any = service_type(full)
         make = kind_class.Request
-        if self.generation == 1 and full.startswith(_PACKAGE):
+        if self.ros_version == 1 and full.startswith(_PACKAGE):
             kind_class = ros1_service_type(full)
             make = kind_class._request_class
         client, request = self._node.create_client(name, kind_class), make(**fields)
@@ -211,7 +211,7 @@ class ManagerClient:
 
     def configure(self, name: str) -> bool:
         """Configure a controller; ROS 1's are when they are loaded."""
-        if self.generation == 1:
+        if self.ros_version == 1:
             return True
         return bool(self.call("configure_controller", "ConfigureController", name=name).ok)
 
@@ -231,7 +231,7 @@ class ManagerClient:
         timeout_s: float = _CALL_S,
     ) -> Any:
         """Start and stop controllers; the answer has ``ok``, ROS 2's a ``message`` too."""
-        if self.generation == 1:
+        if self.ros_version == 1:
             fields: dict[str, Any] = {
                 "start_controllers": list(start),
                 "stop_controllers": list(stop),

@@ -61,7 +61,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     The generation is told from the launch or command behind it, from the arguments, or from what
     the manager offers.
     """
-    if arguments.generation == 2 or is_ros2(arguments.rest):
+    if arguments.ros_version == 2 or is_ros2(arguments.rest):
         from gazelle.nodes.controller_spawner_ros2 import run as run_ros2
 
         return run_ros2(arguments, graph, stop)
@@ -80,13 +80,13 @@ def run_unspawner(arguments: NodeArguments, graph: Graph, stop: threading.Event)
     node = _start(arguments, graph, stop, "unspawner")
     try:
         client = ManagerClient(node, "controller_manager", stop)
-        if arguments.generation == 2 or is_ros2(arguments.rest):
+        if arguments.ros_version == 2 or is_ros2(arguments.rest):
             return unspawn(node, arguments.rest, stop)
         if not arguments.rest:
             raise LaunchError("usage: unspawner controller [controller ...]")
         if not client.wait("switch_controller"):
             return 0
-        if client.generation == 2:
+        if client.ros_version == 2:
             return unspawn(node, arguments.rest, stop)
         return _inhibit(node, client, set(arguments.rest), stop)
     finally:
@@ -164,7 +164,7 @@ class _Spawner:
             self._say("warn", "DEPRECATION warning: --shutdown-timeout has no effect.")
         if not self._find_services():
             return 0
-        if self._client.generation == 2:
+        if self._client.ros_version == 2:
             from gazelle.nodes.controller_spawner_ros2 import spawn
 
             return spawn(self._node, self._arguments, self._stop)

@@ -107,7 +107,7 @@ def unspawn(node: Node, words: Sequence[str], stop: threading.Event) -> int:
     parser.add_argument("-c", "--controller-manager", default="controller_manager")
     parser.add_argument("--switch-timeout", type=float, default=5.0)
     options = parser.parse_args(split_arguments(words).own)
-    client = ManagerClient(node, options.controller_manager, stop, generation=2)
+    client = ManagerClient(node, options.controller_manager, stop, ros_version=2)
     late = manager_teller(node, client, "switch_controller")
     if not client.wait("switch_controller", late=late, late_s=LATE_S):
         return 1
@@ -172,7 +172,7 @@ class _Spawner:
         name = options.controller_manager
         if options.namespace and not name.startswith("/"):
             name = f"/{options.namespace.strip('/')}/{name}"
-        self._client = ManagerClient(node, name, stop, generation=2)
+        self._client = ManagerClient(node, name, stop, ros_version=2)
 
     def run(self) -> None:
         """Load, configure and activate.

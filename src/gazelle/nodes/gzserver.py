@@ -32,6 +32,6 @@ def run(
     """
     from gazelle.simulator.server_main import serve
 
-    if arguments.generation == 2:
+    if arguments.ros_version == 2:
         graph.console = print_ros2
     return serve(arguments, graph, stop, falls_back=falls_back, found=found)

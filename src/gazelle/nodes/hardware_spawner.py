@@ -29,7 +29,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     options = _options(arguments.rest)
     node = start_node(arguments, graph)
     node.on_shutdown(lambda _reason: stop.set())
-    client = ManagerClient(node, options.controller_manager, stop, generation=2)
+    client = ManagerClient(node, options.controller_manager, stop, ros_version=2)
     late = manager_teller(node, client, "list_hardware_components", arguments.ready)
     timeout_s = options.controller_manager_timeout or None
     try:

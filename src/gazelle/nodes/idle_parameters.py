@@ -30,7 +30,7 @@ from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = ["IdleParameter", "idle_parameters", "node_of_name"]
 
-Generation = Literal[1, 2]
+RosVersion = Literal[1, 2]
 
 _COSTMAPS = ("local_costmap", "global_costmap")
 _LAYERS = (StaticOptions, ObstacleOptions, VoxelOptions, InflationOptions)
@@ -55,21 +55,21 @@ class IdleParameter(NamedTuple):
 
 
 def idle_parameters(
-    node: str, values: Mapping[str, Any], generation: Generation
+    node: str, values: Mapping[str, Any], ros_version: RosVersion
 ) -> tuple[IdleParameter, ...]:
     """Return the parameters of a node that are known and have no effect here.
 
     Args:
         node: ``package/type``, or ``costmap`` for the node of a costmap in ROS 2.
         values: its parameters by their names below the node.
-        generation: of ROS.
+        ros_version: of ROS.
     """
     tree = nested(values)
     if node in EKF.types:
         table: ParameterTable | None = ekf_table(tree)
     else:
-        table = costmap_table(generation) if node == "costmap" else _table(node, generation)
-    return () if table is None else tuple(_walk(table, tree, "", generation))
+        table = costmap_table(ros_version) if node == "costmap" else _table(node, ros_version)
+    return () if table is None else tuple(_walk(table, tree, "", ros_version))
 
 
 def node_of_name(name: str) -> str:
@@ -85,14 +85,14 @@ def node_of_name(name: str) -> str:
 
 
 def _walk(
-    table: ParameterTable, tree: Mapping[str, Any], prefix: str, generation: Generation
+    table: ParameterTable, tree: Mapping[str, Any], prefix: str, ros_version: RosVersion
 ) -> Iterator[IdleParameter]:
     kinds = _kinds(tree)
     for key, value in tree.items():
         if isinstance(value, Mapping):
-            below = _below(key, value, kinds, generation)
+            below = _below(key, value, kinds, ros_version)
             if below is not None:
-                yield from _walk(below, value, f"{prefix}{key}.", generation)
+                yield from _walk(below, value, f"{prefix}{key}.", ros_version)
                 continue
         for name, leaf in values_only(flattened({key: value})):
             row = table.row_for(name)
@@ -101,11 +101,11 @@ def _walk(
 
 
 def _below(
-    key: str, value: Mapping[str, Any], kinds: Mapping[str, str], generation: Generation
+    key: str, value: Mapping[str, Any], kinds: Mapping[str, str], ros_version: RosVersion
 ) -> ParameterTable | None:
     if key in _COSTMAPS:
-        return costmap_table(generation)
-    return _plugins(generation).get(_plain(str(value.get("plugin", kinds.get(key, "")))))
+        return costmap_table(ros_version)
+    return _plugins(ros_version).get(_plain(str(value.get("plugin", kinds.get(key, "")))))
 
 
 def _kinds(tree: Mapping[str, Any]) -> dict[str, str]:
@@ -124,28 +124,28 @@ def _plain(plugin: str) -> str:
     return plugin.replace("/", "::")
 
 
-def _table(node: str, generation: Generation) -> ParameterTable | None:
+def _table(node: str, ros_version: RosVersion) -> ParameterTable | None:
     """Return the table of a node's row, by any of its names; None where it has none."""
-    place = _places(generation).get(node)
+    place = _places(ros_version).get(node)
     return None if place is None else resolved(place)
 
 
 @cache
-def _places(generation: Generation) -> dict[str, str]:
+def _places(ros_version: RosVersion) -> dict[str, str]:
     """Return where the tables of nodes are, by ``package/executable``."""
     return {
         f"{name.package}/{name.executable}": spec.parameters
         for spec in node_specs()
         for name in spec.names
-        if spec.parameters and generation in name.ros and name[:2] not in _TOLD_ELSEWHERE
+        if spec.parameters and ros_version in name.ros and name[:2] not in _TOLD_ELSEWHERE
     }
 
 
 @cache
-def _plugins(generation: Generation) -> dict[str, ParameterTable]:
+def _plugins(ros_version: RosVersion) -> dict[str, ParameterTable]:
     """Return the tables of plug-ins by their types."""
-    tables = [layer_table(options, generation) for options in _LAYERS]
-    if generation == 1:
+    tables = [layer_table(options, ros_version) for options in _LAYERS]
+    if ros_version == 1:
         tables += [*planner_tables(), *local_planner_tables(), CLEAR, ROTATE, SLOW]
     else:
         tables += [nav2.planner_table(name) for name in PLANNERS if "::" in name]

@@ -69,7 +69,7 @@ class _Dependent:
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish ``joint_states`` until told to stop."""
     node = start_node(arguments, graph)
-    if arguments.generation == 2:
+    if arguments.ros_version == 2:
         model = published_robot_of(node, arguments.rest, stop)
     else:
         model = robot_of(node)

@@ -34,7 +34,7 @@ def node_reader(
     name: str,
     diagnostics: Diagnostics,
     *,
-    generation: int = 0,
+    ros_version: int = 0,
 ) -> ParameterReader:
     """Return typed access to parameters; what is wrong is reported where it is read.
 
@@ -43,10 +43,10 @@ def node_reader(
         tree: the values that were given.
         name: what messages call the owner, such as ``/move_base/local_costmap``.
         diagnostics: receives what is wrong.
-        generation: of ROS, whose defaults count; 0 where the table is of one generation.
+        ros_version: of ROS, whose defaults count; 0 where the table is of one generation.
     """
     owner = ParameterOwner(name, managed=_EVERYWHERE)
-    return ParameterReader(table, TreeSource(tree), owner, diagnostics, generation=generation)
+    return ParameterReader(table, TreeSource(tree), owner, diagnostics, ros_version=ros_version)
 
 
 @contextmanager
@@ -64,7 +64,7 @@ def private_parameters(
     """
     found = Diagnostics()
     tree = parameter_tree(node, arguments)
-    reader = node_reader(table, tree, node.name, found, generation=arguments.generation)
+    reader = node_reader(table, tree, node.name, found, ros_version=arguments.ros_version)
     try:
         yield reader
     finally:
@@ -87,17 +87,17 @@ def namespace_parameters(
         table: what there is.
     """
     found = Diagnostics()
-    store, generation = node.parameters, arguments.generation
+    store, ros_version = node.parameters, arguments.ros_version
     beside = {row.key: store.get(row.key) for row in table.rows if store.has(row.key)}
     source = TreeSource(beside, full_name=node.resolve_name)
     owner = ParameterOwner(node.name, managed=_EVERYWHERE)
     try:
-        yield ParameterReader(table, source, owner, found, generation=generation)
-        places = {row.key: node.resolve_name(row.key) for row in table.rows if generation == 1}
+        yield ParameterReader(table, source, owner, found, ros_version=ros_version)
+        places = {row.key: node.resolve_name(row.key) for row in table.rows if ros_version == 1}
         misplaced = {key: f"the node reads {place}" for key, place in places.items()}
         below = TreeSource(parameter_tree(node, arguments))
         owner = replace(owner, refused=misplaced)
-        ParameterReader(table, below, owner, found, generation=generation).report_unknown()
+        ParameterReader(table, below, owner, found, ros_version=ros_version).report_unknown()
     finally:
         log_findings(node, found)
 

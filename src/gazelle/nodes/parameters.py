@@ -35,7 +35,7 @@ def start_node(arguments: NodeArguments, graph: Graph, *, offers_parameters: boo
         offers_parameters: whether it does; not where the node offers them by other means, since
             of two servers of one service any may answer.
     """
-    ros2 = arguments.generation == 2
+    ros2 = arguments.ros_version == 2
     with graph.announcements.together():
         node = graph.create_node(
             arguments.name,

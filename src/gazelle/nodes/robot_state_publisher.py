@@ -48,10 +48,10 @@ PARAMETERS = ParameterTable(
         Parameter("ignore_timestamp", "flag", False, "publish every message, however fast"),
         Parameter(
             "tf_prefix", "text", "", "put before every frame, with a slash between",
-            generations=(1,),
+            ros_versions=(1,),
         ),
         Parameter(
-            "frame_prefix", "text", "", "put before every frame as it is", generations=(2,)
+            "frame_prefix", "text", "", "put before every frame as it is", ros_versions=(2,)
         ),
     ),
 )  # fmt: skip
@@ -60,7 +60,7 @@ PARAMETERS = ParameterTable(
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish tf until told to stop."""
     node = start_node(arguments, graph)
-    ros2 = arguments.generation == 2
+    ros2 = arguments.ros_version == 2
     if ros2 and arguments.rest:
         text: str | None = take_description_file(node, arguments.rest[0])
     else:
@@ -91,7 +91,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 def _prefix(own: ParameterReader, arguments: NodeArguments) -> str:
     """Return what stands before every frame, a slash at its end included."""
-    if arguments.generation == 2:
+    if arguments.ros_version == 2:
         return own.text("frame_prefix")
     prefix = own.text("tf_prefix").strip("/")
     return f"{prefix}/" if prefix else ""

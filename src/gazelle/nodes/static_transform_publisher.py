@@ -30,16 +30,16 @@ PARAMETERS = ParameterTable(
     " for the component `tf2_ros::StaticTransformBroadcasterNode`.",
     ("tf2_ros/static_transform_publisher",),
     (
-        Parameter("frame_id", "text", "/frame", "the frame above", generations=(2,)),
-        Parameter("child_frame_id", "text", "/child", "the frame below", generations=(2,)),
+        Parameter("frame_id", "text", "/frame", "the frame above", ros_versions=(2,)),
+        Parameter("child_frame_id", "text", "/child", "the frame below", ros_versions=(2,)),
         *(
-            Parameter(f"translation.{axis}", "number", 0.0, "where it is", "m", generations=(2,))
+            Parameter(f"translation.{axis}", "number", 0.0, "where it is", "m", ros_versions=(2,))
             for axis in "xyz"
         ),
         *(
             Parameter(
                 f"rotation.{part}", "number", float(part == "w"), "how it is turned, a quaternion",
-                generations=(2,),
+                ros_versions=(2,),
             )
             for part in "xyzw"
         ),
@@ -164,7 +164,7 @@ def run_tf2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> in
         transform = parse_options(arguments.rest)
     elif arguments.rest or not _has_parameters(arguments):
         transform = parse_arguments(arguments.rest, with_period=False)
-    if arguments.generation == 2 and arguments.name == _NAME:
+    if arguments.ros_version == 2 and arguments.name == _NAME:
         # Many of them run side by side, as a rule without names.
         arguments = replace(arguments, name=f"{_NAME}_{secrets.token_hex(8)}")
     node = start_node(arguments, graph)
@@ -184,7 +184,7 @@ def run_tf2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> in
 
 def _has_parameters(arguments: NodeArguments) -> bool:
     given = nested(arguments.params)
-    return arguments.generation == 2 and any(
+    return arguments.ros_version == 2 and any(
         row.key.partition(".")[0] in given for row in PARAMETERS.rows
     )
 

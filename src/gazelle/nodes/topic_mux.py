@@ -25,9 +25,9 @@ PARAMETERS = ParameterTable(
         Parameter("initial_topic", "text", "", "the one at the start; the first one when empty"),
         *refused("topics are listened to all the time", "lazy", unless=False),
         Parameter("input_topics", "texts", (), "mux, without words: what is chosen of",
-                  generations=(2,)),
+                  ros_versions=(2,)),
         Parameter("output_topic", "text", "", "mux, without words: where it comes out",
-                  generations=(2,)),
+                  ros_versions=(2,)),
     ),
 )  # fmt: skip
 
@@ -173,8 +173,8 @@ def _serve(
 
 def _by_parameters(arguments: NodeArguments) -> list[str]:
     """Return what stands for the words of mux in a component."""
-    unheard, version = Diagnostics(), arguments.generation
-    own = node_reader(PARAMETERS, arguments.params, arguments.name, unheard, generation=version)
+    unheard, version = Diagnostics(), arguments.ros_version
+    own = node_reader(PARAMETERS, arguments.params, arguments.name, unheard, ros_version=version)
     output = [own.text("output_topic")] if own.has("output_topic") else []
     return [*output, *own.texts("input_topics")] if output and own.has("input_topics") else []
 

@@ -41,7 +41,7 @@ PARAMETERS = ParameterTable(
             "wall_clock", "flag", False, "throttle by the machine's time",
             aliases=("use_wall_clock",),
         ),
-        *(Parameter(*row, generations=(2,)) for row in _IN_PLACE_OF_WORDS),
+        *(Parameter(*row, ros_versions=(2,)) for row in _IN_PLACE_OF_WORDS),
         *refused("messages go the way that publisher and subscriber share", "unreliable",
                  unless=False),
         *refused("the topic is listened to itself", "stealth", unless=False),
@@ -208,8 +208,8 @@ def _given(arguments: NodeArguments, *names: str) -> list[str]:
     if arguments.rest:
         return list(arguments.rest)
     # What is wrong with them is told when the node reads all of them.
-    unheard, version = Diagnostics(), arguments.generation
-    own = node_reader(PARAMETERS, arguments.params, arguments.name, unheard, generation=version)
+    unheard, version = Diagnostics(), arguments.ros_version
+    own = node_reader(PARAMETERS, arguments.params, arguments.name, unheard, ros_version=version)
     return [own.text(name) for name in names if own.has(name)]
 
 

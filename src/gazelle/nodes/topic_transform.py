@@ -13,8 +13,8 @@ from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import (
-    Generation,
     Ros1Message,
+    RosVersion,
     fill,
     ros1_message_type,
     time_keys,
@@ -67,7 +67,7 @@ def run_relay_field(arguments: NodeArguments, graph: Graph, stop: threading.Even
 
     def make(value: Any) -> Any:
         message = kind()
-        keys = time_keys(node.clock.now_ns(), Generation.ROS1)
+        keys = time_keys(node.clock.now_ns(), RosVersion.ROS1)
         fill(message, [_evaluated(values, value)], keys=keys)
         return message
 

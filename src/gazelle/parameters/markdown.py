@@ -53,16 +53,16 @@ def in_code(names: Iterable[str]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 
-def only_in(generations: tuple[int, ...]) -> str:
+def only_in(ros_versions: tuple[int, ...]) -> str:
     """Return which generation of ROS has something, empty for both."""
-    return "" if len(generations) > 1 else f" (ROS {generations[0]})"
+    return "" if len(ros_versions) > 1 else f" (ROS {ros_versions[0]})"
 
 
 def _parameter_line(row: Parameter) -> str:
     default = "" if row.is_refused or row.default is None else f"`{row.default}`"
     if row.ros2_default is not None:
         default += f", in ROS 2 `{row.ros2_default}`"
-    only = only_in(row.generations)
+    only = only_in(row.ros_versions)
     meaning = row.meaning + (" *(live)*" if row.live else "")
     meaning += "" if only and only in meaning else only
     return _line([f"`{row.key}`", in_code(row.aliases), default, row.unit, meaning])
@@ -73,7 +73,7 @@ def _honoured_line(row: Parameter) -> str:
     if row.ros2_default is not None:
         default += f", in ROS 2 `{row.ros2_default}`"
     meaning = row.meaning.replace("|", "\\|") + (" *(live)*" if row.live else "")
-    meaning += only_in(row.generations)
+    meaning += only_in(row.ros_versions)
     return _line([in_code(row.names), default, row.unit, meaning])
 
 

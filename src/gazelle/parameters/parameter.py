@@ -37,7 +37,7 @@ class Parameter:
         high: largest value, None for none.
         aliases: other spellings, such as the other generation's.
         live: dynamic_reconfigure or ``ros2 param set`` changes it while its owner runs.
-        generations: those of ROS that know it.
+        ros_versions: those of ROS that know it.
         ros2_default: what ROS 2 takes for an absent one where that differs, None where not.
     """
 
@@ -51,7 +51,7 @@ class Parameter:
     _: KW_ONLY
     aliases: tuple[str, ...] = ()
     live: bool = False
-    generations: tuple[int, ...] = (1, 2)
+    ros_versions: tuple[int, ...] = (1, 2)
     ros2_default: Any = None
 
     @property
@@ -78,22 +78,22 @@ class Parameter:
         branches = self.kind in _WITH_BRANCHES
         return any(_pattern(own, branches).fullmatch(name) for own in self.names)
 
-    def spellings(self, generation: int) -> tuple[str, ...]:
+    def spellings(self, ros_version: int) -> tuple[str, ...]:
         """Return the names that count in a generation of ROS, 0 for any.
 
         ROS 1's plug-ins write camelCase and ROS 2's snake_case; a key that is spelled in one way
         only is spelled so in both.
         """
-        if not generation:
+        if not ros_version:
             return self.names
-        if generation not in self.generations:
+        if ros_version not in self.ros_versions:
             return ()
-        own = tuple(name for name in self.names if _is_written_in(name, generation))
+        own = tuple(name for name in self.names if _is_written_in(name, ros_version))
         return own or self.names
 
-    def default_in(self, generation: int) -> Any:
+    def default_in(self, ros_version: int) -> Any:
         """Return the value of an absent one in a generation of ROS."""
-        if generation == _ROS2 and self.ros2_default is not None:
+        if ros_version == _ROS2 and self.ros2_default is not None:
             return self.ros2_default
         return self.default
 
@@ -115,7 +115,7 @@ def _pattern(key: str, branches: bool) -> re.Pattern[str]:
     return re.compile(re.sub(r"<\w+>", r"[^.]+", re.escape(key)) + below)
 
 
-def _is_written_in(name: str, generation: int) -> bool:
-    if generation == _ROS2:
+def _is_written_in(name: str, ros_version: int) -> bool:
+    if ros_version == _ROS2:
         return name == name.lower()
     return "_" not in name

@@ -32,7 +32,7 @@ class ParameterReader:
         source: what was given.
         owner: whose they are, for messages.
         diagnostics: receives what is wrong, where it is read.
-        generation: of ROS; spellings and defaults of the other do not count. 0 for both.
+        ros_version: of ROS; spellings and defaults of the other do not count. 0 for both.
     """
 
     def __init__(
@@ -42,9 +42,9 @@ class ParameterReader:
         owner: ParameterOwner,
         diagnostics: Diagnostics,
         *,
-        generation: int = 0,
+        ros_version: int = 0,
     ) -> None:
-        self.generation = generation
+        self.ros_version = ros_version
         self.table = table
         self.source = source
         self.owner = owner
@@ -236,8 +236,8 @@ class ParameterReader:
                     self._report_idle(name, value, row.meaning)
             elif row is None and value != {}:
                 self._report_unknown(name, others)
-            elif row is not None and self.generation not in (0, *row.generations):
-                self._report_idle(name, value, f"it is one of ROS {row.generations[0]}")
+            elif row is not None and self.ros_version not in (0, *row.ros_versions):
+                self._report_idle(name, value, f"it is one of ROS {row.ros_versions[0]}")
 
     def _report_unknown(self, name: str, others: tuple[str, ...]) -> None:
         known = (*self.table.keys(), *others)
@@ -253,7 +253,7 @@ class ParameterReader:
         """Return the names under which a parameter may have been given."""
         # A key of a pattern's row (gains.joint_1.p) has no aliases of its own.
         row = self.table.exact_row(key)
-        return (key,) if row is None else row.spellings(self.generation)
+        return (key,) if row is None else row.spellings(self.ros_version)
 
     def default(self, key: str, default: Any, otherwise: Any) -> Any:
         """Return the value of an absent parameter.
@@ -272,7 +272,7 @@ class ParameterReader:
         # The table of a user's own class is empty: what there is, it alone knows.
         if row is None and self.table.rows:
             raise KeyError(f"{self.table.family} has no parameter {key}")
-        found = None if row is None else row.default_in(self.generation)
+        found = None if row is None else row.default_in(self.ros_version)
         return otherwise if found is None else found
 
     def _given(self, key: str) -> Any:

@@ -21,7 +21,7 @@ class Topic:
         kind: what is done with it.
         rate: how often, in words.
         frame: ``header.frame_id``, in words; empty for none.
-        generations: those of ROS that have it.
+        ros_versions: those of ROS that have it.
         ros2: the name in ROS 2, where that is another.
     """
 
@@ -30,5 +30,5 @@ class Topic:
     kind: TopicKind = "publishes"
     rate: str = ""
     frame: str = ""
-    generations: tuple[int, ...] = (1, 2)
+    ros_versions: tuple[int, ...] = (1, 2)
     ros2: str = ""

@@ -30,7 +30,7 @@ def make_ports(
     resources: Resources,
     namespace: str,
     controller_name: str,
-    generation: int,
+    ros_version: int,
     remappings: Remappings = (),
 ) -> ControllerPorts:
     """Open the ports of one controller.
@@ -40,10 +40,10 @@ def make_ports(
         resources: of the model; they close the ports, if the manager did not before.
         namespace: of the controller manager.
         controller_name: relative to it.
-        generation: 1 or 2.
+        ros_version: 1 or 2.
         remappings: rules of ROS 2's ``<ros>`` block, names as written and what to use instead.
     """
-    ports = ControllerPorts(host, namespace, controller_name, generation, remappings)
+    ports = ControllerPorts(host, namespace, controller_name, ros_version, remappings)
     resources.on_close(ports.close)
     return ports
 
@@ -59,10 +59,10 @@ def offer_manager(
     """Offer a manager's services, and let it be found by programs of this process."""
     from gazelle.control.controller_manager.services import offer_ros1, offer_ros2
 
-    generation = manager.robot.generation
-    ports = make_ports(host, resources, manager.namespace, name, generation, remappings)
+    ros_version = manager.robot.ros_version
+    ports = make_ports(host, resources, manager.namespace, name, ros_version, remappings)
     with host.node.announced_together():
-        if generation == 1:
+        if ros_version == 1:
             offer_ros1(manager, ports)
         else:
             offer_ros2(manager, ports)
@@ -81,14 +81,14 @@ class ControllerPorts:
     """The `OwnedPorts` of one controller, closed when it is unloaded."""
 
     def __init__(
-        self, host: Host, namespace: str, name: str, generation: int, remappings: Remappings
+        self, host: Host, namespace: str, name: str, ros_version: int, remappings: Remappings
     ) -> None:
         self._host = host
         self._resources = Resources(host)
         self._namespace = join_names("/", namespace)
         self._name = name
         self._node_name = join_names(self._namespace, name)
-        self._generation = generation
+        self._ros_version = ros_version
         self._remappings = [(self._resolve(a), self._resolve(b)) for a, b in remappings]
         self._groups: dict[str, _LiveGroup] = {}
 
@@ -125,7 +125,7 @@ class ControllerPorts:
 
     def service(self, name: str, type_name: str, handler: Callable[[Any, Any], None]) -> None:
         """Answer a service; a ROS 1 manager's have ROS 1's layout."""
-        if self._generation != 1 or type_name.partition("/")[0] not in _OWN_LAYOUT:
+        if self._ros_version != 1 or type_name.partition("/")[0] not in _OWN_LAYOUT:
             self._resources.service(self._full(name), type_name, handler)
             return
         from gazelle.interfaces import ros1_service_type
@@ -156,12 +156,12 @@ class ControllerPorts:
             type_name,
             on_goal=on_goal,
             on_cancel=on_cancel,
-            generation=1 if self._generation == 1 else 2,
+            ros_version=1 if self._ros_version == 1 else 2,
             run=host.commands.post,
             timing=ActionTiming(now_ns=lambda: host.engine.time_ns, status_hz=_STATUS_HZ),
         )
         actions[server.name] = server
-        if self._generation == 1:
+        if self._ros_version == 1:
             period: Fraction = period_in_steps(_STATUS_HZ, host.engine.step_ns)
             self._resources.task(f"{server.name} status", period, server.tick, order=ORDER_CONTROL)
 
@@ -179,7 +179,7 @@ class ControllerPorts:
         on_change: Callable[[dict[str, Any]], None],
     ) -> LivePort:
         """Let others change parameters: dynamic_reconfigure, or parameters of the node."""
-        if self._generation == 1:
+        if self._ros_version == 1:
             return self._reconfigure(group, parameters, on_change)
         made = _LiveGroup(group, {row.name: row.value for row in parameters}, on_change)
         self._groups[group] = made
@@ -193,7 +193,7 @@ class ControllerPorts:
         self, values: Mapping[str, Any], on_set: Callable[[dict[str, Any]], str]
     ) -> None:
         """Show parameters as those of a ROS 2 node; ROS 1 has its parameter store."""
-        if self._generation == 1:
+        if self._ros_version == 1:
             return
         groups = self._groups
 

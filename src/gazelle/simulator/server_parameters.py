@@ -59,7 +59,7 @@ PARAMETERS = ParameterTable(
             "how often `/clock` is told; each step when absent",
             "Hz",
             low=0.0,
-            generations=(2,),
+            ros_versions=(2,),
         ),
         Parameter(
             ROS1_CLOCK_RATE,
@@ -68,7 +68,7 @@ PARAMETERS = ParameterTable(
             "how often `/clock` is told; 0 for each step",
             "Hz",
             low=0.0,
-            generations=(1,),
+            ros_versions=(1,),
         ),
         *(
             Parameter(
@@ -78,7 +78,7 @@ PARAMETERS = ParameterTable(
                 f"{meaning}; the world's when absent",
                 unit,
                 live=True,
-                generations=(1,),
+                ros_versions=(1,),
             )
             for name, meaning, unit in _ACTING
         ),
@@ -89,7 +89,7 @@ PARAMETERS = ParameterTable(
                 None,
                 "a word of ODE: kept and returned, MuJoCo does the physics",
                 live=True,
-                generations=(1,),
+                ros_versions=(1,),
             )
             for name in _OF_ODE
         ),
@@ -130,7 +130,7 @@ def read_server_parameters(
     values = nested({**stored, **source.manager_tree(), **arguments.params})
     tree = TreeSource(values, place=lambda key: source.place(name, key))
     owner = ParameterOwner(node.name, managed=frozenset({"use_sim_time", "qos_overrides"}))
-    return ParameterReader(PARAMETERS, tree, owner, diagnostics, generation=ros_version)
+    return ParameterReader(PARAMETERS, tree, owner, diagnostics, ros_version=ros_version)
 
 
 def report_unread(own: ParameterReader) -> None:

@@ -45,7 +45,7 @@ class Package:
     is_builtin: bool = False
 
     @property
-    def ros_generation(self) -> int | None:
+    def ros_version(self) -> int | None:
         """1 for catkin and rosbuild packages, 2 for ament ones, None for others."""
         if self.build_type in {"catkin", "rosbuild"}:
             return 1
@@ -69,7 +69,7 @@ class Package:
         """
         if self.prefix is not None or self.is_builtin:
             return self.path
-        return share_folder(self.path, self.name, has_devel_space=self.ros_generation == 1)
+        return share_folder(self.path, self.name, has_devel_space=self.ros_version == 1)
 
     def find_file(self, relative: str) -> Path | None:
         """Return a file or folder of the package by its path inside, None when absent."""

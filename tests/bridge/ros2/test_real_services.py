@@ -16,7 +16,7 @@ from gazelle.graph import Graph
 from gazelle.graph.actions import ActionClient, ActionServer
 from gazelle.graph.node_parameters import NodeParameters
 from gazelle.graph.parameter_values import value_message
-from gazelle.interfaces import Generation, add_package, message_type, service_type
+from gazelle.interfaces import RosVersion, add_package, message_type, service_type
 
 skip_module_without_rclpy()
 pytestmark = pytest.mark.reference
@@ -49,7 +49,7 @@ def fibonacci(ros2_python: str) -> str:
     share = Path(ros2_python).parents[1] / "share" / "test_msgs"
     if not share.is_dir():
         pytest.skip("test_msgs is not installed beside rclpy")
-    add_package("test_msgs", share, Generation.ROS2)
+    add_package("test_msgs", share, RosVersion.ROS2)
     return "test_msgs/action/Fibonacci"
 
 
@@ -177,7 +177,7 @@ def test_action_of_the_graph_serves_rclpy(ros2: Ros2, graph: Graph, fibonacci: s
     node = graph.create_node("counter_server")
     ActionServer(
         node, "/fibonacci", fibonacci, on_goal=on_goal, on_cancel=lambda goal: goal.cancel(),
-        generation=2,
+        ros_version=2,
     )  # fmt: skip
     program = ros2(ACTION_CLIENT)
     program.wait_for("status 5")
@@ -191,7 +191,7 @@ def test_action_of_rclpy_serves_the_graph(
     ros2: Ros2, graph: Graph, fibonacci: str, inbox: Any
 ) -> None:
     ros2(ACTION_SERVER)
-    client = ActionClient(graph.create_node("counter"), "/fibonacci", fibonacci, generation=2)
+    client = ActionClient(graph.create_node("counter"), "/fibonacci", fibonacci, ros_version=2)
     assert client.wait_for_server(stretched(20))
     goal = client.send_goal({"order": 3}, on_feedback=lambda one: inbox(list(one.sequence)))
     assert goal.wait(stretched(20))

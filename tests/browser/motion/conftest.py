@@ -67,7 +67,7 @@ def requests(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 def open_desk(
     bench: Any, look: Any, requests: list[Any], tmp_path: Path
 ) -> Iterator[Callable[..., MotionDesk]]:
-    """Starts move_group and opens the page; ``generation=1`` is ROS 1's."""
+    """Starts move_group and opens the page; ``ros_version=1`` is ROS 1's."""
     transform = {
         "header": {"frame_id": "map"},
         "child_frame_id": "base_link",
@@ -77,12 +77,12 @@ def open_desk(
     made: list[ArmBench] = []
 
     def start(
-        *, generation: int = 2, theme: str = "dark", end: Any = None, **changes: Any
+        *, ros_version: int = 2, theme: str = "dark", end: Any = None, **changes: Any
     ) -> MotionDesk:
         bench.keep_publishing(
             "/tf", "tf2_msgs/msg/TFMessage", lambda _: {"transforms": [transform]}, hz=10
         )
-        arm = ArmBench(nodes, generation, tmp_path)
+        arm = ArmBench(nodes, ros_version, tmp_path)
         made.append(arm)
         arm.robot.follow("arm_controller", end)
         arm.start(**changes)

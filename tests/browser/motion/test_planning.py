@@ -167,7 +167,7 @@ def test_tip_goes_straight_or_as_near_as_it_gets(desk: Any) -> None:
 
 
 def test_move_group_of_ros_1(open_desk: Callable[..., Any]) -> None:
-    desk = open_desk(generation=1, theme="light")
+    desk = open_desk(ros_version=1, theme="light")
     ui = desk.ui
     ui.choose("Goal state", "up")
     ui.choose("Planner", "ompl/RRTConnect")

@@ -93,7 +93,7 @@ class _Robot:
 
         wire: Any = 2 if kind.startswith("nav2_msgs") else 1
         ActionServer(
-            self.bench.node, name, kind, on_goal=on_goal, on_cancel=on_cancel, generation=wire
+            self.bench.node, name, kind, on_goal=on_goal, on_cancel=on_cancel, ros_version=wire
         )
 
 

@@ -38,7 +38,7 @@ def server(robot: Node, request: pytest.FixtureRequest) -> Iterator[ActionServer
         "actionlib_tutorials/Fibonacci" if request.param == 1 else KIND,
         on_goal=_on_goal,
         on_cancel=_on_cancel,
-        generation=request.param,
+        ros_version=request.param,
     )
     yield one
     one.close()
@@ -94,7 +94,7 @@ def test_send_goal_shows_long_texts_in_one_line(robot: Node, ros2_action: Any) -
         goal.abort({"error_code": -4, "error_string": reason})
 
     kind = "control_msgs/action/FollowJointTrajectory"
-    one = ActionServer(robot, "follow", kind, on_goal=abort, generation=2)
+    one = ActionServer(robot, "follow", kind, on_goal=abort, ros_version=2)
     _, text, _ = ros2_action("send_goal", "follow", kind, "{}")
     one.close()
     assert f"Result:\n    error_code: -4\nerror_string: {reason}\n" in text

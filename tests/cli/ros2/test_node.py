@@ -21,7 +21,7 @@ def server(robot: Node) -> Iterator[ActionServer]:
         _FIBONACCI,
         on_goal=lambda goal: goal.reject(),
         on_cancel=lambda _: False,
-        generation=2,
+        ros_version=2,
     )
     yield one
     one.close()

@@ -70,7 +70,7 @@ def make_bench(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Bench]:
     monkeypatch.setattr(registry, "_by_type", lambda: types)
 
     def make(
-        generation: int = 1,
+        ros_version: int = 1,
         controllers: Mapping[str, Mapping[str, Any]] | None = None,
         *,
         rate_hz: float = 1000.0,
@@ -79,7 +79,7 @@ def make_bench(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Bench]:
         store, diagnostics = LocalParameters(), Diagnostics()
         for name, values in (controllers or {}).items():
             store.set(f"/mira/{name}", {"type": RECORDER, **values})
-        robot, hardware = fake_robot(generation)
+        robot, hardware = fake_robot(ros_version)
         ports: dict[str, FakePorts] = {}
 
         def make_ports(name: str) -> Any:

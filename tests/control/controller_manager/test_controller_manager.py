@@ -208,7 +208,7 @@ def test_unload_all_wants_force_while_anything_is_loaded(make_bench):
 
 
 @pytest.mark.parametrize(
-    ("generation", "phrase"),
+    ("ros_version", "phrase"),
     [
         (
             1,
@@ -219,21 +219,21 @@ def test_unload_all_wants_force_while_anything_is_loaded(make_bench):
         (2, r"The 'type' param was not defined for 'rool'; did you mean .*roll"),
     ],
 )
-def test_a_controller_without_type_names_the_nearest(make_bench, generation, phrase):
-    bench = make_bench(generation, {"roll": LEFT})
+def test_a_controller_without_type_names_the_nearest(make_bench, ros_version, phrase):
+    bench = make_bench(ros_version, {"roll": LEFT})
     with pytest.raises(ControllerError, match=phrase):
         bench.manager.load("rool")
 
 
 @pytest.mark.parametrize(
-    ("generation", "phrase"),
+    ("ros_version", "phrase"),
     [
         (1, r"Could not load class 'test_controllers/Recoder': Could not load controller 'a'"),
         (2, r"Loader for controller 'a' \(type 'test_controllers/Recoder'\) not found"),
     ],
 )
-def test_an_unknown_type_names_the_nearest(make_bench, generation, phrase):
-    bench = make_bench(generation, {"a": LEFT})
+def test_an_unknown_type_names_the_nearest(make_bench, ros_version, phrase):
+    bench = make_bench(ros_version, {"a": LEFT})
     with pytest.raises(ControllerError, match=phrase + ".*test_controllers/Recorder"):
         bench.manager.load("a", "test_controllers/Recoder")
 

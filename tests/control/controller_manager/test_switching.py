@@ -9,8 +9,8 @@ from gazelle.control.errors import ControllerError
 LEFT = {"joint": "left"}
 
 
-def _loaded(make_bench, generation, controllers):
-    bench = make_bench(generation, controllers)
+def _loaded(make_bench, ros_version, controllers):
+    bench = make_bench(ros_version, controllers)
     for name in controllers:
         bench.manager.load(name)
         bench.manager.configure(name)
@@ -61,7 +61,7 @@ def test_an_interface_is_free_when_its_owner_stops_in_the_same_switch(make_bench
 
 
 @pytest.mark.parametrize(
-    ("generation", "start", "stop", "phrase"),
+    ("ros_version", "start", "stop", "phrase"),
     [
         (1, ["x"], [], "Could not start controller with name 'x' because no controller with this"),
         (1, [], ["x"], "Could not stop controller with name 'x' because no controller with this"),
@@ -71,9 +71,9 @@ def test_an_interface_is_free_when_its_owner_stops_in_the_same_switch(make_bench
     ],
 )
 def test_a_strict_switch_names_what_is_wrong_and_best_effort_goes_on(
-    make_bench, generation, start, stop, phrase
+    make_bench, ros_version, start, stop, phrase
 ):
-    bench = _loaded(make_bench, generation, {"a": LEFT, "b": {"joint": "right"}})
+    bench = _loaded(make_bench, ros_version, {"a": LEFT, "b": {"joint": "right"}})
     with pytest.raises(ControllerError, match=phrase):
         bench.manager.switch([*start, "b"], stop)
     assert not bench.manager.controllers["b"].is_active
@@ -97,11 +97,11 @@ def test_an_unconfigured_controller_cannot_be_activated(make_bench):
 
 
 @pytest.mark.parametrize(
-    ("generation", "phrase"),
+    ("ros_version", "phrase"),
     [(1, "combination for the requested controllers is unfeasible"), (2, "mode switch was reject")],
 )
-def test_the_hardware_can_refuse_a_switch(make_bench, generation, phrase):
-    bench = _loaded(make_bench, generation, {"a": LEFT})
+def test_the_hardware_can_refuse_a_switch(make_bench, ros_version, phrase):
+    bench = _loaded(make_bench, ros_version, {"a": LEFT})
     bench.hardware.refusal = "left can do one thing at a time"
     with pytest.raises(ControllerError, match=f"{phrase}.*one thing at a time"):
         bench.manager.switch(start=["a"])

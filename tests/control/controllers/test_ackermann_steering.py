@@ -51,7 +51,7 @@ JOINTS = [*rolling("rr", "rl"), *steered("fr", "fl")]
 
 def _bench(parameters=None, *, base=NEW):
     return WheeledBench(
-        AckermannSteeringController, JOINTS, {**base, **(parameters or {})}, generation=2
+        AckermannSteeringController, JOINTS, {**base, **(parameters or {})}, ros_version=2
     )
 
 
@@ -79,7 +79,7 @@ def test_circle_has_the_radius_of_speed_by_yaw_rate(base):
 def test_rear_steering_drives_the_front_wheels():
     parameters = {**OLD, "front_steering": False, "front_wheels_radius": 0.5}
     joints = [*rolling("fr", "fl"), *steered("rr", "rl")]
-    bench = WheeledBench(AckermannSteeringController, joints, parameters, generation=2)
+    bench = WheeledBench(AckermannSteeringController, joints, parameters, ros_version=2)
     assert bench.controller.commands == ("fr/velocity", "fl/velocity", "rr/position", "rl/position")
     _drive(bench, 0.1, 1.0, 0.0)
     assert bench.commands[-1] == pytest.approx([2.0, 2.0, 0.0, 0.0])

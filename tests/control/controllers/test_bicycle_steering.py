@@ -28,7 +28,7 @@ OLD = {
 @pytest.mark.parametrize("parameters", [NEW, OLD])
 def test_twist_becomes_wheel_speed_and_steering_angle(parameters):
     joints = [*rolling("rear"), *steered("front")]
-    bench = WheeledBench(BicycleSteeringController, joints, parameters, generation=2)
+    bench = WheeledBench(BicycleSteeringController, joints, parameters, ros_version=2)
     bench.run(2.0, "~/reference", twist(0.6, z=0.2))
     assert bench.commands[-1] == pytest.approx([2.0, math.atan(0.2 * 1.5 / 0.6)])
     message = bench.last("~/odometry")
@@ -40,7 +40,7 @@ def test_twist_becomes_wheel_speed_and_steering_angle(parameters):
 def test_state_joints_may_be_others_than_the_driven_ones():
     joints = [*rolling("rear", "encoder"), *steered("front")]
     parameters = {**NEW, "traction_joints_state_names": ["encoder"]}
-    bench = WheeledBench(BicycleSteeringController, joints, parameters, generation=2)
+    bench = WheeledBench(BicycleSteeringController, joints, parameters, ros_version=2)
     bench.run(0.1, "~/reference", twist(0.6))
     assert bench.controller.states == ("encoder/velocity", "front/position")
     assert bench.last("~/odometry").twist.twist.linear.x == 0.0
@@ -50,4 +50,4 @@ def test_two_driven_joints_are_too_many():
     joints = [*rolling("rear", "other"), *steered("front")]
     parameters = {**NEW, "traction_joints_names": ["rear", "other"]}
     with pytest.raises(ControllerError, match="Bicycle configuration requires exactly 1"):
-        WheeledBench(BicycleSteeringController, joints, parameters, generation=2)
+        WheeledBench(BicycleSteeringController, joints, parameters, ros_version=2)

@@ -179,19 +179,19 @@ def test_flag_without_a_limit_stops_a_ros1_robot_and_is_reported():
 def test_limit_of_nothing_that_nobody_switched_on_is_left_out():
     """Up to Humble it had no effect; from Jazzy on the robot would stand still."""
     limits = {"max_velocity": 0.5, "max_jerk": 0.0, "min_jerk": 0.0}
-    bench = _bench({"linear.x": limits}, base=ROS2, generation=2)
+    bench = _bench({"linear.x": limits}, base=ROS2, ros_version=2)
     bench.run(0.1, "~/cmd_vel", twist(1.0))
     assert _speeds(bench)[0].max() == pytest.approx(0.5)
     (found,) = bench.diagnostics.by_code("control.limit-of-nothing")
     assert "linear.x.max_jerk is 0 without linear.x.has_jerk_limits" in found.message
-    bench = _bench({"linear.x": limits | {"has_jerk_limits": True}}, base=ROS2, generation=2)
+    bench = _bench({"linear.x": limits | {"has_jerk_limits": True}}, base=ROS2, ros_version=2)
     bench.run(0.1, "~/cmd_vel", twist(1.0))
     assert _speeds(bench)[0].max() == 0.0
 
 
 def test_ros2_limits_act_when_they_are_given():
     limits = {"max_velocity": 0.5, "max_acceleration": 1.0, "max_deceleration": -2.0}
-    bench = _bench({"linear.x": limits}, base=ROS2, generation=2)
+    bench = _bench({"linear.x": limits}, base=ROS2, ros_version=2)
     bench.run(1.0, "~/cmd_vel", twist(1.0))
     bench.run(1.0, "~/cmd_vel", twist(0.0))
     linear, _ = _speeds(bench)
@@ -202,14 +202,14 @@ def test_ros2_limits_act_when_they_are_given():
 
 @pytest.mark.parametrize("off", [{"max_velocity": math.nan}, {"has_velocity_limits": False}])
 def test_ros2_limits_are_off_for_nan_and_for_false(off):
-    bench = _bench({"linear.x": {"max_velocity": 0.5, **off}}, base=ROS2, generation=2)
+    bench = _bench({"linear.x": {"max_velocity": 0.5, **off}}, base=ROS2, ros_version=2)
     bench.run(0.1, "~/cmd_vel", twist(1.0))
     assert _speeds(bench)[0].max() == pytest.approx(1.0)
 
 
 def test_limits_that_contradict_each_other_are_an_error():
     with pytest.raises(ControllerError, match=r"linear\.x\.min_velocity 1 is above max_velocity"):
-        _bench({"linear.x": {"max_velocity": 0.5, "min_velocity": 1.0}}, base=ROS2, generation=2)
+        _bench({"linear.x": {"max_velocity": 0.5, "min_velocity": 1.0}}, base=ROS2, ros_version=2)
 
 
 def test_command_times_out_and_the_limits_bound_the_braking():
@@ -225,18 +225,18 @@ def test_command_times_out_and_the_limits_bound_the_braking():
 
 
 def test_ros2_timeout_of_zero_keeps_the_command():
-    bench = _bench({"cmd_vel_timeout": 0.0}, base=ROS2, generation=2)
+    bench = _bench({"cmd_vel_timeout": 0.0}, base=ROS2, ros_version=2)
     bench.run(0.001, "~/cmd_vel", twist(0.3))
     bench.run(5.0)
     assert _speeds(bench)[0][-1] == pytest.approx(0.3)
 
 
 @pytest.mark.parametrize(
-    ("generation", "topic"), [(1, "~/cmd_vel"), (2, "~/cmd_vel"), (2, "~/cmd_vel_unstamped")]
+    ("ros_version", "topic"), [(1, "~/cmd_vel"), (2, "~/cmd_vel"), (2, "~/cmd_vel_unstamped")]
 )
-def test_twist_and_twist_stamped_drive_alike(generation, topic):
-    base = ROS1 if generation == 1 else ROS2
-    plain, other = (_bench(base=base, generation=generation) for _ in range(2))
+def test_twist_and_twist_stamped_drive_alike(ros_version, topic):
+    base = ROS1 if ros_version == 1 else ROS2
+    plain, other = (_bench(base=base, ros_version=ros_version) for _ in range(2))
     plain.run(0.1, topic, twist(0.3, z=0.1))
     other.run(0.1, topic, stamped(0, 0.3, z=0.1))
     assert plain.commands == other.commands
@@ -245,12 +245,12 @@ def test_twist_and_twist_stamped_drive_alike(generation, topic):
 
 def test_type_of_the_original_is_announced():
     assert _bench().ports.subscriptions["~/cmd_vel"][0][0] == "geometry_msgs/Twist"
-    ros2 = _bench(base=ROS2, generation=2)
+    ros2 = _bench(base=ROS2, ros_version=2)
     assert ros2.ports.subscriptions["~/cmd_vel"][0][0] == "geometry_msgs/TwistStamped"
 
 
 def test_stamp_tells_the_age_of_a_ros2_command():
-    bench = _bench(base=ROS2, generation=2)
+    bench = _bench(base=ROS2, ros_version=2)
     bench.run(1.0)
     bench.run(0.001, "~/cmd_vel", stamped(bench.time_ns - 400 * MS, 0.3))
     bench.run(0.099)
@@ -260,7 +260,7 @@ def test_stamp_tells_the_age_of_a_ros2_command():
 
 
 def test_stamps_of_another_clock_are_said_once():
-    bench = _bench(base=ROS2, generation=2)
+    bench = _bench(base=ROS2, ros_version=2)
     bench.run(1.0)
     bench.run(0.01, "~/cmd_vel", stamped(100 * MS, 0.3))
     assert _speeds(bench)[0][-1] == 0.0
@@ -338,7 +338,7 @@ def test_multipliers_rate_and_tf_change_live_in_ros1():
 
 
 def test_ros2_parameters_change_live_and_bad_ones_are_refused():
-    bench = _bench(base=ROS2, generation=2)
+    bench = _bench(base=ROS2, ros_version=2)
     assert bench.controller.changed({"left_wheel_radius_multiplier": 0.0}) == (
         "left_wheel_radius_multiplier must be above 0"
     )
@@ -358,8 +358,8 @@ def test_open_loop_odometry_follows_the_limited_command():
 
 
 def test_velocity_feedback_gives_the_same_odometry_as_positions():
-    positions = _bench(base=ROS2, generation=2)
-    velocities = _bench({"position_feedback": False}, base=ROS2, generation=2)
+    positions = _bench(base=ROS2, ros_version=2)
+    velocities = _bench({"position_feedback": False}, base=ROS2, ros_version=2)
     for bench in (positions, velocities):
         bench.run(1.0, "~/cmd_vel", twist(0.5, z=0.4))
     assert velocities.controller.states == ("left/velocity", "right/velocity")
@@ -386,7 +386,7 @@ def test_wheel_state_has_the_desired_and_the_true_motion():
 
 
 def test_set_odometry_moves_the_pose_while_active():
-    bench = _bench(base=ROS2, generation=2)
+    bench = _bench(base=ROS2, ros_version=2)
     service = service_type("control_msgs/SetOdometry")
     request = service.Request(x=1.0, y=2.0, yaw=0.0)
     assert bench.ports.call("~/set_odometry", request, service.Response()).success
@@ -452,7 +452,7 @@ def test_missing_measures_come_from_the_description():
 
 def test_ros2_without_measures_is_told_that_ros_would_refuse():
     base = {key: value for key, value in ROS2.items() if key not in SIZES}
-    bench = _bench(base=base, generation=2, model=_model())
+    bench = _bench(base=base, ros_version=2, model=_model())
     assert [item.code for item in bench.diagnostics] == ["control.wheel-measure"] * 2
     assert "Real ROS 2 would refuse" in next(iter(bench.diagnostics)).message
 
@@ -476,7 +476,7 @@ def test_exchanged_sides_are_reported():
 def test_missing_covariances_are_zeros_and_said_in_ros1():
     bench = _bench(base={**SIDES, **SIZES})
     assert [item.code for item in bench.diagnostics] == ["control.no-covariance"] * 2
-    assert not list(_bench(base=ROS2, generation=2).diagnostics)
+    assert not list(_bench(base=ROS2, ros_version=2).diagnostics)
 
 
 @pytest.mark.parametrize(
@@ -509,7 +509,7 @@ def test_missing_wheels_say_which_key_is_near():
     ],
 )
 def test_frames_are_prefixed_as_ros2_does(parameters, expected):
-    robot, _ = make_robot(rolling("left", "right"), generation=2)
+    robot, _ = make_robot(rolling("left", "right"), ros_version=2)
     tree = {**ROS2, **parameters}
     table = DiffDriveController.TABLE.parameters
     _, ports = make_controller(DiffDriveController, robot, tree)

@@ -199,11 +199,11 @@ POSE_VALUES = {f"pose.position.{axis}": k for axis, k in zip("xyz", (1.0, 2.0, 3
 POSE_VALUES |= {"pose.orientation.z": HALF, "pose.orientation.w": HALF}
 
 
-def _sensing(type_name: str, generation: int, topic: str, values: Any, **parameters: Any) -> Any:
+def _sensing(type_name: str, ros_version: int, topic: str, values: Any, **parameters: Any) -> Any:
     # ROS 1 publishes where the sensor is; ROS 2 in the frame it is told, at every update.
     frame = parameters.get("frame_id", FRAMES.get(topic, ""))
     about = (topic, parameters.get("publish_rate", 1000), frame, values)
-    return Scenario(type_name, sensor, parameters, (), generation, about, SENSORS, FRAMES)
+    return Scenario(type_name, sensor, parameters, (), ros_version, about, SENSORS, FRAMES)
 
 
 ROWS = (
@@ -223,11 +223,11 @@ ROWS = (
             array,
             {"joints": ["c", "a"]},
             ABC,
-            generation,
-            ("~/command" if generation == 1 else "~/commands", word),
+            ros_version,
+            ("~/command" if ros_version == 1 else "~/commands", word),
         )
         for word in ("effort", "velocity", "position")
-        for generation in (1, 2)
+        for ros_version in (1, 2)
     ),
     Scenario(
         "forward_command_controller/ForwardCommandController",
@@ -355,11 +355,11 @@ ROWS = (
             gripper,
             {"joint": "finger", "goal_tolerance": 0.002, **gains},
             FINGER,
-            generation,
+            ros_version,
             (gripper_command, 0.002),
         )
         for word, gains in (("position", {}), ("effort", FINGER_GAINS))
-        for generation in (1, 2)
+        for ros_version in (1, 2)
     ),
     Scenario(
         "parallel_gripper_action_controller/GripperActionController",
@@ -409,7 +409,7 @@ def test_every_type_says_the_nearest_name_of_a_wrong_joint_or_sensor(scenario: S
     )
     assert found is not None
     assert found[1] == found[2]
-    if scenario.generation == 1:
+    if scenario.ros_version == 1:
         assert f"(Could not find resource '{found[1]}x')" in str(caught.value)
 
 

@@ -24,11 +24,13 @@ class Bench:
         interface: str,
         parameters: dict[str, Any] | None = None,
         *,
-        generation: int = 1,
+        ros_version: int = 1,
         start: bool = True,
         **joint: Any,
     ) -> None:
-        self.robot, self.plant = make_robot([PlantJoint("finger", **joint)], generation=generation)
+        self.robot, self.plant = make_robot(
+            [PlantJoint("finger", **joint)], ros_version=ros_version
+        )
         self.controller, self.ports = make_controller(
             GripperActionController,
             self.robot,
@@ -56,9 +58,9 @@ class Bench:
         return float(self.robot.bank.commands[place])
 
 
-@pytest.mark.parametrize("generation", [1, 2])
-def test_positions_are_commanded_and_reached(generation: int) -> None:
-    bench = Bench("position", generation=generation, position=0.2)
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_positions_are_commanded_and_reached(ros_version: int) -> None:
+    bench = Bench("position", ros_version=ros_version, position=0.2)
     bench.run(5)
     assert bench.command == 0.2
     sent = bench.send(0.5)
@@ -70,9 +72,9 @@ def test_positions_are_commanded_and_reached(generation: int) -> None:
     assert sent.result == expected
 
 
-@pytest.mark.parametrize("generation", [1, 2])
-def test_effort_is_the_pids_within_the_goals_bound(generation: int) -> None:
-    bench = Bench("effort", GAINS, generation=generation)
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_effort_is_the_pids_within_the_goals_bound(ros_version: int) -> None:
+    bench = Bench("effort", GAINS, ros_version=ros_version)
     bench.send(0.01, max_effort=100.0)
     bench.run(1)
     assert bench.command == pytest.approx(400 * 0.01)
@@ -90,12 +92,12 @@ def test_effort_reaches_the_goal() -> None:
 
 
 @pytest.mark.parametrize(
-    ("generation", "allow", "state"),
+    ("ros_version", "allow", "state"),
     [(1, False, "aborted"), (1, True, "aborted"), (2, False, "aborted"), (2, True, "succeeded")],
 )
-def test_standing_for_stall_timeout_is_stalling(generation: int, allow: bool, state: str) -> None:
+def test_standing_for_stall_timeout_is_stalling(ros_version: int, allow: bool, state: str) -> None:
     parameters = GAINS | {"allow_stalling": allow, "stall_timeout": 0.5}
-    bench = Bench("effort", parameters, generation=generation, inertia=1e9)
+    bench = Bench("effort", parameters, ros_version=ros_version, inertia=1e9)
     sent = bench.send(1.0)
     bench.run(501)
     assert sent.state == "active"
@@ -125,9 +127,9 @@ def test_cancelling_holds_with_the_default_effort() -> None:
     assert bench.plant.position[0] == pytest.approx(held, abs=0.01)
 
 
-@pytest.mark.parametrize(("generation", "state"), [(1, "canceled"), (2, "aborted")])
-def test_a_new_goal_replaces_the_running_one(generation: int, state: str) -> None:
-    bench = Bench("effort", GAINS, generation=generation)
+@pytest.mark.parametrize(("ros_version", "state"), [(1, "canceled"), (2, "aborted")])
+def test_a_new_goal_replaces_the_running_one(ros_version: int, state: str) -> None:
+    bench = Bench("effort", GAINS, ros_version=ros_version)
     first = bench.send(1.0)
     bench.run(10)
     second = bench.send(0.5)

@@ -24,7 +24,7 @@ class Bench:
 
     def __init__(self, parameters: dict[str, Any] | None = None, *, jammed: bool = False) -> None:
         joint = PlantJoint("finger", commands=("position", "max_velocity", "max_effort"))
-        self.robot, self.plant = make_robot([joint], generation=2)
+        self.robot, self.plant = make_robot([joint], ros_version=2)
         self.diagnostics = Diagnostics()
         self.controller, self.ports = make_controller(
             ParallelGripperActionController,

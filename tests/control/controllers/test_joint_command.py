@@ -67,7 +67,7 @@ def test_ros1_group_begins_at_rest_and_passes_arrays_on(interface: str) -> None:
 
 @pytest.mark.parametrize("interface", ["effort", "velocity", "position"])
 def test_ros2_group_waits_for_a_command_and_stops_with_zeros(interface: str) -> None:
-    robot, _ = make_robot(ROWS, generation=2)
+    robot, _ = make_robot(ROWS, ros_version=2)
     type_name = f"{interface}_controllers/JointGroup{interface.capitalize()}Controller"
     controller, ports = make_controller(
         JointGroupCommandController, robot, {"joints": ["a", "b"]}, type_name=type_name
@@ -91,7 +91,7 @@ def test_ros2_group_waits_for_a_command_and_stops_with_zeros(interface: str) -> 
 
 
 def test_forward_command_controller_takes_the_interface_it_is_told() -> None:
-    robot, _ = make_robot(ROWS, generation=2)
+    robot, _ = make_robot(ROWS, ros_version=2)
     kind = "forward_command_controller/ForwardCommandController"
     parameters = {"joints": ["a", "b"], "interface_name": "velocity"}
     controller, ports = make_controller(
@@ -110,7 +110,7 @@ def test_forward_command_controller_takes_the_interface_it_is_told() -> None:
 
 
 def test_multi_interface_controller_commands_one_joint_in_several_ways() -> None:
-    robot, _ = make_robot(ROWS, generation=2)
+    robot, _ = make_robot(ROWS, ros_version=2)
     parameters = {"joint": "b", "interface_names": ["position", "velocity"]}
     controller, ports = make_controller(MultiInterfaceCommandController, robot, parameters)
     assert controller.commands == ("b/position", "b/velocity")
@@ -123,7 +123,7 @@ def test_multi_interface_controller_commands_one_joint_in_several_ways() -> None
 
 
 def test_idle_interface_name_is_reported() -> None:
-    robot, _ = make_robot(ROWS, generation=2)
+    robot, _ = make_robot(ROWS, ros_version=2)
     found = Diagnostics()
     parameters = {"joints": ["a"], "interface_name": "velocity"}
     make_controller(

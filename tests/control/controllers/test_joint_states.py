@@ -118,7 +118,7 @@ def test_nothing_is_built_while_nobody_listens() -> None:
 
 
 def test_broadcaster_publishes_everything_at_every_update() -> None:
-    robot, _ = make_robot(ROWS, generation=2, sensors={"imu": {"orientation.x": 0.5}})
+    robot, _ = make_robot(ROWS, ros_version=2, sensors={"imu": {"orientation.x": 0.5}})
     controller, ports = make_controller(JointStateBroadcaster, robot, {"extra_joints": ["e", "a"]})
     controller.start(0)
     run(robot, controller, 3)
@@ -143,7 +143,7 @@ def test_broadcaster_maps_interfaces_and_filters_by_urdf() -> None:
     joints = (Joint("a", JointType.REVOLUTE, "x", "y"),)
     robot, _ = make_robot(
         ROWS,
-        generation=2,
+        ros_version=2,
         sensors={"a2": {"angle": 0.7}, "b2": {"position": 9.0}},
         model=Model("robot", joints=joints),
     )
@@ -160,7 +160,7 @@ def test_broadcaster_maps_interfaces_and_filters_by_urdf() -> None:
 
 
 def test_broadcaster_publishes_chosen_interfaces_of_chosen_joints() -> None:
-    robot, _ = make_robot(ROWS, generation=2)
+    robot, _ = make_robot(ROWS, ros_version=2)
     found = Diagnostics()
     parameters = {
         "joints": ["b", "a"],

@@ -29,7 +29,7 @@ PARAMETERS = {
 
 def _bench(parameters=None):
     values = {**PARAMETERS, **(parameters or {})}
-    return WheeledBench(MecanumDriveController, rolling(*NAMES), values, generation=2)
+    return WheeledBench(MecanumDriveController, rolling(*NAMES), values, ros_version=2)
 
 
 def test_sideways_and_turning_path_is_integrated_exactly():
@@ -99,4 +99,4 @@ def test_stop_stops_the_wheels_and_a_missing_joint_is_named():
     bench.controller.stop(bench.time_ns)
     assert bench.robot.bank.commands.tolist() == [0.0] * 4
     with pytest.raises(ControllerError, match="no 'front_left_wheel_command_joint_name' given"):
-        WheeledBench(MecanumDriveController, rolling(*NAMES), {}, generation=2)
+        WheeledBench(MecanumDriveController, rolling(*NAMES), {}, ros_version=2)

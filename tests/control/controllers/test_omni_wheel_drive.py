@@ -23,7 +23,7 @@ PARAMETERS = {
 
 def _bench(parameters=None):
     values = {**PARAMETERS, **(parameters or {})}
-    return WheeledBench(OmniWheelDriveController, rolling(*NAMES), values, generation=2)
+    return WheeledBench(OmniWheelDriveController, rolling(*NAMES), values, ros_version=2)
 
 
 @pytest.mark.parametrize("feedback", [True, False])

@@ -32,7 +32,7 @@ def _reference(position: float, velocity: float | None = None) -> Any:
 
 
 def test_one_interface_is_a_pid_of_its_error() -> None:
-    robot, plant = make_robot([PlantJoint("a", 0.5)], generation=2)
+    robot, plant = make_robot([PlantJoint("a", 0.5)], ros_version=2)
     controller, ports = _make(robot, ONE, p=40.0, i=3.0, d=4.0, i_clamp_max=1.0, i_clamp_min=-1.0)
     controller.start(0)
     ports.send("~/reference", _reference(1.0))
@@ -51,7 +51,7 @@ def test_one_interface_is_a_pid_of_its_error() -> None:
 
 
 def test_two_interfaces_take_the_rate_as_it_is_measured() -> None:
-    robot, plant = make_robot([PlantJoint("a", velocity=0.5)], generation=2)
+    robot, plant = make_robot([PlantJoint("a", velocity=0.5)], ros_version=2)
     controller, ports = _make(robot, TWO, p=2.0, d=3.0, feedforward_gain=10.0)
     controller.start(0)
     ports.send("~/reference", _reference(1.0, 0.25))
@@ -72,12 +72,12 @@ def test_two_interfaces_take_the_rate_as_it_is_measured() -> None:
 
 
 def test_it_holds_where_it_begins_or_waits() -> None:
-    robot, plant = make_robot([PlantJoint("a", position=0.7)], generation=2)
+    robot, plant = make_robot([PlantJoint("a", position=0.7)], ros_version=2)
     controller, _ = _make(robot, ONE, p=5.0)
     controller.start(0)
     run(robot, controller, 2)
     assert plant.position[0] == 0.7
-    robot, _ = make_robot([PlantJoint("a", position=0.7)], generation=2)
+    robot, _ = make_robot([PlantJoint("a", position=0.7)], ros_version=2)
     waiting = {**ONE, "set_current_state_as_first_setpoint": False}
     controller, ports = _make(robot, waiting, p=5.0)
     controller.start(0)
@@ -89,7 +89,7 @@ def test_it_holds_where_it_begins_or_waits() -> None:
 
 
 def test_wrapped_angles_and_saturated_commands() -> None:
-    robot, plant = make_robot([PlantJoint("a", position=3.0)], generation=2)
+    robot, plant = make_robot([PlantJoint("a", position=3.0)], ros_version=2)
     controller, ports = _make(robot, ONE, p=10.0, angle_wraparound=True, u_clamp_max=2.0)
     controller.start(0)
     ports.send("~/reference", _reference(-3.0))
@@ -102,7 +102,7 @@ def test_wrapped_angles_and_saturated_commands() -> None:
 
 
 def test_states_may_come_from_a_topic() -> None:
-    robot, plant = make_robot([PlantJoint("a")], generation=2)
+    robot, plant = make_robot([PlantJoint("a")], ros_version=2)
     controller, ports = _make(robot, {**ONE, "use_external_measured_states": True}, p=2.0)
     assert controller.states == ()
     controller.start(0)
@@ -115,7 +115,7 @@ def test_states_may_come_from_a_topic() -> None:
 
 
 def test_references_are_sorted_by_name_and_wrong_ones_refused() -> None:
-    robot, _ = make_robot([PlantJoint("a"), PlantJoint("b")], generation=2)
+    robot, _ = make_robot([PlantJoint("a"), PlantJoint("b")], ros_version=2)
     parameters = {**ONE, "dof_names": ["a", "b"], "gains": {"a": {"p": 1.0}, "b": {"p": 1.0}}}
     controller, ports = make_controller(PidController, robot, parameters)
     controller.start(0)
@@ -133,7 +133,7 @@ def test_references_are_sorted_by_name_and_wrong_ones_refused() -> None:
 
 
 def test_gains_change_live_and_integral_is_kept_over_a_restart() -> None:
-    robot, plant = make_robot([PlantJoint("a")], generation=2)
+    robot, plant = make_robot([PlantJoint("a")], ros_version=2)
     controller, ports = _make(robot, ONE, p=0.0, i=2.0, activate_state_publisher=True)
     controller.start(0)
     ports.send("~/reference", _reference(1.0))
@@ -159,6 +159,6 @@ def test_gains_change_live_and_integral_is_kept_over_a_restart() -> None:
     ],
 )
 def test_wrong_parameters_are_refused(changes: dict[str, Any], text: str) -> None:
-    robot, _ = make_robot([PlantJoint("a")], generation=2)
+    robot, _ = make_robot([PlantJoint("a")], ros_version=2)
     with pytest.raises(ControllerError, match=text):
         make_controller(PidController, robot, {**ONE, **changes})

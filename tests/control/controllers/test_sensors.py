@@ -36,10 +36,10 @@ SENSORS = {"imu": IMU, "ft": WRENCH, "eye": {"range": 1.5}, "pose": POSE}
 FRAMES = {"imu": "imu_link", "ft": "wrist"}
 
 
-def _robot(generation: int, **more: dict[str, float]) -> Any:
+def _robot(ros_version: int, **more: dict[str, float]) -> Any:
     robot, _ = make_robot(
         [PlantJoint("a")],
-        generation=generation,
+        ros_version=ros_version,
         sensors={**SENSORS, **more},
         sensor_frames=FRAMES,
     )

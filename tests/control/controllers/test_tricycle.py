@@ -29,7 +29,7 @@ PARAMETERS = {
 def _bench(parameters=None, **options):
     joints = [*rolling("wheel"), *steered("steer")]
     values = {**PARAMETERS, **(parameters or {})}
-    return WheeledBench(TricycleController, joints, values, generation=2, **options)
+    return WheeledBench(TricycleController, joints, values, ros_version=2, **options)
 
 
 def test_circle_has_the_radius_of_speed_by_yaw_rate():

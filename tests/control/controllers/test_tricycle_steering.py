@@ -29,7 +29,7 @@ OLD = {
 @pytest.mark.parametrize("parameters", [NEW, OLD])
 def test_driven_wheels_of_a_curve_fit_the_steered_one(parameters):
     joints = [*rolling("right", "left"), *steered("front")]
-    bench = WheeledBench(TricycleSteeringController, joints, parameters, generation=2)
+    bench = WheeledBench(TricycleSteeringController, joints, parameters, ros_version=2)
     bench.run(2.0, "~/reference", twist(0.6, z=0.2))
     right, left, angle = bench.commands[-1]
     assert angle == pytest.approx(math.atan(0.2 * 1.5 / 0.6))

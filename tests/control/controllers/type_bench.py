@@ -28,7 +28,7 @@ class Scenario:
         type_name: as the parameters name it.
         law: plays the user, runs the bench and asserts what has to come out.
         parameters: of the controller, without its type.
-        generation: 1 for ros_control, 2 for ros2_control.
+        ros_version: 1 for ros_control, 2 for ros2_control.
         about: numbers that the law needs, such as where wheels are.
     """
 
@@ -36,7 +36,7 @@ class Scenario:
     law: Callable[[TypeBench, Any], None]
     parameters: Mapping[str, Any]
     joints: Sequence[PlantJoint] = ()
-    generation: int = 1
+    ros_version: int = 1
     about: Any = None
     sensors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     frames: Mapping[str, str] = field(default_factory=dict)
@@ -45,7 +45,7 @@ class Scenario:
     @property
     def id(self) -> str:
         """Name of the test."""
-        return f"{self.type_name}-ros{self.generation}"
+        return f"{self.type_name}-ros{self.ros_version}"
 
     def check(self) -> None:
         """Make the controller, start it, and hold it to its law; nothing may be reported."""
@@ -67,7 +67,7 @@ class TypeBench:
         self.diagnostics, self.ports = Diagnostics(), RecordingPorts()
         self.robot, self.plant = make_robot(
             scenario.joints,
-            generation=scenario.generation,
+            ros_version=scenario.ros_version,
             sensors=scenario.sensors,
             sensor_frames=scenario.frames,
             model=scenario.model,
@@ -77,7 +77,7 @@ class TypeBench:
             self.robot,
             namespace="/robot",
             make_ports=lambda name: self.ports,
-            source=_source(scenario.generation, tree, self.diagnostics),
+            source=_source(scenario.ros_version, tree, self.diagnostics),
             diagnostics=self.diagnostics,
             update_rate_hz=1000.0,
         )
@@ -109,8 +109,8 @@ class TypeBench:
         return self.ports.publishers[topic].messages
 
 
-def _source(generation: int, tree: Mapping[str, Any], diagnostics: Diagnostics) -> Any:
-    if generation == 2:
+def _source(ros_version: int, tree: Mapping[str, Any], diagnostics: Diagnostics) -> Any:
+    if ros_version == 2:
         return FileSource([], "/robot", diagnostics, overrides={"c": tree})
     store = LocalParameters()
     store.set("/robot", {"c": dict(tree)})

@@ -54,13 +54,13 @@ class WheeledBench:
         joints: Sequence[PlantJoint],
         parameters: Mapping[str, Any],
         *,
-        generation: int = 1,
+        ros_version: int = 1,
         model: Model | None = None,
         period_ns: int = MS,
         subscribed: bool = True,
     ) -> None:
         self.diagnostics = Diagnostics()
-        self.robot, plant = make_robot(joints, generation=generation, model=model)
+        self.robot, plant = make_robot(joints, ros_version=ros_version, model=model)
         self.plant: Plant = plant
         self.period_ns = period_ns
         self.controller, self.ports = make_controller(

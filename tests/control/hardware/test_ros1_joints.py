@@ -22,7 +22,7 @@ def test_joints_have_the_interface_of_their_transmission() -> None:
         "hardware_interface/PositionJointInterface",
         "hardware_interface/JointStateInterface",
     )
-    assert rig.robot.generation == 1
+    assert rig.robot.ros_version == 1
 
 
 def test_an_interface_without_its_package_is_understood() -> None:

@@ -41,13 +41,15 @@ def test_clamps_have_signs_of_their_own() -> None:
     assert gains == PidGains(1.0, 0.0, 0.0, 0.25, -0.0)
 
 
-@pytest.mark.parametrize(("generation", "bound"), [(1, 0.0), (2, math.inf)])
-def test_without_clamp_the_generations_differ_and_it_is_said(generation: int, bound: float) -> None:
-    gains, found = _read({"p": 1.0, "i": 1.0}, generation=generation)
+@pytest.mark.parametrize(("ros_version", "bound"), [(1, 0.0), (2, math.inf)])
+def test_without_clamp_the_generations_differ_and_it_is_said(
+    ros_version: int, bound: float
+) -> None:
+    gains, found = _read({"p": 1.0, "i": 1.0}, ros_version=ros_version)
     assert gains is not None and gains.i_max == bound
     code = "control.integral-without-clamp"
     (one,) = found.by_code(code)
-    assert ("has no effect" in one.message) is (generation == 1)
+    assert ("has no effect" in one.message) is (ros_version == 1)
     assert not _read({"p": 1.0, "i": 1.0, "i_clamp": 0.0})[1].by_code(code)
 
 

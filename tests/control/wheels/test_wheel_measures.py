@@ -47,7 +47,7 @@ def _said(change: dict[str, float], shape: Shape = WHEEL) -> list[Diagnostic]:
         rolling("left", "right"),
         {**PARAMETERS, **change},
         model=_model(shape),
-        generation=2,
+        ros_version=2,
     )
     return list(bench.diagnostics.by_code("control.wheel-geometry"))
 

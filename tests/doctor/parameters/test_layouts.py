@@ -29,11 +29,11 @@ def package(name: str, root: Path) -> Diagnostics:
 def check(tmp_path: Path) -> Check:
     """Checks a text as a parameter file."""
 
-    def run(text: str, generation: int | None = None, joints: tuple[str, ...] = ()) -> Diagnostics:
+    def run(text: str, ros_version: int | None = None, joints: tuple[str, ...] = ()) -> Diagnostics:
         path = tmp_path / "file.yaml"
         path.write_text(text, encoding="utf-8")
         diagnostics = Diagnostics()
-        check_parameter_file(path, diagnostics=diagnostics, generation=generation, joints=joints)
+        check_parameter_file(path, diagnostics=diagnostics, ros_version=ros_version, joints=joints)
         return diagnostics
 
     return run

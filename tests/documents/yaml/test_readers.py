@@ -208,7 +208,7 @@ READERS = {
     "MoveIt's file": _Reader(_reported(read_yaml)),
     "doctor": _Reader(_reported(lambda p, d: check_parameter_file(p, diagnostics=d)), takes=_LARGE),
     "doctor, ROS 1": _Reader(
-        _reported(lambda p, d: check_parameter_file(p, diagnostics=d, generation=1)), takes=_LARGE
+        _reported(lambda p, d: check_parameter_file(p, diagnostics=d, ros_version=1)), takes=_LARGE
     ),
     "doctor's launch file": _Reader(
         _reported(lambda p, d: read_yaml_file(p, {}, workspace=_workspace(p), diagnostics=d)),

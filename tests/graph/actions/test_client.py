@@ -25,7 +25,7 @@ from gazelle.interfaces import message_type, ros1_message_type
 
 FIBONACCI = "actionlib_tutorials/Fibonacci"
 _MANY = 20
-BOTH = pytest.mark.parametrize("generation", [1, 2])
+BOTH = pytest.mark.parametrize("ros_version", [1, 2])
 
 
 class Served:
@@ -37,14 +37,14 @@ class Served:
         self.accepts = True
         self.server: ActionServer | None = None
 
-    def offer(self, generation: Any, **options: Any) -> ActionServer:
+    def offer(self, ros_version: Any, **options: Any) -> ActionServer:
         self.server = ActionServer(
             self.node,
             "fibonacci",
             FIBONACCI,
             on_goal=self._on_goal,
             on_cancel=lambda _goal: True,
-            generation=generation,
+            ros_version=ros_version,
             **options,
         )
         return self.server
@@ -76,9 +76,9 @@ def client(other: Graph) -> ActionClient:
 
 @BOTH
 def test_goal_feedback_and_result_reach_the_client(
-    served: Served, client: ActionClient, inbox: Any, make_inbox: Any, generation: Any
+    served: Served, client: ActionClient, inbox: Any, make_inbox: Any, ros_version: Any
 ) -> None:
-    served.offer(generation)
+    served.offer(ros_version)
     assert client.wait_for_server(stretched(10))
     done = make_inbox()
     goal = client.send_goal({"order": 4}, on_feedback=inbox, on_done=done)
@@ -96,11 +96,11 @@ def test_goal_feedback_and_result_reach_the_client(
 
 @BOTH
 def test_sleeping_feedback_callback_keeps_the_newest_and_the_result(
-    served: Served, client: ActionClient, eventually: Any, generation: Any,
+    served: Served, client: ActionClient, eventually: Any, ros_version: Any,
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
     monkeypatch.setattr(subscription, "MOST_WAITING", 10)
-    served.offer(generation)
+    served.offer(ros_version)
     assert client.wait_for_server(stretched(10))
     begun, goes_on = threading.Event(), threading.Event()
     seen: list[int] = []
@@ -126,9 +126,9 @@ def test_sleeping_feedback_callback_keeps_the_newest_and_the_result(
 
 
 @BOTH
-def test_rejected_goal_ends_at_once(served: Served, client: ActionClient, generation: Any) -> None:
+def test_rejected_goal_ends_at_once(served: Served, client: ActionClient, ros_version: Any) -> None:
     served.accepts = False
-    served.offer(generation)
+    served.offer(ros_version)
     assert client.wait_for_server(stretched(10))
     goal = client.send_goal({})
     assert goal.wait(stretched(30))
@@ -137,9 +137,9 @@ def test_rejected_goal_ends_at_once(served: Served, client: ActionClient, genera
 
 @BOTH
 def test_cancelled_goal_ends_with_the_servers_result(
-    served: Served, client: ActionClient, eventually: Any, generation: Any
+    served: Served, client: ActionClient, eventually: Any, ros_version: Any
 ) -> None:
-    served.offer(generation)
+    served.offer(ros_version)
     assert client.wait_for_server(stretched(10))
     goal = client.send_goal({})
     at_server = served.goal()
@@ -154,9 +154,9 @@ def test_cancelled_goal_ends_with_the_servers_result(
 
 @BOTH
 def test_cancel_all_reaches_goals_of_others(
-    served: Served, client: ActionClient, graph: Graph, eventually: Any, generation: Any
+    served: Served, client: ActionClient, graph: Graph, eventually: Any, ros_version: Any
 ) -> None:
-    server = served.offer(generation)
+    server = served.offer(ros_version)
     assert client.wait_for_server(stretched(10))
     client.send_goal({})
     mine = served.goal()
@@ -167,9 +167,9 @@ def test_cancel_all_reaches_goals_of_others(
 
 @BOTH
 def test_goals_of_other_clients_are_not_looked_at(
-    served: Served, client: ActionClient, other: Graph, generation: Any
+    served: Served, client: ActionClient, other: Graph, ros_version: Any
 ) -> None:
-    server = served.offer(generation)
+    server = served.offer(ros_version)
     assert client.wait_for_server(stretched(10))
     stranger = ActionClient(client._node, "fibonacci", FIBONACCI)
     assert stranger.wait_for_server(stretched(10))
@@ -299,12 +299,12 @@ def test_server_of_another_type_is_told(served: Served, client: ActionClient) ->
 
 @BOTH
 def test_actions_are_listed_with_their_ends(
-    served: Served, client: ActionClient, graph: Graph, eventually: Any, generation: Any
+    served: Served, client: ActionClient, graph: Graph, eventually: Any, ros_version: Any
 ) -> None:
-    served.offer(generation)
+    served.offer(ros_version)
     assert client.wait_for_server(stretched(10))
     kind = "actionlib_tutorials/action/Fibonacci"
-    expected = (ActionInfo("/fibonacci", kind, generation, ("/server",), ("/client",)),)
+    expected = (ActionInfo("/fibonacci", kind, ros_version, ("/server",), ("/client",)),)
     eventually(lambda: graph.actions() == expected)
     assert actions_of(graph.entities()) == expected
 
@@ -351,9 +351,9 @@ def test_client_passes_the_states_of_actionlib(state: str) -> None:
 
 @BOTH
 def test_goals_arrive_in_the_order_in_which_they_were_sent(
-    served: Served, client: ActionClient, generation: Any
+    served: Served, client: ActionClient, ros_version: Any
 ) -> None:
-    served.offer(generation)
+    served.offer(ros_version)
     client.require_server(stretched())
     for order in range(_MANY):
         client.send_goal({"order": order})
@@ -363,10 +363,10 @@ def test_goals_arrive_in_the_order_in_which_they_were_sent(
 
 @BOTH
 def test_goal_ends_quietly_when_its_node_has_gone(
-    served: Served, client: ActionClient, generation: Any
+    served: Served, client: ActionClient, ros_version: Any
 ) -> None:
     """Its thread ends it while the graph is left."""
-    served.offer(generation)
+    served.offer(ros_version)
     assert client.wait_for_server(stretched())
     client.send_goal({"order": 3})
     goal = served.goal()

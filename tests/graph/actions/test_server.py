@@ -54,14 +54,14 @@ class World:
         self.now_ns = S
         self.seen: dict[str, list[Any]] = {}
 
-    def serve(self, generation: Any = 1, **options: Any) -> ActionServer:
+    def serve(self, ros_version: Any = 1, **options: Any) -> ActionServer:
         return ActionServer(
             self.node,
             "fibonacci",
             FIBONACCI,
             on_goal=self.owner.on_goal,
             on_cancel=self.owner.on_cancel,
-            generation=generation,
+            ros_version=ros_version,
             timing=ActionTiming(now_ns=lambda: self.now_ns),
             **options,
         )
@@ -256,10 +256,10 @@ def test_submit_names_the_field_that_does_not_exist(world: World) -> None:
         server.submit({"ordr": 3})
 
 
-@pytest.mark.parametrize("generation", [1, 2])
-def test_calls_wait_for_the_owners_thread(world: World, generation: Any) -> None:
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_calls_wait_for_the_owners_thread(world: World, ros_version: Any) -> None:
     todo: list[Callable[[], None]] = []
-    server = world.serve(generation, run=todo.append)
+    server = world.serve(ros_version, run=todo.append)
     handle = server.submit({"order": 3})
     assert not world.owner.goals
     todo.pop()()

@@ -33,20 +33,20 @@ def _grid() -> OccupancyGrid:
     return OccupancyGrid(cells, 0.05, (-10.0, -10.5, 0.0))
 
 
-def _read(path: Path, generation: int = 1) -> OccupancyGrid:
+def _read(path: Path, ros_version: int = 1) -> OccupancyGrid:
     found = Diagnostics()
-    grid = read_map(path, found, generation=generation)
+    grid = read_map(path, found, ros_version=ros_version)
     assert grid is not None, list(found)
     assert not len(found)
     return grid
 
 
 def _findings(
-    folder: Path, text: str, name: str = "map.yaml", generation: int = 1
+    folder: Path, text: str, name: str = "map.yaml", ros_version: int = 1
 ) -> dict[str, str]:
     (folder / name).write_text(text)
     found = Diagnostics()
-    grid = read_map(folder / name, found, generation=generation)
+    grid = read_map(folder / name, found, ros_version=ros_version)
     assert (grid is None) == (found.worst is Severity.ERROR)
     return {item.code: str(item) for item in found}
 
@@ -63,7 +63,7 @@ def test_map_saver_of_ros_1_writes_these_bytes(tmp_path: Path) -> None:
 
 
 def test_map_saver_of_nav2_writes_these_bytes(tmp_path: Path) -> None:
-    image, described = write_map(_grid(), tmp_path / "map", SaveOptions(generation=2))
+    image, described = write_map(_grid(), tmp_path / "map", SaveOptions(ros_version=2))
     assert image.read_bytes().startswith(b"P5\n3 3\n255\n\xcd\xfe\xcd")
     assert described.read_text() == (
         "image: map.pgm\nmode: trinary\nresolution: 0.05\norigin: [-10, -10.5, 0]\nnegate: 0\n"
@@ -91,19 +91,19 @@ def test_every_cell_comes_back(tmp_path: Path, mode: MapMode, kind: str) -> None
         cells = np.abs(cells)  # BMP as Pillow writes it keeps opacity, readers of old may not
     options = SaveOptions(2, mode, kind, occupied_thresh=1.0, free_thresh=0.0)
     _image, described = write_map(OccupancyGrid(cells, 0.1), tmp_path / "m", options)
-    np.testing.assert_array_equal(_read(described, generation=2).cells, cells)
+    np.testing.assert_array_equal(_read(described, ros_version=2).cells, cells)
 
 
-@pytest.mark.parametrize("generation", [1, 2])
-def test_trinary_maps_come_back_as_three_values(tmp_path: Path, generation: int) -> None:
-    _image, described = write_map(_grid(), tmp_path / "m", SaveOptions(generation))
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_trinary_maps_come_back_as_three_values(tmp_path: Path, ros_version: int) -> None:
+    _image, described = write_map(_grid(), tmp_path / "m", SaveOptions(ros_version))
     want = [[0, 100, -1], [0, -1, 100], [-1, 0, -1]]
-    np.testing.assert_array_equal(_read(described, generation).cells, want)
+    np.testing.assert_array_equal(_read(described, ros_version).cells, want)
 
 
-def _one(grey: int | tuple[int, ...], mode: MapMode, generation: int, **options: object) -> int:
+def _one(grey: int | tuple[int, ...], mode: MapMode, ros_version: int, **options: object) -> int:
     pixel = np.array(grey, np.uint8).reshape(1, 1, -1)
-    return int(cells_of_pixels(pixel, mode, generation=generation, **options)[0, 0])  # type: ignore[arg-type]
+    return int(cells_of_pixels(pixel, mode, ros_version=ros_version, **options)[0, 0])  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -160,14 +160,14 @@ def test_a_missing_picture_is_told_with_the_nearest_name(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("resolution", ["0.05", "0"])
 def test_a_missing_picture_is_told_in_nav2s_words_in_ros_2(tmp_path: Path, resolution: str) -> None:
-    text = _findings(tmp_path, _YAML.replace("0.05", resolution), generation=2)["map.no-image"]
+    text = _findings(tmp_path, _YAML.replace("0.05", resolution), ros_version=2)["map.no-image"]
     assert f"Failed to load image file {tmp_path}/map.pgm for reason: there is no such" in text
     assert "ROS/Gazebo says: Failed to load image file" in text
 
 
 def test_a_broken_picture_is_told_in_nav2s_words_in_ros_2(tmp_path: Path) -> None:
     (tmp_path / "map.pgm").write_bytes(b"no picture")
-    text = _findings(tmp_path, _YAML, generation=2)["map.bad-image"]
+    text = _findings(tmp_path, _YAML, ros_version=2)["map.bad-image"]
     assert f"Failed to load image file {tmp_path}/map.pgm for reason: it is no picture" in text
 
 

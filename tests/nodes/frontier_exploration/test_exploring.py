@@ -46,7 +46,7 @@ class World:
         self.maps = bench.node.create_publisher("/map", kind, latch=True)
         StaticTransformBroadcaster(bench.node).send(StampedPose("map", "base_link", 0, Pose()))
         self.server = ActionServer(
-            bench.node, "move_base", "move_base_msgs/MoveBase", on_goal=self._on_goal, generation=1
+            bench.node, "move_base", "move_base_msgs/MoveBase", on_goal=self._on_goal, ros_version=1
         )
         self.publish()
 
@@ -283,7 +283,7 @@ class Clicks:
 def test_clicked_points_become_a_task(bench: Any) -> None:
     goals: list[ServerGoal] = []
     kind = "frontier_exploration/ExploreTask"
-    server = ActionServer(bench.node, "explore_server", kind, on_goal=goals.append, generation=1)
+    server = ActionServer(bench.node, "explore_server", kind, on_goal=goals.append, ros_version=1)
     clicks = Clicks(bench)
     for count, (x, y) in enumerate(_ROOM, 1):
         line = clicks.click(x, y)

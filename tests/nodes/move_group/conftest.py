@@ -59,14 +59,14 @@ def parameters() -> dict[str, Any]:
 class ArmBench:
     """A running move_group and what is needed to talk to it."""
 
-    def __init__(self, bench: Bench, generation: int, folder: Path) -> None:
+    def __init__(self, bench: Bench, ros_version: int, folder: Path) -> None:
         self.bench = bench
         self.folder = folder
-        self.generation = generation
+        self.ros_version = ros_version
         self.robot = FakeRobot(
             bench.node,
             dict(zip([*JOINTS, "finger_joint"], [*READY, 0.04], strict=True)),
-            generation,
+            ros_version,
         )
         self._stop = threading.Event()
         self._pump = threading.Thread(target=self._publish, daemon=True)
@@ -74,7 +74,7 @@ class ArmBench:
     def start(self, **changes: Any) -> None:
         """Start move_group, some of its parameters changed."""
         values = {**parameters(), **changes}
-        if self.generation == 2:
+        if self.ros_version == 2:
             file = self.folder / "parameters.yaml"
             file.write_text(yaml.safe_dump({"/move_group": {"ros__parameters": values}}), "utf-8")
             words = ("--ros-args", "--params-file", str(file))
@@ -87,7 +87,7 @@ class ArmBench:
                     self.bench.node.parameters.set(f"/{key}", value)
             self.bench.start("moveit_ros_move_group/move_group")
         self._pump.start()
-        name = "/move_action" if self.generation == 2 else "/move_group"
+        name = "/move_action" if self.ros_version == 2 else "/move_group"
         self.mover = ActionClient(self.bench.node, name, action_type("moveit_msgs/MoveGroup"))
         assert self.mover.wait_for_server(stretched())
 
@@ -186,8 +186,8 @@ def pose_goal(
 def make_arm(bench: Bench, tmp_path: Path) -> Iterator[Callable[..., ArmBench]]:
     made: list[ArmBench] = []
 
-    def make(generation: int = 2, **changes: Any) -> ArmBench:
-        one = ArmBench(bench, generation, tmp_path)
+    def make(ros_version: int = 2, **changes: Any) -> ArmBench:
+        one = ArmBench(bench, ros_version, tmp_path)
         made.append(one)
         one.robot.follow("arm_controller")
         one.start(**changes)

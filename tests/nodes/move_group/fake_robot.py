@@ -22,8 +22,8 @@ class FakeRobot:
         goals: the goals that came, by controller.
     """
 
-    def __init__(self, node: Node, positions: dict[str, float], generation: int = 2) -> None:
-        self._generation = generation
+    def __init__(self, node: Node, positions: dict[str, float], ros_version: int = 2) -> None:
+        self._ros_version = ros_version
         self.positions = dict(positions)
         self.goals: dict[str, list[Any]] = {}
         self.servers: list[ActionServer] = []
@@ -69,7 +69,7 @@ class FakeRobot:
             kind,
             on_goal=on_goal,
             on_cancel=_cancel,
-            generation=1 if self._generation == 1 else 2,
+            ros_version=1 if self._ros_version == 1 else 2,
         )
         self.servers.append(server)
 

@@ -27,10 +27,10 @@ class Rig:
     """An executor with a robot."""
 
     def __init__(
-        self, bench: Bench, *specs: ControllerSpec, generation: int = 2, **settings: Any
+        self, bench: Bench, *specs: ControllerSpec, ros_version: int = 2, **settings: Any
     ) -> None:
         positions = {"a": 0.0, "b": 0.0, "f": 0.0, "g": 0.0}
-        self.robot = FakeRobot(bench.node, positions, generation)
+        self.robot = FakeRobot(bench.node, positions, ros_version)
         self.states = StateMonitor(bench.node, "/joint_states")
         self.executor = TrajectoryExecutor(
             bench.node, specs or (ARM, HAND), ExecutionSettings(**settings), self.states
@@ -39,9 +39,9 @@ class Rig:
         assert not self.states.wait(["a", "b", "f", "g"], 0, 5.0)
 
 
-@pytest.mark.parametrize("generation", [1, 2])
-def test_every_controller_gets_its_own_joints(bench: Bench, generation: int) -> None:
-    rig = Rig(bench, generation=generation)
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_every_controller_gets_its_own_joints(bench: Bench, ros_version: int) -> None:
+    rig = Rig(bench, ros_version=ros_version)
     rig.robot.follow("arm")
     rig.robot.gripper("hand", lambda goal: goal.succeed())
     path = trajectory(["b", "f", "a"], [0.0, 0.0, 0.0], [0.2, 0.03, 0.1])

@@ -17,11 +17,11 @@ from tests.nodes.move_group.conftest import (
 UP = [0.0] * 6
 
 
-@pytest.mark.parametrize("generation", [1, 2])
+@pytest.mark.parametrize("ros_version", [1, 2])
 def test_a_joint_goal_is_planned_and_executed(
-    make_arm: Callable[..., ArmBench], generation: int
+    make_arm: Callable[..., ArmBench], ros_version: int
 ) -> None:
-    arm = make_arm(generation)
+    arm = make_arm(ros_version)
     result = arm.move(goal_constraints=joint_goal(UP))
     assert result.error_code.val == 1, result.error_code
     points = result.planned_trajectory.joint_trajectory.points
@@ -31,7 +31,7 @@ def test_a_joint_goal_is_planned_and_executed(
     # Views listen below the node's name in ROS 1.
     for name in ("display_planned_path", "monitored_planning_scene"):
         assert arm.bench.graph.publisher_count(f"/{name}") == 1
-        assert arm.bench.graph.publisher_count(f"/move_group/{name}") == (generation == 1)
+        assert arm.bench.graph.publisher_count(f"/move_group/{name}") == (ros_version == 1)
 
 
 def test_goal_pose_obstacle_and_attached_object_in_one_scene(arm: ArmBench) -> None:

@@ -18,7 +18,7 @@ from gazelle.parameters.trees import nested
 _OMPL = {"planning_plugin": "ompl_interface/OMPLPlanner"}
 
 
-def _told(values: dict[str, Any], generation: int = 2) -> list[str]:
+def _told(values: dict[str, Any], ros_version: int = 2) -> list[str]:
     tree = nested(values)
     pipelines, default = read_pipelines(Settings(tree, Diagnostics()), ["arm"])
     srdf = Srdf("r", groups=(Group("arm"),))
@@ -26,7 +26,7 @@ def _told(values: dict[str, Any], generation: int = 2) -> list[str]:
         Model("r"), srdf, pipelines=pipelines, default_pipeline=default, parameters=tree
     )
     found = Diagnostics()
-    report_parameters(config, "/move_group", found, generation=generation)
+    report_parameters(config, "/move_group", found, ros_version=ros_version)
     return [f"{item.code} {item.message}" for item in found]
 
 

@@ -72,7 +72,7 @@ def test_two_actions_of_one_kind_are_both_answered(graph: Graph) -> None:
     assert server.configure() and server.activate()
     node = graph.create_node("client", is_ros2=True)
     for name in ("one", "two"):
-        client = ActionClient(node, name, "nav2_msgs/Wait", generation=2)
+        client = ActionClient(node, name, "nav2_msgs/Wait", ros_version=2)
         assert client.wait_for_server(60.0)
         sent = client.send_goal(client.types.Goal())
         assert sent.wait(60.0)

@@ -70,7 +70,7 @@ def test_the_default_file_has_only_what_a_server_knows(name: str) -> None:
 def test_the_default_file_has_only_what_a_costmap_knows(name: str) -> None:
     diagnostics = Diagnostics()
     tree: Mapping[str, Any] = yaml.safe_load(_FILE.read_text())[name][name]["ros__parameters"]
-    made = assemble(tree, name, diagnostics, generation=2)
+    made = assemble(tree, name, diagnostics, ros_version=2)
     assert len(made.costmap.layers) == len(tree["plugins"])
     idle = [str(item) for item in diagnostics if item.code != "parameter.idle"]
     assert idle == []

@@ -131,7 +131,7 @@ def _pose(x: float, y: float, yaw: float = 0.0) -> Any:
 
 
 def _send(bench: Any, name: str, kind: str, **fields: Any) -> Any:
-    client = ActionClient(bench.node, name, f"nav2_msgs/{kind}", generation=2)
+    client = ActionClient(bench.node, name, f"nav2_msgs/{kind}", ros_version=2)
     client.require_server(stretched(20.0))
     goal = client.send_goal(client.types.Goal(**fields))
     bench.eventually(lambda: goal.is_done)

@@ -70,7 +70,7 @@ def _bring_up(bench, name: str) -> None:
 def test_smoother_server_answers(bench) -> None:
     bench.start("nav2_smoother/smoother_server")
     _bring_up(bench, "smoother_server")
-    client = ActionClient(bench.node, "smooth_path", "nav2_msgs/SmoothPath", generation=2)
+    client = ActionClient(bench.node, "smooth_path", "nav2_msgs/SmoothPath", ros_version=2)
     client.require_server(stretched(10.0))
     pose = message_type("geometry_msgs/msg/PoseStamped")
     path = message_type("nav_msgs/msg/Path")()

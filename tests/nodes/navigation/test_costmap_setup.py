@@ -90,7 +90,7 @@ def test_plugins_of_nav2_are_names_with_a_plugin_each() -> None:
             },
             "inflation_layer": {"plugin": "nav2_costmap_2d::InflationLayer"},
         },
-        generation=2,
+        ros_version=2,
     )
     assert said == []
     assert made.costmap.footprint.circumscribed_m == pytest.approx(0.22, abs=0.02)
@@ -140,7 +140,7 @@ def test_layers_that_plugins_do_not_name_are_told_once() -> None:
         "static_layer": {"plugin": "nav2_costmap_2d::StaticLayer", "map_topic": "m"},
         "voxel_layer": {"map_subscribe_transient_local": True},
     }
-    made, said = _made(tree, generation=2)
+    made, said = _made(tree, ros_version=2)
     assert _kinds(made) == [InflationLayer]
     assert [text.partition(": /costmap: ")[2].partition(";")[0] for text in said] == [
         "layer 'static_layer' has parameters and is not one of plugins",
@@ -173,5 +173,5 @@ def test_ranges_of_the_costmap_or_above_are_those_of_sensors_that_have_none() ->
     assert (source.obstacle_range, source.raytrace_range) == (4.0, 5.0)
     # Nav2 looks for them with the sensor only.
     nav2 = {"plugins": ["obstacle_layer"], "obstacle_max_range": 4.0}
-    _made_of_nav2, said = _made(nav2, generation=2)
+    _made_of_nav2, said = _made(nav2, ros_version=2)
     assert "'obstacle_max_range' is not one of costmap; it has no effect" in said[0]

@@ -12,7 +12,7 @@ _TYPES = {1: "move_base_msgs/MoveBase", 2: "nav2_msgs/Wait"}
 
 @pytest.fixture(params=[1, 2])
 def pair(bench, request):
-    server = SingleGoal(bench.node, "work", _TYPES[request.param], generation=request.param)
+    server = SingleGoal(bench.node, "work", _TYPES[request.param], ros_version=request.param)
     client = ActionClient(bench.node, "work", _TYPES[request.param])
     client.require_server(10.0)
     yield server, client

@@ -25,7 +25,7 @@ class World:
         self.maps = bench.node.create_publisher("/map", kind, latch=True)
         StaticTransformBroadcaster(bench.node).send(StampedPose("map", "base_link", 0, Pose()))
         self.server = ActionServer(
-            bench.node, "move_base", "move_base_msgs/MoveBase", on_goal=self._on_goal, generation=1
+            bench.node, "move_base", "move_base_msgs/MoveBase", on_goal=self._on_goal, ros_version=1
         )
         self.publish()
 

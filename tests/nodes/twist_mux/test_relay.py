@@ -50,9 +50,9 @@ def test_a_first_step_that_is_no_number_is_told_and_the_middle_one_is_taken() ->
     ]
 
 
-@pytest.mark.parametrize("generation", [1, 2])
-def test_relay_scales_and_gives_up_its_priority(bench: Any, generation: Any) -> None:
-    words = ("--ros-args",) if generation == 2 else ()
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_relay_scales_and_gives_up_its_priority(bench: Any, ros_version: Any) -> None:
+    words = ("--ros-args",) if ros_version == 2 else ()
     got = bench.listen("/joy_vel_out", "geometry_msgs/msg/Twist")
     told = bench.listen("/joy_priority", "std_msgs/msg/Bool")
     bench.node.parameters.set("/joystick_relay/turbo/linear_forward_min", 2.0)
@@ -65,7 +65,7 @@ def test_relay_scales_and_gives_up_its_priority(bench: Any, generation: Any) -> 
     out.publish(twist)
     assert bench.eventually(lambda: got)[0].linear.x == 1.0
     client = ActionClient(
-        bench.node, "/joy_priority_action", "twist_mux_msgs/JoyPriority", generation=generation
+        bench.node, "/joy_priority_action", "twist_mux_msgs/JoyPriority", ros_version=ros_version
     )
     assert client.wait_for_server(stretched(30.0))
     client.send_goal({})

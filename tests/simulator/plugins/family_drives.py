@@ -176,17 +176,17 @@ def joint_trajectory(trial: Trial) -> None:
 
 def lifts(trial: Trial) -> None:
     """What is near rises with the cup, and falls when it is let go."""
-    sim, generation = trial.sim, 2 if trial.is_ros2 else 1
+    sim, ros_version = trial.sim, 2 if trial.is_ros2 else 1
     sim.spawn(crate("near"), name="near", pose=Pose((0.0, 0.0, 0.21)))
     lift = sim.server.engine.joint("robot::lift")
     lift.lock_position(0.0)
     sim.run(seconds=0.05)
-    switch(sim, generation, on=True)
+    switch(sim, ros_version, on=True)
     for height in np.linspace(0.0, 0.5, 51):
         lift.lock_position(float(height))
         sim.run(seconds=0.01)
     assert sim.model("near").pose.position_m[2] == pytest.approx(0.7, abs=0.02)
-    switch(sim, generation, on=False)
+    switch(sim, ros_version, on=False)
     sim.run(seconds=0.6)
     assert sim.model("near").pose.position_m[2] == pytest.approx(0.2, abs=0.02)
 

@@ -272,23 +272,23 @@ def crate(name: str) -> str:
       <box size="0.2 0.2 0.4"/></geometry></collision></link></robot>"""
 
 
-@pytest.mark.parametrize("generation", [1, 2])
+@pytest.mark.parametrize("ros_version", [1, 2])
 def test_vacuum_gripper_lifts_what_is_near_and_drops_it(
-    load: Load, listen: Listen, generation: int
+    load: Load, listen: Listen, ros_version: int
 ) -> None:
     keys = "<bodyName>cup</bodyName><topicName>grasping</topicName>"
-    if generation == 2:
+    if ros_version == 2:
         keys = """<ros><namespace>/arm</namespace></ros><link_name>cup</link_name>
           <max_distance>0.1</max_distance><fixed>wall</fixed>"""
     sim = load(gripper(keys))
     for name, x in (("near", 0.0), ("far", 0.5), ("wall", 0.02)):
         sim.spawn(crate(name), name=name, pose=Pose((x, 0.0, 0.21 if name != "wall" else 5.0)))
-    topic = "/grasping" if generation == 1 else "/arm/grasping"
+    topic = "/grasping" if ros_version == 1 else "/arm/grasping"
     grasping = listen(sim, topic)
     lift = sim.server.engine.joint("robot::lift")
     lift.lock_position(0.0)
     sim.run(seconds=0.1)
-    switch(sim, generation, on=True)
+    switch(sim, ros_version, on=True)
     assert grasping[-1].data is False
     engine = sim.server.engine
     for k in range(100):
@@ -297,15 +297,15 @@ def test_vacuum_gripper_lifts_what_is_near_and_drops_it(
     assert grasping[-1].data is True
     assert engine.model_pose("near").position_m[2] == pytest.approx(0.7, abs=0.02)
     assert engine.model_pose("far").position_m[2] == pytest.approx(0.2, abs=0.01)
-    switch(sim, generation, on=False)
+    switch(sim, ros_version, on=False)
     sim.run(seconds=1.0)
     assert engine.model_pose("near").position_m[2] == pytest.approx(0.2, abs=0.01)
     assert grasping[-1].data is False
 
 
-def switch(sim: Simulation, generation: int, *, on: bool) -> None:
+def switch(sim: Simulation, ros_version: int, *, on: bool) -> None:
     node = sim.server.node
-    if generation == 1:
+    if ros_version == 1:
         name = "/on" if on else "/off"
         node.call(name, service_type("std_srvs/Empty").Request())
         return

@@ -50,8 +50,8 @@ def _check_law(top: Path, least: int) -> None:
 @pytest.mark.parametrize("symlinks", [False, True])
 def test_new_packages_of_every_kind(tmp_path: Path, symlinks: bool) -> None:
     for kind in KINDS:
-        create_package(kind, f"{kind}_one", tmp_path / "src", generation=1)  # type: ignore[arg-type]
-        create_package(kind, f"{kind}_two", tmp_path / "src", generation=2)  # type: ignore[arg-type]
+        create_package(kind, f"{kind}_one", tmp_path / "src", ros_version=1)  # type: ignore[arg-type]
+        create_package(kind, f"{kind}_two", tmp_path / "src", ros_version=2)  # type: ignore[arg-type]
     _build(tmp_path, symlinks=symlinks)
     _check_law(tmp_path, least=25)
 

@@ -25,34 +25,34 @@ from gazelle.workspace import Workspace
 from gazelle.workspace.scaffold import KINDS, ScaffoldError, check_package_name, create_package
 from gazelle.workspace.scaffold.scaffold import FILES
 
-EVERY = [(kind, generation) for kind in KINDS for generation in (1, 2)]
+EVERY = [(kind, ros_version) for kind in KINDS for ros_version in (1, 2)]
 
 
 def _workspace(folder: Path) -> Workspace:
     return Workspace.discover(environ={}, cwd=folder)
 
 
-@pytest.mark.parametrize(("kind", "generation"), EVERY)
+@pytest.mark.parametrize(("kind", "ros_version"), EVERY)
 def test_every_kind_is_a_package_of_its_generation(
-    tmp_path: Path, kind: str, generation: int
+    tmp_path: Path, kind: str, ros_version: int
 ) -> None:
-    written = create_package(kind, "my_thing", tmp_path, generation=generation)
+    written = create_package(kind, "my_thing", tmp_path, ros_version=ros_version)
     assert all(path.is_file() for path in written)
-    assert len(written) == len(FILES[kind, generation])
+    assert len(written) == len(FILES[kind, ros_version])
     workspace = _workspace(tmp_path)
     package = workspace.package("my_thing")
     assert package.path == tmp_path / "my_thing"
-    assert package.ros_generation == generation
-    assert package.format == generation + 1
-    assert package.build_type == ("catkin" if generation == 1 else "ament_python")
+    assert package.ros_version == ros_version
+    assert package.format == ros_version + 1
+    assert package.build_type == ("catkin" if ros_version == 1 else "ament_python")
     assert not list(workspace.diagnostics)
 
 
-@pytest.mark.parametrize(("kind", "generation"), EVERY)
+@pytest.mark.parametrize(("kind", "ros_version"), EVERY)
 def test_no_placeholder_is_left_and_python_is_well_formed(
-    tmp_path: Path, kind: str, generation: int
+    tmp_path: Path, kind: str, ros_version: int
 ) -> None:
-    for path in create_package(kind, "my_thing", tmp_path, generation=generation):
+    for path in create_package(kind, "my_thing", tmp_path, ros_version=ros_version):
         text = path.read_text(encoding="utf-8")
         assert not re.search(r"@\w+@", f"{path} {text}"), path
         if path.suffix == ".py":
@@ -60,9 +60,9 @@ def test_no_placeholder_is_left_and_python_is_well_formed(
         assert os.access(path, os.X_OK) == text.startswith("#!")
 
 
-@pytest.mark.parametrize("generation", [1, 2])
-def test_robot_and_world_are_read_without_findings(tmp_path: Path, generation: int) -> None:
-    create_package("robot", "my_bot", tmp_path, generation=generation)
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_robot_and_world_are_read_without_findings(tmp_path: Path, ros_version: int) -> None:
+    create_package("robot", "my_bot", tmp_path, ros_version=ros_version)
     workspace, found = _workspace(tmp_path), Diagnostics()
     folder = tmp_path / "my_bot"
     (robot,) = load_models(
@@ -112,9 +112,9 @@ def test_inertias_are_those_of_the_shapes(tmp_path: Path) -> None:
     assert crate.links[0].inertial.inertia_kg_m2 == pytest.approx(solid, rel=1e-4)
 
 
-@pytest.mark.parametrize("generation", [1, 2])
-def test_robot_of_either_generation_drives_and_senses(tmp_path: Path, generation: int) -> None:
-    create_package("robot", "my_bot", tmp_path, generation=generation)
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_robot_of_either_generation_drives_and_senses(tmp_path: Path, ros_version: int) -> None:
+    create_package("robot", "my_bot", tmp_path, ros_version=ros_version)
     folder, counts = tmp_path / "my_bot", Counter[str]()
     with Simulation.load(
         folder / "urdf" / "my_bot.urdf.xacro", world=folder / "worlds" / "my_bot.world"
@@ -186,7 +186,7 @@ def test_new_package_says_hello(gazelle, tmp_path: Path) -> None:
 def test_nodes_of_new_ros2_packages_run(
     gazelle, tmp_path: Path, kind: str, node: str, line: str
 ) -> None:
-    create_package(kind, "my_thing", tmp_path / "src", generation=2)
+    create_package(kind, "my_thing", tmp_path / "src", ros_version=2)
     gazelle("roscore")
     gazelle("rosrun", "my_thing", node).wait_for_line(line, 60.0)
 

@@ -18,7 +18,7 @@ from gazelle.bag.types import cdr_connection, ros1_connection
 from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE, Entity, Graph, Kind, MessageInfo, Node, RawMessage
 from gazelle.graph.names import is_hidden
-from gazelle.interfaces import Generation, from_cdr, ros1_message_type, ros1_type_of, to_ros1
+from gazelle.interfaces import RosVersion, from_cdr, ros1_message_type, ros1_type_of, to_ros1
 from gazelle.interfaces.naming import ros1_name
 
 __all__ = ["Limits", "Recorder", "Selection", "Sink"]
@@ -368,11 +368,11 @@ class Recorder:
         if self._sink.encoding is Encoding.CDR:
             reliable = all(one.qos.reliable for one in ends)
             qos = offered_qos(reliable=reliable, latched=latched)
-            fetch_text(self._graph, ros1_name(type_name), Generation.ROS2)
+            fetch_text(self._graph, ros1_name(type_name), RosVersion.ROS2)
             new = cdr_connection(topic, type_name, qos=qos)
             return _Route(self._sink.add(new), lambda data, _sequence: data)
         short = ros1_type_of(type_name)
-        fetch_text(self._graph, short, Generation.ROS1)
+        fetch_text(self._graph, short, RosVersion.ROS1)
         new = ros1_connection(topic, short, callerid=publisher, latching=latched)
         return _Route(self._sink.add(new), _ros1_bytes(short))
 

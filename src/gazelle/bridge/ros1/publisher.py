@@ -14,7 +14,7 @@ from gazelle.bridge.ros1.types import Frame, MessageKind, message_kind
 from gazelle.bridge.tap import Sample, Tap
 from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE
-from gazelle.interfaces import Generation, ros1_definition
+from gazelle.interfaces import RosVersion, ros1_definition
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph
@@ -67,7 +67,7 @@ class Outlet:
         link = Link(stream, header.get("callerid", ""), self.topic)
         self._add(link, offer.node)
         try:
-            fetch_text(self._graph, offer.kind.ros1_name, Generation.ROS1)
+            fetch_text(self._graph, offer.kind.ros1_name, RosVersion.ROS1)
             link.start(write_header(_answer(offer, self.topic, name)))
             link.wait()
         finally:

@@ -13,7 +13,7 @@ from gazelle.bridge.ros1.types import MessageKind, message_kind
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import ANY_TYPE, Publisher
-from gazelle.interfaces import Generation, keep_text
+from gazelle.interfaces import RosVersion, keep_text
 
 __all__ = ["Inlet", "PublisherOf"]
 
@@ -152,7 +152,7 @@ class _Source:
                 f"  fix: put the package that defines it into the workspace of the bridge"
             )
         # The publisher's own words for the type, comments and all: bags keep them.
-        keep_text(kind.ros1_name, Generation.ROS1, header.get("message_definition", ""))
+        keep_text(kind.ros1_name, RosVersion.ROS1, header.get("message_definition", ""))
         latched = header.get("latching") == "1"
         publisher = self._inlet._publisher_of(header.get("callerid", ""), topic, kind, latched)
         if publisher is None:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from gazelle.errors import GazelleError
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     default_types,
     definition,
     from_cdr,
@@ -116,7 +116,7 @@ def _message_kind(name: str) -> MessageKind:
     full = "/".join((ros1.split("/")[0], "msg", ros1.split("/")[1]))
     # A converted type becomes another one by rules that only its ROS 1 form knows.
     view: Callable[[str], Any] = ros1_message_type if full in CONVERTED else message_type
-    fields = definition(full, Generation.ROS1).fields
+    fields = definition(full, RosVersion.ROS1).fields
     has_header = (
         bool(fields) and fields[0].type.base == _HEADER and fields[0].type.array is Array.ONE
     )
@@ -145,6 +145,6 @@ def is_ros2_only(wire_name: str) -> bool:
     try:
         first, part, bare = wire_name.split("/")
         names = [wire_name] if part == "msg" else [f"{first}/srv/{bare}_Request"]
-        return not all(definition(name, Generation.ROS1).native for name in names)
+        return not all(definition(name, RosVersion.ROS1).native for name in names)
     except (GazelleError, ValueError):
         return False

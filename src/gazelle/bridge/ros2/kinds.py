@@ -11,7 +11,7 @@ from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph.errors import coded
 from gazelle.graph.wire import hash_of
 from gazelle.interfaces import (
-    Generation,
+    RosVersion,
     add_package,
     definition,
     message_type,
@@ -142,7 +142,7 @@ class TypeBook:
             folder = _share_of(package, self._prefixes)
             if folder is None:
                 raise
-            add_package(package, folder, Generation.ROS2)
+            add_package(package, folder, RosVersion.ROS2)
             return look_up(name)
 
     def _tell(self, name: str, text: str) -> None:
@@ -165,6 +165,6 @@ def _is_of_ros2(name: str) -> bool:
     package, part, bare = name.split("/")
     wanted = f"{package}/{part}/{bare}_Request" if part == "srv" else name
     try:
-        return definition(wanted, Generation.ROS2).native
+        return definition(wanted, RosVersion.ROS2).native
     except GazelleError:
         return True

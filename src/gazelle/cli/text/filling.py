@@ -9,7 +9,7 @@ from typing import Any, TextIO
 from gazelle.cli.tool import ToolError
 from gazelle.errors import InterfaceError
 from gazelle.interfaces import Ros1Message, fill, show_message, show_service, time_keys
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 
 __all__ = ["documents", "fill_from_words", "printable_args", "yaml_words"]
 
@@ -41,7 +41,7 @@ def fill_from_words(message: Ros1Message, values: Any, now_ns: int) -> None:
             explanation follows.
     """
     try:
-        fill(message, values, keys=time_keys(now_ns, Generation.ROS1))
+        fill(message, values, keys=time_keys(now_ns, RosVersion.ROS1))
     except InterfaceError as error:
         text = str(error)
         match = _ROS_WORDS.search(text)

@@ -8,7 +8,7 @@ from gazelle.cli.tool import ToolError
 from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.errors import InterfaceError
 from gazelle.interfaces import FieldType, Message, fill, message_type, time_keys
-from gazelle.interfaces.definition import FORMATS, Array, Generation
+from gazelle.interfaces.definition import FORMATS, Array, RosVersion
 
 __all__ = ["filled", "yaml_values"]
 
@@ -47,7 +47,7 @@ def filled(message_class: type[Message], values: dict[str, Any], now_ns: int) ->
     """
     message = message_class()
     try:
-        fill(message, _fitted(message_class, values), keys=time_keys(now_ns, Generation.ROS2))
+        fill(message, _fitted(message_class, values), keys=time_keys(now_ns, RosVersion.ROS2))
     except (InterfaceError, ValueError, TypeError) as error:
         raise ToolError(f"Failed to populate field: {error}") from None
     return message

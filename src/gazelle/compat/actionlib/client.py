@@ -108,7 +108,7 @@ class ActionClient:
         self.ActionFeedback = types.Envelope["feedback"]
         self._goal_class = types.Goal
         node = STATE.require(f"ActionClient('{ns}')")
-        self._client = _Client(node, ns, ActionSpec, generation=1)
+        self._client = _Client(node, ns, ActionSpec, ros_version=1)
 
     def stop(self) -> None:
         """Leave the action."""

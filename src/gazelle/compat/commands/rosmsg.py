@@ -19,7 +19,7 @@ from gazelle.interfaces import (
     show_message,
     show_service,
 )
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 
 __all__ = [
     "MODE_MSG",
@@ -52,7 +52,7 @@ def get_msg_text(type_: str, raw: bool = False, rospack: RosPack | None = None) 
     _learn(type_, rospack)
     try:
         if raw:
-            return definition(type_, Generation.ROS1).text
+            return definition(type_, RosVersion.ROS1).text
         return show_message(type_)
     except NotFoundError as error:
         raise ROSMsgException(f"Unable to load msg [{type_}]: {error}") from error
@@ -66,7 +66,7 @@ def get_srv_text(type_: str, raw: bool = False, rospack: RosPack | None = None) 
     """
     _learn(type_, rospack)
     package, _, name = type_.partition("/")
-    source = find_source(package, "srv", name, Generation.ROS1)
+    source = find_source(package, "srv", name, RosVersion.ROS1)
     if source is None:
         known = [_short(one) for one in known_types("srv")]
         text = f"Unknown srv type [{type_}]; {did_you_mean(type_, known)}"

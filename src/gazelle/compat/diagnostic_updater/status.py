@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.compat.generation import message_generation
+from gazelle.compat.ros_version import message_ros_version
 from gazelle.interfaces import message_type, ros1_message_type
 
 __all__ = ["IS_ROS1", "DiagnosticArray", "DiagnosticStatus", "DiagnosticStatusWrapper", "seconds"]
 
-IS_ROS1 = message_generation() == 1
+IS_ROS1 = message_ros_version() == 1
 _make: Any = ros1_message_type if IS_ROS1 else message_type
 DiagnosticArray: Any = _make("diagnostic_msgs/DiagnosticArray")
 DiagnosticStatus: Any = _make("diagnostic_msgs/DiagnosticStatus")

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
-from gazelle.compat.generation import message_generation
 from gazelle.compat.images.conversion import convert_image
 from gazelle.compat.images.encodings import CV_NAMES, CvBridgeError, find_encoding
+from gazelle.compat.ros_version import message_ros_version
 from gazelle.diagnostics import did_you_mean
 from gazelle.interfaces import message_type, ros1_message_type
 
@@ -182,5 +182,5 @@ def _cv_type(dtype: np.dtype[Any], channels: int) -> str:
 
 
 def _message(name: str) -> Any:
-    make = ros1_message_type if message_generation() == 1 else message_type
+    make = ros1_message_type if message_ros_version() == 1 else message_type
     return make(f"sensor_msgs/{name}")()

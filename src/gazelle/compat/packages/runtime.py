@@ -18,7 +18,7 @@ from gazelle.interfaces import (
     time_keys,
     to_plain,
 )
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 
 __all__ = [
     "get_action",
@@ -194,7 +194,7 @@ def set_message_fields(
     if expand_header_auto or expand_time_now:
         import time
 
-        keys = time_keys(time.time_ns(), Generation.ROS2)
+        keys = time_keys(time.time_ns(), RosVersion.ROS2)
     fill(msg, values, keys=keys)
     return []
 

@@ -96,7 +96,7 @@ class GraphQueries:
     def get_action_names_and_types(self) -> NamesAndTypes:
         """Return all actions of ROS 2."""
         found = actions_of(self._rcl_graph.entities())
-        return [(one.name, [one.type_name]) for one in found if one.generation == 2]
+        return [(one.name, [one.type_name]) for one in found if one.ros_version == 2]
 
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False

@@ -13,7 +13,7 @@ from gazelle.interfaces import (
     type_description,
     type_hash,
 )
-from gazelle.interfaces.definition import FORMATS, Field, Generation
+from gazelle.interfaces.definition import FORMATS, Field, RosVersion
 
 __all__ = ["START_TYPE_DESCRIPTION_SERVICE_PARAM", "describe_type", "offer_type_descriptions"]
 
@@ -85,7 +85,7 @@ def _individual(part: dict[str, Any]) -> Any:
 def _defaults(name: str) -> dict[str, str]:
     if name.split("/")[1] != "msg":
         return {}
-    fields = definition(name, Generation.ROS2).fields
+    fields = definition(name, RosVersion.ROS2).fields
     return {one.name: _default_text(one) for one in fields if one.default is not None}
 
 
@@ -99,7 +99,7 @@ def _default_text(field: Field) -> str:
 def _source(name: str) -> Any:
     """Return a type's text; parts of services and actions have none of their own."""
     package, part, bare = name.split("/")
-    found = find_source(package, part, bare, Generation.ROS2)
+    found = find_source(package, part, bare, RosVersion.ROS2)
     encoding, text = ("implicit", "") if found is None else (part, found.text)
     make = _message("TypeSource")
     return make(type_name=name, encoding=encoding, raw_file_contents=text)

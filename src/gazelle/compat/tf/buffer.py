@@ -9,7 +9,7 @@ from weakref import WeakSet
 
 from gazelle.compat.rclpy.task import Future
 from gazelle.compat.rospy.state import STATE
-from gazelle.compat.tf.conversions import generation, nanoseconds, stamped, time_of
+from gazelle.compat.tf.conversions import nanoseconds, ros_version, stamped, time_of
 from gazelle.compat.tf.errors import TransformException, as_tf2_error
 from gazelle.compat.tf.interface import BufferInterface
 from gazelle.graph import Node
@@ -69,7 +69,7 @@ class Buffer(BufferInterface):
             )
         except graph_tf.TransformError as error:
             raise as_tf2_error(error) from None
-        return stamped(found, generation(self._node))
+        return stamped(found, ros_version(self._node))
 
     def lookup_transform_full(
         self,
@@ -96,7 +96,7 @@ class Buffer(BufferInterface):
             )
         except graph_tf.TransformError as error:
             raise as_tf2_error(error) from None
-        return stamped(found, generation(self._node))
+        return stamped(found, ros_version(self._node))
 
     def can_transform(
         self,
@@ -189,7 +189,7 @@ class Buffer(BufferInterface):
             stamp_ns = self.core.latest_common_time_ns(target_frame, source_frame)
         except graph_tf.TransformError as error:
             raise as_tf2_error(error) from None
-        return time_of(stamp_ns, generation(self._node))
+        return time_of(stamp_ns, ros_version(self._node))
 
     def all_frames_as_yaml(self) -> str:
         """Return all frames as YAML."""

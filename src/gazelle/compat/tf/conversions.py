@@ -12,12 +12,12 @@ from gazelle.interfaces import message_type, ros1_message_type
 from gazelle.interfaces.poses import set_transform
 from gazelle.interfaces.stamps import ns_of, set_stamp
 
-__all__ = ["generation", "nanoseconds", "stamped", "time_of"]
+__all__ = ["nanoseconds", "ros_version", "stamped", "time_of"]
 
-Generation = Literal[1, 2]
+RosVersion = Literal[1, 2]
 
 
-def generation(node: Any = None) -> Generation:
+def ros_version(node: Any = None) -> RosVersion:
     """Return 2 for a node of rclpy or a program that imports it and not rospy, 1 otherwise."""
     if hasattr(node, "graph_node"):
         return 2
@@ -33,7 +33,7 @@ def nanoseconds(value: Any) -> int:
     return ns_of(value) if hasattr(value, "nanosec") else int(float(value) * 1e9)
 
 
-def stamped(found: graph_tf.StampedPose, made_for: Generation = 1) -> Any:
+def stamped(found: graph_tf.StampedPose, made_for: RosVersion = 1) -> Any:
     """Return a ``geometry_msgs/TransformStamped`` in the form of ROS 1 or 2."""
     make = ros1_message_type if made_for == 1 else message_type
     message: Any = make("geometry_msgs/TransformStamped")()
@@ -47,7 +47,7 @@ def stamped(found: graph_tf.StampedPose, made_for: Generation = 1) -> Any:
     return message
 
 
-def time_of(stamp: int, made_for: Generation) -> Any:
+def time_of(stamp: int, made_for: RosVersion) -> Any:
     """Return a time in nanoseconds as rospy's or rclpy's class."""
     if made_for == 1:
         return Time(nsecs=stamp)

@@ -107,7 +107,7 @@ class ControllerManager:
         self._maker.class_of(name, chosen)
         self._take_named(name)
         record = ControllerRecord(name, chosen, ControllerState.UNCONFIGURED, self._rate_of(name))
-        if self.robot.generation == 1:
+        if self.robot.ros_version == 1:
             self._make(record)
         self._records[name] = record
         return record
@@ -122,7 +122,7 @@ class ControllerManager:
         if record.is_active:
             raise ControllerError(f"Controller '{name}' can not be configured from 'active' state.")
         if record.controller is not None:
-            if self.robot.generation == 1:
+            if self.robot.ros_version == 1:
                 return
             self._unmake(record)
         record.update_rate_hz = self._rate_of(name)
@@ -162,7 +162,7 @@ class ControllerManager:
             start,
             stop,
             strict=strict,
-            generation=self.robot.generation,
+            ros_version=self.robot.ros_version,
             check=self.robot.check_switch,
             refusal=self._refusal,
         )
@@ -177,7 +177,7 @@ class ControllerManager:
         """
         record = self._record(name, "unload")
         if record.is_active:
-            word = "running" if self.robot.generation == 1 else "active"
+            word = "running" if self.robot.ros_version == 1 else "active"
             raise ControllerError(
                 f"Could not unload controller with name '{name}' because it is still {word}"
             )

@@ -58,7 +58,7 @@ class ControllerMaker:
         hint = did_you_mean(name, configured) or (
             f"configured are: {', '.join(configured)}" if configured else "none is configured"
         )
-        if self._robot.generation == 2:
+        if self._robot.ros_version == 2:
             raise ControllerError(f"The 'type' param was not defined for '{name}'; {hint}")
         namespace = self.source.full_name(name, "").rstrip("/")
         raise ControllerError(
@@ -78,7 +78,7 @@ class ControllerMaker:
             return found
         hint = did_you_mean(type_name, known_types()) or "see docs/controllers.md for what there is"
         where = "" if self._workspace is None else self._searched(type_name)
-        if self._robot.generation == 2:
+        if self._robot.ros_version == 2:
             text = f"Loader for controller '{name}' (type '{type_name}') not found"
         else:
             text = f"Could not load class '{type_name}': Could not load controller '{name}' "

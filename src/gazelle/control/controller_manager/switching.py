@@ -46,7 +46,7 @@ def plan_switch(
     stop: Iterable[str],
     *,
     strict: bool,
-    generation: int,
+    ros_version: int,
     check: Check,
     refusal: Refusal = lambda record: "",
 ) -> SwitchPlan:
@@ -57,14 +57,14 @@ def plan_switch(
         start: names of what to start; what is in `stop` too is restarted.
         stop: names of what to stop.
         strict: anything that cannot be done fails the whole switch; else it is left out.
-        generation: 1 lets one controller at a time have a joint, 2 an interface of a joint.
+        ros_version: 1 lets one controller at a time have a joint, 2 an interface of a joint.
         check: asks the hardware, with what is claimed and released.
         refusal: why a controller cannot be activated now, empty when it can.
 
     Raises:
         ControllerError: the switch cannot be done; nothing has changed.
     """
-    planner = _Planner(records, refusal, strict=strict, generation=generation)
+    planner = _Planner(records, refusal, strict=strict, ros_version=ros_version)
     plan = planner.plan(tuple(dict.fromkeys(start)), tuple(dict.fromkeys(stop)))
     reason = check(plan.claims, plan.releases) if plan.start or plan.stop else ""
     if reason:
@@ -73,7 +73,7 @@ def plan_switch(
             "controllers is unfeasible.",
             2: "Could not switch controllers since prepare command mode switch was rejected.",
         }
-        raise ControllerError(f"{words[generation]} {reason}")
+        raise ControllerError(f"{words[ros_version]} {reason}")
     return plan
 
 
@@ -84,12 +84,12 @@ class _Planner:
         refusal: Refusal,
         *,
         strict: bool,
-        generation: int,
+        ros_version: int,
     ) -> None:
         self._records, self._refusal = records, refusal
         self._strict = strict
-        self._generation = generation
-        self._verbs = ("start", "stop") if generation == 1 else ("activate", "deactivate")
+        self._ros_version = ros_version
+        self._verbs = ("start", "stop") if ros_version == 1 else ("activate", "deactivate")
         self._plan = SwitchPlan()
 
     def plan(self, start: tuple[str, ...], stop: tuple[str, ...]) -> SwitchPlan:
@@ -105,7 +105,7 @@ class _Planner:
         record = self._known(name, self._verbs[1])
         if record is None or record.is_active:
             return record
-        word = "running" if self._generation == 1 else "active"
+        word = "running" if self._ros_version == 1 else "active"
         self._leave_out(f"Could not {self._verbs[1]} controller '{name}' since it is not {word}")
         return None
 
@@ -118,7 +118,7 @@ class _Planner:
             self._leave_out(text + "configure it first")
             return None
         if record.is_active and name not in stop:
-            word = "running" if self._generation == 1 else "active"
+            word = "running" if self._ros_version == 1 else "active"
             self._leave_out(f"Controller '{name}' is already {word}")
             return None
         reason = self._refusal(record)
@@ -153,7 +153,7 @@ class _Planner:
         kept = []
         for record in self._plan.start:
             taken = {item: owners[item] for item in self._resources(record) if item in owners}
-            if taken and (self._strict or self._generation == 1):
+            if taken and (self._strict or self._ros_version == 1):
                 raise ControllerError(self._conflict(record, taken))
             if taken:
                 self._plan.notes.append(self._conflict(record, taken))
@@ -167,12 +167,12 @@ class _Planner:
             owners.setdefault(item, []).append(record.name)
 
     def _resources(self, record: ControllerRecord) -> tuple[str, ...]:
-        if self._generation == 2:
+        if self._ros_version == 2:
             return record.commands
         return tuple(dict.fromkeys(name.rpartition("/")[0] for name in record.commands))
 
     def _conflict(self, record: ControllerRecord, taken: dict[str, list[str]]) -> str:
-        if self._generation == 1:
+        if self._ros_version == 1:
             each = []
             for item, names in taken.items():
                 owners = ", ".join([*names, record.name])

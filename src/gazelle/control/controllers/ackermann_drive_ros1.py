@@ -19,7 +19,7 @@ __all__ = ["ROS1_ROWS", "Ros1AckermannDrive"]
 
 
 def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
-    return Parameter(key, kind, default, meaning, unit=unit, generations=(1,))
+    return Parameter(key, kind, default, meaning, unit=unit, ros_versions=(1,))
 
 
 ROS1_ROWS = (
@@ -37,7 +37,7 @@ ROS1_ROWS = (
         "refused",
         True,
         "senders are not counted; all of them are heard",
-        generations=(1,),
+        ros_versions=(1,),
     ),
 )
 

@@ -24,7 +24,7 @@ __all__ = ["AckermannSteeringController"]
 
 
 def _track(key: str, meaning: str) -> Parameter:
-    return Parameter(key, "number", None, meaning, unit="m", generations=(2,))
+    return Parameter(key, "number", None, meaning, unit="m", ros_versions=(2,))
 
 
 _TRACKS = (
@@ -34,12 +34,12 @@ _TRACKS = (
     _track("front_wheel_track", "up to Humble, with front_steering: false; both axles get it"),
 )
 _ROS1_TOPICS = (
-    Topic("~/cmd_vel", "geometry_msgs/Twist", "listens", generations=(1,)),
+    Topic("~/cmd_vel", "geometry_msgs/Twist", "listens", ros_versions=(1,)),
     Topic(
-        "~/odom", "nav_msgs/Odometry", rate="publish_rate", frame="odom_frame_id", generations=(1,)
+        "~/odom", "nav_msgs/Odometry", rate="publish_rate", frame="odom_frame_id", ros_versions=(1,)
     ),
     Topic(
-        "/tf", "tf2_msgs/TFMessage", rate="publish_rate", frame="odom_frame_id", generations=(1,)
+        "/tf", "tf2_msgs/TFMessage", rate="publish_rate", frame="odom_frame_id", ros_versions=(1,)
     ),
 )
 
@@ -73,6 +73,6 @@ class AckermannSteeringController(DriveController):
     )
 
     def _make(self, context: ControllerContext) -> Drive:
-        if context.generation == 1:
+        if context.ros_version == 1:
             return Ros1AckermannDrive(context)
         return SteeringDrive(context, SteeringKind.ACKERMANN)

@@ -40,9 +40,9 @@ class ControllerContext:
     namespace: str = ""
 
     @property
-    def generation(self) -> int:
+    def ros_version(self) -> int:
         """1 for ros_control, 2 for ros2_control."""
-        return self.robot.generation
+        return self.robot.ros_version
 
     def joint(self, name: str) -> JointResource:
         """Return a joint of the hardware.
@@ -85,7 +85,7 @@ class ControllerContext:
             there = [item.rpartition("/")[2] for item in known if item.startswith(f"{owner}/")]
             text = f"controller '{self.name}' needs {kind} interface '{name}'; '{owner}' has "
             text += f"{', '.join(there)}" if there else f"no {kind} interface"
-            if self.generation == 1 and kind == "command":
+            if self.ros_version == 1 and kind == "command":
                 text += f" (Could not find resource '{owner}' in "
                 text += f"'hardware_interface::{interface.capitalize()}JointInterface')"
             raise ControllerError(text)
@@ -97,10 +97,10 @@ class ControllerContext:
         names = [*self.robot.joints, *self.robot.sensors]
         hint = did_you_mean(name, names) or f"there are: {', '.join(names) or 'none'}"
         if name in {joint.name for joint in self.robot.model.joints}:
-            given = "<transmission>" if self.generation == 1 else "<ros2_control> block"
+            given = "<transmission>" if self.ros_version == 1 else "<ros2_control> block"
             hint = f"the robot has it, but no {given} gives it to controllers"
         text = f"controller '{self.name}': the hardware has no joint or sensor '{name}'; {hint}"
-        if self.generation == 1:
+        if self.ros_version == 1:
             text += f" (Could not find resource '{name}')"
         return text
 

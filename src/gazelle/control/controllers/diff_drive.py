@@ -37,7 +37,7 @@ class DiffDriveController(Controller):
         parameters = context.parameters
         self._open_loop = parameters.flag("open_loop")
         self._feedback = "velocity"
-        if context.generation == 1 or parameters.flag("position_feedback"):
+        if context.ros_version == 1 or parameters.flag("position_feedback"):
             self._feedback = "position"
         self.states = tuple(f"{name}/{self._feedback}" for name in wheels)
         self._command_places = context.command_places(self.commands)
@@ -45,8 +45,8 @@ class DiffDriveController(Controller):
         self._active = False
         self._read_geometry()
         self._limiters = (
-            SpeedLimiter(read_limits(parameters, "linear.x", context.generation)),
-            SpeedLimiter(read_limits(parameters, "angular.z", context.generation)),
+            SpeedLimiter(read_limits(parameters, "linear.x", context.ros_version)),
+            SpeedLimiter(read_limits(parameters, "angular.z", context.ros_version)),
         )
         self._applied = (0.0, 0.0)
         self._offer()
@@ -139,7 +139,7 @@ class DiffDriveController(Controller):
         self._wheel_state = None
         if parameters.flag("publish_wheel_joint_controller_state"):
             self._wheel_state = WheelStateOutput(context, self._left, self._right)
-        is_ros2 = context.generation == 2
+        is_ros2 = context.ros_version == 2
         self._input = TwistInput(
             ports,
             parameters.number("cmd_vel_timeout"),

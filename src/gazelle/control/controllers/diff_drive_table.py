@@ -35,7 +35,7 @@ _WHEELS = (
         unit="m",
     ),
     Parameter("wheel_separation_multiplier", "number", 1.0, "corrects the separation", live=True),
-    Parameter("wheel_radius_multiplier", "number", None, "corrects both radii", generations=(1,)),
+    Parameter("wheel_radius_multiplier", "number", None, "corrects both radii", ros_versions=(1,)),
     Parameter("left_wheel_radius_multiplier", "number", 1.0, "corrects the left radius", live=True),
     Parameter(
         "right_wheel_radius_multiplier", "number", 1.0, "corrects the right radius", live=True
@@ -45,7 +45,7 @@ _WHEELS = (
         "refused",
         0,
         "the number of wheels is that of the names, as in the original",
-        generations=(2,),
+        ros_versions=(2,),
     ),
 )
 
@@ -56,7 +56,7 @@ _COMMANDS = (
         "refused",
         True,
         "senders are not counted; all of them are heard",
-        generations=(1,),
+        ros_versions=(1,),
     ),
     Parameter(
         "use_stamped_vel",
@@ -64,7 +64,7 @@ _COMMANDS = (
         True,
         "whether the stamp of a TwistStamped tells its age; Twist and TwistStamped are both"
         " taken on both topics anyway",
-        generations=(2,),
+        ros_versions=(2,),
     ),
     Parameter(
         "publish_limited_velocity",
@@ -78,23 +78,23 @@ _COMMANDS = (
         "flag",
         False,
         "publish desired and actual wheel states",
-        generations=(1,),
+        ros_versions=(1,),
     ),
     Parameter(
         "position_feedback",
         "flag",
         True,
         "odometry from positions, else from velocities",
-        generations=(2,),
+        ros_versions=(2,),
     ),
     Parameter("publish_rate", "number", 50.0, "rate of odometry and tf", unit="Hz", live=True),
-    Parameter("tf_frame_prefix_enable", "flag", True, "prefix the frames", generations=(2,)),
+    Parameter("tf_frame_prefix_enable", "flag", True, "prefix the frames", ros_versions=(2,)),
     Parameter(
         "tf_frame_prefix",
         "text",
         "",
         "prefix of the frames; the namespace when empty, ~ stands for it",
-        generations=(2,),
+        ros_versions=(2,),
     ),
 )
 
@@ -114,9 +114,9 @@ TABLE = ControllerTable(
     interfaces="claims velocity of every wheel; reads position (velocity with"
     " position_feedback: false)",
     topics=(
-        Topic("~/cmd_vel", "geometry_msgs/Twist", "listens", generations=(1,)),
-        Topic("~/cmd_vel", "geometry_msgs/TwistStamped", "listens", generations=(2,)),
-        Topic("~/cmd_vel_unstamped", "geometry_msgs/Twist", "listens", generations=(2,)),
+        Topic("~/cmd_vel", "geometry_msgs/Twist", "listens", ros_versions=(1,)),
+        Topic("~/cmd_vel", "geometry_msgs/TwistStamped", "listens", ros_versions=(2,)),
+        Topic("~/cmd_vel_unstamped", "geometry_msgs/Twist", "listens", ros_versions=(2,)),
         Topic("~/odom", "nav_msgs/Odometry", rate="publish_rate", frame="odom_frame_id"),
         Topic("/tf", "tf2_msgs/TFMessage", rate="publish_rate", frame="odom_frame_id"),
         Topic("~/cmd_vel_out", "geometry_msgs/TwistStamped", rate="every update"),
@@ -124,10 +124,10 @@ TABLE = ControllerTable(
             "~/wheel_joint_controller_state",
             "control_msgs/JointTrajectoryControllerState",
             rate="every update",
-            generations=(1,),
+            ros_versions=(1,),
         ),
-        Topic("~/set_parameters", "dynamic_reconfigure/Reconfigure", "service", generations=(1,)),
-        Topic("~/set_odometry", "control_msgs/SetOdometry", "service", generations=(2,)),
+        Topic("~/set_parameters", "dynamic_reconfigure/Reconfigure", "service", ros_versions=(1,)),
+        Topic("~/set_odometry", "control_msgs/SetOdometry", "service", ros_versions=(2,)),
     ),
     behaviour=(
         "A command older than cmd_vel_timeout counts as 0; the limits bound the braking, too."

@@ -10,12 +10,12 @@ __all__ = ["TABLE"]
 
 
 def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
-    return Parameter(key, kind, default, meaning, unit=unit, generations=(1,))
+    return Parameter(key, kind, default, meaning, unit=unit, ros_versions=(1,))
 
 
 def _topic(name: str, type_name: str, kind: TopicKind = "publishes", frame: str = "") -> Topic:
     rate = "publish_rate" if kind == "publishes" else ""
-    return Topic(name, type_name, kind, rate=rate, frame=frame, generations=(1,))
+    return Topic(name, type_name, kind, rate=rate, frame=frame, ros_versions=(1,))
 
 
 _PARAMETERS = (

@@ -31,7 +31,7 @@ GRIPPER_ROWS = (
     ),
     Parameter("stall_timeout", "number", 1.0, "standing this long counts as stalled", "s"),
     Parameter(
-        "allow_stalling", "flag", False, "stalling is a success; else it aborts", generations=(2,)
+        "allow_stalling", "flag", False, "stalling is a success; else it aborts", ros_versions=(2,)
     ),
     Parameter("action_monitor_rate", "number", 20.0, "rate of feedback", "Hz"),
 )
@@ -64,7 +64,7 @@ class GripperGoal:
         """
         parameters = context.parameters
         self.goal: GoalPort | None = None
-        self._is_ros1 = context.generation == 1
+        self._is_ros1 = context.ros_version == 1
         self._tolerance = abs(parameters.number("goal_tolerance"))
         self._slow = parameters.number("stall_velocity_threshold")
         self._timeout_ns = round(parameters.number("stall_timeout") * _NANO)
@@ -259,11 +259,11 @@ class GripperActionController(Controller):
 
 
 def _pid(context: ControllerContext, name: str) -> Pid:
-    gains = read_gains(context.parameters, "gains", name, generation=context.generation)
+    gains = read_gains(context.parameters, "gains", name, ros_version=context.ros_version)
     if gains is None:
         where = context.parameters.full_name(f"gains.{name}")
         text = f"controller '{context.name}': No p gain specified for pid. Namespace: {where}"
         raise ControllerError(text)
     pid = Pid(gains)
-    offer_live_gains(context, f"gains{'/' if context.generation == 1 else '.'}{name}", pid)
+    offer_live_gains(context, f"gains{'/' if context.ros_version == 1 else '.'}{name}", pid)
     return pid

@@ -17,7 +17,7 @@ _ROS2 = (2,)
 
 
 def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
-    return Parameter(key, kind, default, meaning, unit, generations=_ROS2)
+    return Parameter(key, kind, default, meaning, unit, ros_versions=_ROS2)
 
 
 class ParallelGripperActionController(Controller):
@@ -50,7 +50,7 @@ class ParallelGripperActionController(Controller):
                 "control_msgs/ParallelGripperCommand",
                 "action",
                 "feedback at action_monitor_rate",
-                generations=_ROS2,
+                ros_versions=_ROS2,
             ),
         ),
         behaviour=(

@@ -40,7 +40,7 @@ class _ForwardController(Controller):
         self.commands = commands
         self._places: Indices = context.command_places(commands)
         self._values: Array | None = None
-        topic = "~/command" if context.generation == 1 else "~/commands"
+        topic = "~/command" if context.ros_version == 1 else "~/commands"
         context.ports.subscription(topic, _ARRAY, self._take)
 
     def start(self, time_ns: int) -> None:
@@ -63,7 +63,7 @@ class _ForwardController(Controller):
         if len(values) == count:
             self._values = values
             return
-        if self.context.generation == 1:
+        if self.context.ros_version == 1:
             text = (
                 f"Dimension of command ({len(values)}) does not match number of joints ({count})! "
             )
@@ -90,15 +90,15 @@ class JointGroupCommandController(_ForwardController):
                     "text",
                     None,
                     "interface of ForwardCommandController; required there",
-                    generations=(2,),
+                    ros_versions=(2,),
                 ),
             ),
         ),
         interfaces="claims effort, velocity or position of the joints, as the type says, or"
         " `interface_name`",
         topics=(
-            Topic("~/command", _ARRAY, "listens", generations=(1,)),
-            Topic("~/commands", _ARRAY, "listens", generations=(2,)),
+            Topic("~/command", _ARRAY, "listens", ros_versions=(1,)),
+            Topic("~/commands", _ARRAY, "listens", ros_versions=(2,)),
         ),
         behaviour=(
             "In ROS 1 efforts and velocities begin at 0 and positions where the joints are "
@@ -117,7 +117,7 @@ class JointGroupCommandController(_ForwardController):
         joints = parameters.texts("joints")
         if not joints:
             empty = ("List of joint names is empty.", "'joints' parameter was empty")
-            raise ControllerError(f"{context.name}: {empty[context.generation - 1]}")
+            raise ControllerError(f"{context.name}: {empty[context.ros_version - 1]}")
         for joint in joints:
             context.joint(joint)
         kind = context.type.replace("::", "/")
@@ -130,10 +130,10 @@ class JointGroupCommandController(_ForwardController):
             parameters.report("parameter.idle", text, key="interface_name")
         self._forward(tuple(f"{joint}/{interface}" for joint in joints))
         self._state_places: Indices | None = None
-        if context.generation == 1 and interface == "position":
+        if context.ros_version == 1 and interface == "position":
             self.states = self.commands
             self._state_places = context.state_places(self.states)
-        if context.generation == 2 and interface != "position" and kind != _FORWARD:
+        if context.ros_version == 2 and interface != "position" and kind != _FORWARD:
             self.stop_value = 0.0
 
     def start(self, time_ns: int) -> None:
@@ -141,7 +141,7 @@ class JointGroupCommandController(_ForwardController):
         super().start(time_ns)
         if self._state_places is not None:
             self._values = self.robot.bank.states[self._state_places]
-        elif self.context.generation == 1:
+        elif self.context.ros_version == 1:
             self._values = np.zeros(len(self.commands))
 
 
@@ -154,18 +154,18 @@ class MultiInterfaceCommandController(_ForwardController):
             "Passes an array of commands on to several interfaces of one joint.",
             (_MULTI,),
             (
-                Parameter("joint", "text", None, "the joint; required", generations=(2,)),
+                Parameter("joint", "text", None, "the joint; required", ros_versions=(2,)),
                 Parameter(
                     "interface_names",
                     "texts",
                     None,
                     "its interfaces, in the order of the array; required",
-                    generations=(2,),
+                    ros_versions=(2,),
                 ),
             ),
         ),
         interfaces="claims `interface_names` of the joint",
-        topics=(Topic("~/commands", _ARRAY, "listens", generations=(2,)),),
+        topics=(Topic("~/commands", _ARRAY, "listens", ros_versions=(2,)),),
         behaviour=(_UNTIL_TOLD, "Once stopped it leaves its last command with the hardware."),
     )
 

@@ -39,5 +39,5 @@ def _section(table: ControllerTable) -> list[str]:
 
 
 def _topic_line(row: Topic) -> str:
-    kind = row.kind + only_in(row.generations)
+    kind = row.kind + only_in(row.ros_versions)
     return f"| `{row.name}` | `{row.type}` | {kind} | {row.rate} | {row.frame} |"

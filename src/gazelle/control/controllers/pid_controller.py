@@ -27,7 +27,7 @@ _ONLY = (2,)
 def _row(
     key: str, kind: ParameterKind, default: object, meaning: str, *, live: bool = False
 ) -> Parameter:
-    return Parameter(key, kind, default, meaning, live=live, generations=_ONLY)
+    return Parameter(key, kind, default, meaning, live=live, ros_versions=_ONLY)
 
 
 PID_CONTROLLER_TABLE = ControllerTable(
@@ -74,27 +74,27 @@ PID_CONTROLLER_TABLE = ControllerTable(
     ),
     interfaces="claims command_interface of dof_names; reads the interfaces of the references",
     topics=(
-        Topic("~/reference", "control_msgs/MultiDOFCommand", "listens", generations=_ONLY),
+        Topic("~/reference", "control_msgs/MultiDOFCommand", "listens", ros_versions=_ONLY),
         Topic(
             "~/measured_state",
             "control_msgs/MultiDOFCommand",
             "listens",
             "with use_external_measured_states",
-            generations=_ONLY,
+            ros_versions=_ONLY,
         ),
         Topic(
             "~/controller_state",
             "control_msgs/MultiDOFStateStamped",
             rate="every update",
-            generations=_ONLY,
+            ros_versions=_ONLY,
         ),
         Topic(
             "~/<dof>/pid_state",
             "control_msgs/PidState",
             rate="every update, with activate_state_publisher",
-            generations=_ONLY,
+            ros_versions=_ONLY,
         ),
-        Topic("~/set_feedforward_control", "std_srvs/SetBool", "service", generations=_ONLY),
+        Topic("~/set_feedforward_control", "std_srvs/SetBool", "service", ros_versions=_ONLY),
     ),
     behaviour=(
         "With two interfaces the rate's error is what d acts on, once a reference of the rate is "
@@ -189,7 +189,7 @@ class PidController(Controller):
 
     def _read_gains(self) -> None:
         context, parameters = self.context, self.context.parameters
-        gains = [read_gains(parameters, "gains", dof, generation=2) for dof in self._dofs]
+        gains = [read_gains(parameters, "gains", dof, ros_version=2) for dof in self._dofs]
         self.pids = [Pid(PidGains() if row is None else row) for row in gains]
         self._pid_states: dict[int, PidStatePort] = {}
         for k, (dof, pid) in enumerate(zip(self._dofs, self.pids, strict=True)):

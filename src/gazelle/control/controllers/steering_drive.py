@@ -60,22 +60,22 @@ def library_topics() -> tuple[Topic, ...]:
     stamped, plain = "geometry_msgs/TwistStamped", "geometry_msgs/Twist"
     frame, rate = "odom_frame_id", "every update"
     return (
-        Topic("~/reference", stamped, "listens", generations=(2,)),
-        Topic("~/reference_unstamped", plain, "listens", generations=(2,)),
-        Topic("~/odometry", "nav_msgs/Odometry", rate=rate, frame=frame, generations=(2,)),
-        Topic("~/tf_odometry", "tf2_msgs/TFMessage", rate=rate, frame=frame, generations=(2,)),
+        Topic("~/reference", stamped, "listens", ros_versions=(2,)),
+        Topic("~/reference_unstamped", plain, "listens", ros_versions=(2,)),
+        Topic("~/odometry", "nav_msgs/Odometry", rate=rate, frame=frame, ros_versions=(2,)),
+        Topic("~/tf_odometry", "tf2_msgs/TFMessage", rate=rate, frame=frame, ros_versions=(2,)),
         Topic(
             "~/controller_state",
             "control_msgs/SteeringControllerStatus",
             rate=rate,
-            generations=(2,),
+            ros_versions=(2,),
         ),
-        Topic("~/set_odometry", "control_msgs/SetOdometry", "service", generations=(2,)),
+        Topic("~/set_odometry", "control_msgs/SetOdometry", "service", ros_versions=(2,)),
     )
 
 
 def _row(key: str, kind: str, default: object, meaning: str, **more: object) -> Parameter:
-    return Parameter(key, kind, default, meaning, generations=(2,), **more)  # type: ignore[arg-type]
+    return Parameter(key, kind, default, meaning, ros_versions=(2,), **more)  # type: ignore[arg-type]
 
 
 def _joint_rows() -> tuple[Parameter, ...]:

@@ -18,7 +18,7 @@ _MOST = 1000.0
 
 
 def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
-    return Parameter(key, kind, default, meaning, unit=unit, generations=(2,))
+    return Parameter(key, kind, default, meaning, unit=unit, ros_versions=(2,))
 
 
 def _bounds(group: str, units: dict[str, str]) -> tuple[Parameter, ...]:
@@ -70,7 +70,7 @@ TABLE = ControllerTable(
     ),
     interfaces="claims and reads velocity of the driven and position of the steered joint",
     topics=(
-        Topic("~/cmd_vel", "geometry_msgs/TwistStamped", "listens", generations=(2,)),
+        Topic("~/cmd_vel", "geometry_msgs/TwistStamped", "listens", ros_versions=(2,)),
         Topic("~/odom", "nav_msgs/Odometry", rate="every update", frame="odom_frame_id"),
         Topic("/tf", "tf2_msgs/TFMessage", rate="every update", frame="odom_frame_id"),
         Topic("~/cmd_ackermann", "ackermann_msgs/AckermannDrive", rate="every update"),

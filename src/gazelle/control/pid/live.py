@@ -32,8 +32,8 @@ def offer_live_gains(
         pid: what is changed: a PID, or one place of a bank.
     """
     get, put = _access(pid)
-    generation = context.generation
-    rows = _ros1_rows(get()) if generation == 1 else _ros2_rows(get())
+    ros_version = context.ros_version
+    rows = _ros1_rows(get()) if ros_version == 1 else _ros2_rows(get())
     port: LivePort | None = None
 
     def changed(values: dict[str, Any]) -> None:
@@ -44,7 +44,7 @@ def offer_live_gains(
             return
         context.ports.log("error", f"{context.name}/{group}: {gains.problem}")
         if port is not None:
-            port.update(_values(get(), generation))
+            port.update(_values(get(), ros_version))
 
     port = context.ports.live_parameters(group, rows, changed)
     return port
@@ -64,8 +64,8 @@ def _access(
     return (lambda: bank.gains[place]), (lambda gains: bank.set_gains(place, gains))
 
 
-def _values(gains: PidGains, generation: int) -> dict[str, Any]:
-    rows = _ros1_rows(gains) if generation == 1 else _ros2_rows(gains)
+def _values(gains: PidGains, ros_version: int) -> dict[str, Any]:
+    rows = _ros1_rows(gains) if ros_version == 1 else _ros2_rows(gains)
     return {row.name: row.value for row in rows}
 
 

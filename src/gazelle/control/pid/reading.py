@@ -13,7 +13,7 @@ __all__ = ["gain_rows", "read_gains"]
 
 
 def read_gains(
-    parameters: ParameterReader, key: str = "pid", joint: str = "", *, generation: int = 1
+    parameters: ParameterReader, key: str = "pid", joint: str = "", *, ros_version: int = 1
 ) -> PidGains | None:
     """Return the gains below a key, None when there is no ``p`` at all.
 
@@ -26,7 +26,7 @@ def read_gains(
         parameters: the controller's.
         key: group of the gains.
         joint: word below the group, as in ``gains.joint_1.p``.
-        generation: 1 or 2, for the bound of the integral when none is given.
+        ros_version: 1 or 2, for the bound of the integral when none is given.
     """
     prefix = ".".join(word for word in (key, joint) if word)
     if not parameters.has(f"{prefix}.p"):
@@ -39,7 +39,7 @@ def read_gains(
     given = [
         parameters.has(f"{prefix}.{word}") for word in ("i_clamp", "i_clamp_max", "i_clamp_min")
     ]
-    clamp = abs(number("i_clamp", math.inf if generation == 2 else 0.0))
+    clamp = abs(number("i_clamp", math.inf if ros_version == 2 else 0.0))
     gains = PidGains(
         p=number("p", 0.0),
         i=number("i", 0.0),
@@ -62,7 +62,7 @@ def read_gains(
     return gains
 
 
-def gain_rows(prefix: str, generations: tuple[int, ...] = (1, 2)) -> tuple[Parameter, ...]:
+def gain_rows(prefix: str, ros_versions: tuple[int, ...] = (1, 2)) -> tuple[Parameter, ...]:
     """Return the rows of a controller's table for gains below a key.
 
     In ROS 2 all but i_clamp and the strategy can be set live; in ROS 1 dynamic_reconfigure does.
@@ -71,14 +71,14 @@ def gain_rows(prefix: str, generations: tuple[int, ...] = (1, 2)) -> tuple[Param
     def row(
         name: str, kind: ParameterKind, default: object, meaning: str, live: bool = True
     ) -> Parameter:
-        is_live = live and 2 in generations
+        is_live = live and 2 in ros_versions
         key = f"{prefix}.{name}"
-        return Parameter(key, kind, default, meaning, live=is_live, generations=generations)
+        return Parameter(key, kind, default, meaning, live=is_live, ros_versions=ros_versions)
 
     def newer(
         name: str, kind: ParameterKind, default: object, meaning: str, live: bool = True
     ) -> Parameter:
-        return replace(row(name, kind, default, meaning, live), generations=(2,))
+        return replace(row(name, kind, default, meaning, live), ros_versions=(2,))
 
     no_clamp = "0 in ROS 1: without it i has no effect; unbounded in ROS 2"
     rows = (
@@ -90,7 +90,7 @@ def gain_rows(prefix: str, generations: tuple[int, ...] = (1, 2)) -> tuple[Param
         row("i_clamp_min", "number", None, "lower bound of the integral's part; -i_clamp"),
         row("antiwindup", "flag", False, "bound the integral itself, not only its part"),
     )
-    if 2 not in generations:
+    if 2 not in ros_versions:
         return rows
     strategies = "legacy, none, back_calculation or conditional_integration"
     return (

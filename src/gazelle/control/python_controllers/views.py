@@ -216,7 +216,7 @@ class UserNode:
         from gazelle.control.pid import read_gains
 
         key = group.strip("~/").replace("/", ".")
-        return read_gains(self._context.parameters, key, generation=self._context.generation)
+        return read_gains(self._context.parameters, key, ros_version=self._context.ros_version)
 
     def offer_live_gains(self, group: str, pid: ControlPid) -> None:
         """Let others change the gains of a PID while the controller runs."""

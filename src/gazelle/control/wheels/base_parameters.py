@@ -45,9 +45,9 @@ def _axis_rows(axis: str) -> tuple[Parameter, ...]:
     speed, acceleration, jerk = _UNITS[axis.partition(".")[0]]
     flag = "whether they act; ROS 1: false when absent, ROS 2: true when they are given"
 
-    def row(key: str, meaning: str, unit: str, generations: tuple[int, ...] = (1, 2)) -> Parameter:
+    def row(key: str, meaning: str, unit: str, ros_versions: tuple[int, ...] = (1, 2)) -> Parameter:
         return Parameter(
-            f"{axis}.{key}", "number", None, meaning, unit=unit, generations=generations
+            f"{axis}.{key}", "number", None, meaning, unit=unit, ros_versions=ros_versions
         )
 
     return (

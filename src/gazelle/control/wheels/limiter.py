@@ -149,7 +149,7 @@ def _clamp(value: float, lowest: float, highest: float) -> float:
     return min(max(value, lowest), highest)
 
 
-def read_limits(parameters: ParameterReader, axis: str, generation: int) -> SpeedLimits:
+def read_limits(parameters: ParameterReader, axis: str, ros_version: int) -> SpeedLimits:
     """Read the limits of an axis such as ``linear.x``.
 
     ROS 1 wants ``has_…_limits: true`` and takes 0 for a limit that is then missing; ROS 2 takes
@@ -159,17 +159,17 @@ def read_limits(parameters: ParameterReader, axis: str, generation: int) -> Spee
     Raises:
         ControllerError: a lower limit is above its upper one.
     """
-    reader = _Reader(parameters, axis, generation)
+    reader = _Reader(parameters, axis, ros_version)
     velocity = reader.pair("velocity")
     jerk = reader.pair("jerk")
-    return SpeedLimits(velocity, reader.acceleration(), jerk, ros1_jerk=generation == 1)
+    return SpeedLimits(velocity, reader.acceleration(), jerk, ros1_jerk=ros_version == 1)
 
 
 class _Reader:
-    def __init__(self, parameters: ParameterReader, axis: str, generation: int) -> None:
+    def __init__(self, parameters: ParameterReader, axis: str, ros_version: int) -> None:
         self.parameters = parameters
         self.axis = axis
-        self.generation = generation
+        self.ros_version = ros_version
 
     def pair(self, word: str) -> tuple[float, float] | None:
         """Return lowest and highest of a quantity, None for no limits."""
@@ -196,20 +196,20 @@ class _Reader:
     def acts(self, word: str) -> bool:
         key = f"{self.axis}.has_{word}_limits"
         given = not math.isnan(self.number(f"max_{word}", math.nan))
-        flag = self.parameters.flag(key) if self.parameters.has(key) else self.generation == 2
+        flag = self.parameters.flag(key) if self.parameters.has(key) else self.ros_version == 2
         if flag and not given and self.parameters.has(key):
             self.report_missing(word)
         if flag and given and not self.parameters.has(key) and self.is_nothing(word):
             self.report_nothing(word)
             return False
-        return flag and (given or self.generation == 1)
+        return flag and (given or self.ros_version == 1)
 
     def is_nothing(self, word: str) -> bool:
         """Tell whether a limit lets through nothing at all."""
         return self.number(f"max_{word}", 0.0) == 0 and self.number(f"min_{word}", 0.0) == 0
 
     def report_missing(self, word: str) -> None:
-        outcome = "0 is used and the robot stands still" if self.generation == 1 else "none acts"
+        outcome = "0 is used and the robot stands still" if self.ros_version == 1 else "none acts"
         text = f"{self.axis}.has_{word}_limits is true without {self.axis}.max_{word}: {outcome}"
         self.parameters.report(
             "control.limit-without-value",

@@ -39,7 +39,7 @@ def read_frames(context: ControllerContext, *, namespace_prefix: bool) -> Frames
     """
     parameters = context.parameters
     names = parameters.text("odom_frame_id"), parameters.text("base_frame_id")
-    if context.generation == 1:
+    if context.ros_version == 1:
         return Frames(*names)
     prefix = parameters.text("tf_frame_prefix")
     if namespace_prefix and not parameters.flag("tf_frame_prefix_enable"):
@@ -134,7 +134,7 @@ class OdometryOutput:
         self.sends_pose = True
         self.rate = PublishRate(rate_hz)
         self._last_ns = 0
-        default = () if context.generation == 1 else (0.0,) * 6
+        default = () if context.ros_version == 1 else (0.0,) * 6
         self._covariances = covariances or (
             read_covariance(parameters, "pose_covariance_diagonal", default),
             read_covariance(parameters, "twist_covariance_diagonal", default),

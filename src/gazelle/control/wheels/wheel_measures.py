@@ -39,7 +39,7 @@ def measure(context: ControllerContext, key: str, described: Callable[[], float]
         value = described()
     except ControllerError as error:
         raise ControllerError(f"controller '{context.name}': {error}") from None
-    if context.generation == 1:
+    if context.ros_version == 1:
         context.ports.log("info", f"{key} {value:g} m is taken from the robot's description")
     else:
         text = f"{key} is not given; {value:g} m of the robot's description is used. Real ROS 2 "

@@ -35,7 +35,7 @@ def start_controllers(
     if not start.starts or not loaded:
         return
     # ROS 1 starts all at once, ROS 2 one after the other.
-    groups = [loaded] if manager.robot.generation == 1 else [[name] for name in loaded]
+    groups = [loaded] if manager.robot.ros_version == 1 else [[name] for name in loaded]
     for names in groups:
         try:
             manager.switch(start=names)
@@ -55,7 +55,7 @@ def managers_of(managers: Mapping[str, ControllerManager]) -> tuple[Manager, ...
         for name, record in manager.controllers.items():
             joints = rows[name][3] if name in rows else ()
             rows[name] = (name, record.type, str(record.state.value), joints)
-        found.append(Manager(namespace, manager.robot.generation, tuple(rows.values())))
+        found.append(Manager(namespace, manager.robot.ros_version, tuple(rows.values())))
     return tuple(found)
 
 

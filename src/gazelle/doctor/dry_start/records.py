@@ -82,12 +82,12 @@ class Manager:
 
     Attributes:
         namespace: absolute.
-        generation: 1 or 2.
+        ros_version: 1 or 2.
         rows: per controller: name, type, state, joints.
     """
 
     namespace: str
-    generation: int
+    ros_version: int
     rows: tuple[tuple[str, str, str, tuple[str, ...]], ...] = ()
 
 

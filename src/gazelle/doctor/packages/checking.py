@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.packages.dependency_checks import check_dependencies
-from gazelle.doctor.packages.generations import check_generations, generations_section
 from gazelle.doctor.packages.install_checks import check_install
 from gazelle.doctor.packages.manifest_checks import check_manifest
 from gazelle.doctor.packages.message_checks import check_messages
 from gazelle.doctor.packages.python_checks import check_python
+from gazelle.doctor.packages.ros_versions import check_ros_versions, ros_versions_section
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.report import Section
 from gazelle.workspace import Package, Workspace
@@ -40,5 +40,5 @@ def check_package(
     check_python(source, diagnostics)
     check_messages(source, diagnostics)
     check_dependencies(source, workspace, diagnostics)
-    check_generations(source, diagnostics)
-    return (generations_section(source),)
+    check_ros_versions(source, diagnostics)
+    return (ros_versions_section(source),)

@@ -11,14 +11,14 @@ class Distribution(NamedTuple):
     """A ROS distribution.
 
     Attributes:
-        generation: 1 or 2.
+        ros_version: 1 or 2.
         end: month in which its support ended or ends, ``YYYY-MM``.
         gazebo: the Gazebo it is used with.
         is_over: support has ended (as of Gazelle's own release).
     """
 
     name: str
-    generation: int
+    ros_version: int
     end: str
     gazebo: str
     is_over: bool = True

@@ -51,9 +51,9 @@ def check_environment(environ: Mapping[str, str], *, diagnostics: Diagnostics) -
         diagnostics.report("package.ros-mixed", text, fix="open a new shell and source one of them")
     version = environ.get("ROS_VERSION", "").strip()
     named = DISTRIBUTIONS.get(environ.get("ROS_DISTRO", "").strip())
-    if named is not None and version in {"1", "2"} and int(version) != named.generation:
+    if named is not None and version in {"1", "2"} and int(version) != named.ros_version:
         text = f"ROS_VERSION is {version} and ROS_DISTRO is {named.name}, which is a ROS "
-        text += f"{named.generation}"
+        text += f"{named.ros_version}"
         fix = f"open a new shell and source /opt/ros/{named.name}/setup.bash"
         diagnostics.report("package.ros-mixed", text, fix=fix)
     conda = next((environ[name] for name in _CONDA if environ.get(name)), "")

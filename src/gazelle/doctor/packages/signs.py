@@ -16,7 +16,7 @@ class Sign(NamedTuple):
         endings: names of files that are looked at.
         pattern: searched for in the text without XML comments.
         written_for: distributions, in words.
-        generation: 1 or 2, 0 when the sign tells nothing about it.
+        ros_version: 1 or 2, 0 when the sign tells nothing about it.
         why: what changed when.
         here: what Gazelle does with it.
         is_strict: the other generation cannot read such a file at all.
@@ -26,7 +26,7 @@ class Sign(NamedTuple):
     endings: tuple[str, ...]
     pattern: re.Pattern[str]
     written_for: str
-    generation: int
+    ros_version: int
     why: str
     here: str
     is_strict: bool = False
@@ -126,6 +126,6 @@ _ROWS: tuple[tuple[str, tuple[str, ...], str, str, int, str, str, bool], ...] = 
      True),
 )  # fmt: skip
 SIGNS: tuple[Sign, ...] = tuple(
-    Sign(part, endings, re.compile(pattern), for_, generation, why, here, strict)
-    for part, endings, pattern, for_, generation, why, here, strict in _ROWS
+    Sign(part, endings, re.compile(pattern), for_, ros_version, why, here, strict)
+    for part, endings, pattern, for_, ros_version, why, here, strict in _ROWS
 )

@@ -35,7 +35,7 @@ def check_parameter_file(
     path: Path,
     *,
     diagnostics: Diagnostics,
-    generation: int | None = None,
+    ros_version: int | None = None,
     joints: Collection[str] = (),
 ) -> None:
     """Check the layout, the values and the keys of a YAML file with parameters.
@@ -43,7 +43,7 @@ def check_parameter_file(
     Args:
         path: the file.
         diagnostics: receives the findings.
-        generation: 1 when roslaunch loads it, 2 when a ROS 2 node does; None takes the file's own
+        ros_version: 1 when roslaunch loads it, 2 when a ROS 2 node does; None takes the file's own
             layout at its word.
         joints: names of the robot's joints, for words that YAML takes for something else.
     """
@@ -52,10 +52,10 @@ def check_parameter_file(
         return
     layout = layout_of(document)
     if layout is Layout.MAP:
-        _check_map(path, generation or 1, diagnostics)
+        _check_map(path, ros_version or 1, diagnostics)
         return
-    check_layout(document, layout, generation, diagnostics)
-    reader = generation or (2 if layout is Layout.ROS2 else 1)
+    check_layout(document, layout, ros_version, diagnostics)
+    reader = ros_version or (2 if layout is Layout.ROS2 else 1)
     # MoveIt's files of ROS 2 are read by PyYAML too.
     loader = 1 if layout is Layout.MOVEIT else reader
     check_values(document, layout, loader, diagnostics, joints=joints)
@@ -64,13 +64,13 @@ def check_parameter_file(
         check_idle(document, diagnostics)
 
 
-def _check_map(path: Path, generation: int, diagnostics: Diagnostics) -> None:
+def _check_map(path: Path, ros_version: int, diagnostics: Diagnostics) -> None:
     """Report what the map server would."""
     from gazelle.mapping.grids.map_file import read_map_file, report_missing_image
 
-    found = read_map_file(path, diagnostics, generation)
+    found = read_map_file(path, diagnostics, ros_version)
     if found is not None and not exists(found.image):
-        report_missing_image(found.image, found.image_span, diagnostics, generation)
+        report_missing_image(found.image, found.image_span, diagnostics, ros_version)
 
 
 def check_package_parameters(
@@ -86,14 +86,16 @@ def check_package_parameters(
     source = SourcePackage(package)
     near = [package.path / name for name in source.files if _may_be_parameter_file(name)]
     files = [path for path in near if not is_launch_yaml(path)]
-    generation = 2 if source.is_ros2 else 1
+    ros_version = 2 if source.is_ros2 else 1
     names = read_name_files(files)
-    model = _robot(names, files, package, generation, workspace)
+    model = _robot(names, files, package, ros_version, workspace)
     known = [joint.name for joint in model.joints] if model is not None else ()
     for path in files:
         if path.suffix != ".srdf":
-            check_parameter_file(path, diagnostics=diagnostics, generation=generation, joints=known)
-    if generation == 2:
+            check_parameter_file(
+                path, diagnostics=diagnostics, ros_version=ros_version, joints=known
+            )
+    if ros_version == 2:
         written = [source.folder / name for name in source.files if name.endswith(_ROBOTS)]
         for path, text in whole_robots(source, workspace):
             check_description_text(text, file=str(path), diagnostics=diagnostics, sources=written)
@@ -105,15 +107,15 @@ def _robot(
     names: NameFiles,
     files: Sequence[Path],
     package: Package,
-    generation: int,
+    ros_version: int,
     workspace: Workspace,
 ) -> Model | None:
     """Return the robot that the files are for: of several, the one they fit best."""
     joints = names.joints()
     if not joints:
         return None
-    wanted = names.generation or generation
-    found = robots_for(package, joints, generation=wanted, workspace=workspace)
+    wanted = names.ros_version or ros_version
+    found = robots_for(package, joints, ros_version=wanted, workspace=workspace)
     best: tuple[int, Model] | None = None
     for model in found:
         trial = Diagnostics()

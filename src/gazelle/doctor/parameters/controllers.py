@@ -36,7 +36,7 @@ class FoundController:
     name: str
     full_name: str
     type: str
-    generation: int
+    ros_version: int
     tree: Mapping[str, Any]
     nodes: Mapping[str, tuple[YamlNode, SourceSpan]] = field(repr=False)
     span: SourceSpan
@@ -57,7 +57,7 @@ def check_controllers(found: Iterable[FoundController], diagnostics: Diagnostics
         kind = controller_class(item.type)
         if kind is None:
             continue
-        prefix = f"{item.full_name}/" if item.generation == 1 else ""
+        prefix = f"{item.full_name}/" if item.ros_version == 1 else ""
         parameters = controller_parameters(
             item.name,
             item.tree,
@@ -67,7 +67,7 @@ def check_controllers(found: Iterable[FoundController], diagnostics: Diagnostics
             place=partial(_place, item.nodes),
         )
         parameters.report_unknown()
-        if item.generation == 2:
+        if item.ros_version == 2:
             _check_types(item, diagnostics)
 
 
@@ -190,7 +190,7 @@ def _check_types(item: FoundController, diagnostics: Diagnostics) -> None:
     for key, _ in flattened(nested(item.tree)):
         row = kind.TABLE.parameters.row_for(key)
         node, span = item.nodes.get(key, (None, None))
-        if row is None or node is None or row.kind not in _KINDS or 2 not in row.generations:
+        if row is None or node is None or row.kind not in _KINDS or 2 not in row.ros_versions:
             continue
         wanted, given = _KINDS[row.kind], _given(node)
         if not given or given == wanted:

@@ -78,24 +78,24 @@ def _claims(item: FoundController) -> Iterator[tuple[str, str, str]]:
     joints = _texts(tree.get("joints")) or _texts(tree.get("joint"))
     if "command_joints" in tree:
         return
-    if item.generation == 2 and isinstance(tree.get("command_interfaces"), list):
+    if item.ros_version == 2 and isinstance(tree.get("command_interfaces"), list):
         for interface in _texts(tree.get("command_interfaces")):
             yield from ((joint, interface, "command_interfaces") for joint in joints)
-    elif item.generation == 2 and isinstance(tree.get("interface_name"), str):
+    elif item.ros_version == 2 and isinstance(tree.get("interface_name"), str):
         yield from ((joint, str(tree["interface_name"]), "interface_name") for joint in joints)
     elif package in _BY_TYPE:
         yield from ((joint, _BY_TYPE[package], "") for joint in joints)
 
 
 def _words(item: FoundController, joint: str, interface: str) -> str:
-    if item.generation == 2:
+    if item.ros_version == 2:
         return f"Command interface with '{joint}/{interface}' does not exist"
     name = f"hardware_interface::{interface.capitalize()}JointInterface"
     return f"Could not find resource '{joint}' in '{name}'"
 
 
 def _fix(item: FoundController, interface: str, resource: JointResource) -> str:
-    if item.generation == 2:
+    if item.ros_version == 2:
         return f'add <command_interface name="{interface}"/> to the joint in <ros2_control>'
     own = f"hardware_interface/{interface.capitalize()}JointInterface"
     fix = f"<hardwareInterface>{own}</hardwareInterface> in the joint's transmission"

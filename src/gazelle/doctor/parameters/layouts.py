@@ -50,22 +50,22 @@ def layout_of(document: Document) -> Layout:
 
 
 def check_layout(
-    document: Document, layout: Layout, generation: int | None, diagnostics: Diagnostics
+    document: Document, layout: Layout, ros_version: int | None, diagnostics: Diagnostics
 ) -> None:
     """Report a layout that the file's own generation of ROS refuses or misunderstands.
 
     Args:
         document: the file.
         layout: what it is.
-        generation: which ROS loads it; None when that is not known.
+        ros_version: which ROS loads it; None when that is not known.
         diagnostics: receives the findings.
     """
     if layout is Layout.ROS2:
         _check_mistyped(document.root, diagnostics)
         _check_values_above(document.root, diagnostics)
-        if generation == 1:
+        if ros_version == 1:
             _report_ros2_in_ros1(document, diagnostics)
-    elif generation == 2 and layout in {Layout.ROS1, Layout.OTHER}:
+    elif ros_version == 2 and layout in {Layout.ROS1, Layout.OTHER}:
         mistyped = _check_mistyped(document.root, diagnostics)
         if layout is Layout.ROS1 and not mistyped:
             _report_ros1_in_ros2(document, diagnostics)

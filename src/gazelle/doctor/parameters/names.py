@@ -52,9 +52,9 @@ class NameFiles:
     srdfs: list[Tag] = field(default_factory=list)
 
     @property
-    def generation(self) -> int:
+    def ros_version(self) -> int:
         """1 or 2, by the controllers; 0 when there are none."""
-        return max((item.generation for item in self.controllers), default=0)
+        return max((item.ros_version for item in self.controllers), default=0)
 
     def joints(self) -> set[str]:
         """Return every joint that is named, as far as that can be told without a robot."""

@@ -28,7 +28,7 @@ _LEAST_IN_COMMON = 0.5
 
 
 def robots_for(
-    package: Package, names: Collection[str], *, generation: int, workspace: Workspace
+    package: Package, names: Collection[str], *, ros_version: int, workspace: Workspace
 ) -> tuple[Model, ...]:
     """Return the robots that have most of these joints; none when none has at least half of them.
 
@@ -38,7 +38,7 @@ def robots_for(
     Args:
         package: with the parameter files.
         names: joints that the files name.
-        generation: 1 prefers robots with transmissions, 2 those with ``<ros2_control>``.
+        ros_version: 1 prefers robots with transmissions, 2 those with ``<ros2_control>``.
         workspace: finds the other packages.
     """
     found: dict[tuple[float, bool], list[Model]] = {}
@@ -46,7 +46,7 @@ def robots_for(
         for model in _models(path, tuple(mappings.items()), workspace):
             joints = {joint.name for joint in model.joints}
             share = len(joints & set(names)) / len(names) if names else 0.0
-            has = bool(model.ros2_controls if generation == 2 else model.transmissions)
+            has = bool(model.ros2_controls if ros_version == 2 else model.transmissions)
             found.setdefault((share, has), []).append(model)
     best = max(found, default=(0.0, False))
     return tuple(found[best]) if best[0] >= _LEAST_IN_COMMON else ()

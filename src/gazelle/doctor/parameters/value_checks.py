@@ -30,7 +30,7 @@ _KINDS = {"bool": "bool", "int": "integer", "float": "double", "str": "string"}
 def check_values(
     document: Document,
     layout: Layout,
-    generation: int,
+    ros_version: int,
     diagnostics: Diagnostics,
     *,
     joints: Collection[str] = (),
@@ -40,7 +40,7 @@ def check_values(
     Args:
         document: the file.
         layout: what it is.
-        generation: which ROS reads it.
+        ros_version: which ROS reads it.
         diagnostics: receives the findings.
         joints: names of the robot's joints.
     """
@@ -48,14 +48,14 @@ def check_values(
     for key, node, inside in scalars(document.root):
         if not node.is_plain or "$(" in node.text:
             continue
-        _check_flag(key, node, inside, generation, joints, diagnostics)
-        _check_number(key, node, generation, diagnostics)
+        _check_flag(key, node, inside, ros_version, joints, diagnostics)
+        _check_number(key, node, ros_version, diagnostics)
         # MoveIt's planners take their parameters as texts.
-        if generation == 1 and layout is not Layout.MOVEIT:
+        if ros_version == 1 and layout is not Layout.MOVEIT:
             _check_point(key, node, layout, diagnostics)
-    if layout is Layout.ROS2 and generation == 2:
+    if layout is Layout.ROS2 and ros_version == 2:
         _check_lists(document.root, diagnostics, is_inside=False)
-    if generation == 1:
+    if ros_version == 1:
         _check_keys(document.root, diagnostics)
 
 
@@ -63,12 +63,12 @@ def _check_flag(
     key: str,
     node: YamlScalar,
     inside: YamlNode,
-    generation: int,
+    ros_version: int,
     joints: Collection[str],
     diagnostics: Diagnostics,
 ) -> None:
     """Report words such as ``y`` and ``on`` where a name is meant."""
-    flags = _ROS1_FLAGS if generation == 1 else _ROS2_FLAGS
+    flags = _ROS1_FLAGS if ros_version == 1 else _ROS2_FLAGS
     if not flags.fullmatch(node.text) or _PLAIN_FLAGS.fullmatch(node.text):
         return
     is_name = node.text in joints or _NAME_KEY.search(key.lower()) is not None
@@ -77,24 +77,24 @@ def _check_flag(
         is_name = is_name or not all(flags.fullmatch(item.text) for item in others)
     if not is_name:
         return
-    reader = "roslaunch" if generation == 1 else "ROS 2"
+    reader = "roslaunch" if ros_version == 1 else "ROS 2"
     outcome = "true" if node.text[0].lower() == "y" or node.text.lower() == "on" else "false"
     text = f"{reader} reads {node.text} of '{key}' as {outcome}, not as a name"
-    if generation == 2 and isinstance(inside, YamlSequence):
+    if ros_version == 2 and isinstance(inside, YamlSequence):
         text += " (Sequence should be of same type. Value type 'bool' do not belong at line_num "
         text += f"{node.span.line})"
     fix = f"write '{node.text}' with quotes"
     diagnostics.report("parameters.word-as-flag", text, node.span, fix=fix)
 
 
-def _check_number(key: str, node: YamlScalar, generation: int, diagnostics: Diagnostics) -> None:
+def _check_number(key: str, node: YamlScalar, ros_version: int, diagnostics: Diagnostics) -> None:
     text, fix = "", ""
     if _OCTAL.fullmatch(node.text) and not re.search("[89]", node.text):
         read = int(node.text, 8)
         if str(read) != node.text.lstrip("+").lstrip("0") and read:
             text = f"{node.text} of '{key}' is read as {read}: a number with a 0 in front is octal"
             fix = f"write {node.text.lstrip('0')}, or '{node.text}' for a text"
-    elif generation == 1 and _BASE_60.fullmatch(node.text):
+    elif ros_version == 1 and _BASE_60.fullmatch(node.text):
         text = f"{node.text} of '{key}' is read as a number to the base 60 by roslaunch"
         fix = f"write '{node.text}' with quotes"
     if text:

@@ -14,7 +14,7 @@ from gazelle.graph.actions.listing import ActionInfo, actions_of
 from gazelle.graph.actions.ros2_client import Ros2Client
 from gazelle.graph.actions.types import (
     ActionTypes,
-    Generation,
+    RosVersion,
     action_name,
     action_types,
     as_message,
@@ -43,7 +43,7 @@ class ActionClient:
         name: str,
         action_type: Any,
         *,
-        generation: Generation | None = None,
+        ros_version: RosVersion | None = None,
     ) -> None:
         """Prepare to send goals.
 
@@ -51,7 +51,7 @@ class ActionClient:
             node: a graph's node.
             name: any legal name.
             action_type: ``pkg/Name``, or a class of either generation.
-            generation: 1 for actionlib's wire, 2 for ROS 2's; as the server when None.
+            ros_version: 1 for actionlib's wire, 2 for ROS 2's; as the server when None.
 
         Raises:
             NotFoundError: nothing defines the action.
@@ -63,8 +63,8 @@ class ActionClient:
         self._node = node
         self._types: ActionTypes | None = None
         self._wire: ActionlibClient | Ros2Client | None = None
-        if generation is not None:
-            self._join(generation)
+        if ros_version is not None:
+            self._join(ros_version)
 
     @property
     def types(self) -> ActionTypes:
@@ -167,12 +167,12 @@ class ActionClient:
             self._wire.close()
             self._wire = None
 
-    def _join(self, generation: Generation) -> None:
+    def _join(self, ros_version: RosVersion) -> None:
         kind = self._action_type
-        if generation == 2 or not hasattr(kind, "_slot_types"):
+        if ros_version == 2 or not hasattr(kind, "_slot_types"):
             kind = self.type_name
-        self._types = action_types(kind, generation)
-        made = ActionlibClient if generation == 1 else Ros2Client
+        self._types = action_types(kind, ros_version)
+        made = ActionlibClient if ros_version == 1 else Ros2Client
         self._wire = made(self._node, self.name, self._types)
 
     def _find_out(self) -> None:
@@ -180,7 +180,7 @@ class ActionClient:
             return
         info = self._announced(self._node.graph.discovery.known())
         if info is not None:
-            self._join(1 if info.generation == 1 else 2)
+            self._join(1 if info.ros_version == 1 else 2)
 
     def _announced(self, known: Any) -> ActionInfo | None:
         for one in actions_of(known):

@@ -280,7 +280,7 @@ class ServerGoal:
         self.goal_id = goal_id
         self.stamp_ns = stamp_ns
         self.request = request
-        is_ros1 = owner.types.generation == 1
+        is_ros1 = owner.types.ros_version == 1
         self.status: Status = ActionlibStatus.PENDING if is_ros1 else Ros2Status.UNKNOWN
         self.text = ""
         self.result: Any = None
@@ -320,8 +320,8 @@ class ServerGoal:
         Raises:
             GoalStateError: it was decided on before.
         """
-        self._apply(GoalEvent.ACCEPT, text, tell=self._owner.types.generation == 1)
-        if self._owner.types.generation == 2:
+        self._apply(GoalEvent.ACCEPT, text, tell=self._owner.types.ros_version == 1)
+        if self._owner.types.ros_version == 2:
             self._apply(GoalEvent.EXECUTE, text)
 
     def accept_deferred(self) -> None:

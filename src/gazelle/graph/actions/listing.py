@@ -19,14 +19,14 @@ class ActionInfo(NamedTuple):
     Attributes:
         name: global name.
         type_name: ``pkg/action/Name``; empty while only its parts' names are known.
-        generation: 1 for actionlib, 2 for ROS 2.
+        ros_version: 1 for actionlib, 2 for ROS 2.
         servers: global names of nodes, sorted.
         clients: global names of nodes, sorted.
     """
 
     name: str
     type_name: str
-    generation: int
+    ros_version: int
     servers: tuple[str, ...]
     clients: tuple[str, ...]
 
@@ -80,6 +80,6 @@ def _actionlib_actions(entities: tuple[Entity, ...]) -> list[ActionInfo]:
 
 
 def _info(
-    name: str, type_name: str, generation: int, servers: Iterable[str], clients: Iterable[str]
+    name: str, type_name: str, ros_version: int, servers: Iterable[str], clients: Iterable[str]
 ) -> ActionInfo:
-    return ActionInfo(name, type_name, generation, tuple(sorted(servers)), tuple(sorted(clients)))
+    return ActionInfo(name, type_name, ros_version, tuple(sorted(servers)), tuple(sorted(clients)))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
 
 from gazelle.errors import GraphError
 from gazelle.graph.actions.goal import LocalGoal, Ros2Status, ServerGoal, StatusTimer
-from gazelle.graph.actions.types import Generation, action_types, as_message
+from gazelle.graph.actions.types import RosVersion, action_types, as_message
 from gazelle.graph.errors import ServiceRefusedError
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ class ActionServer:
         *,
         on_goal: OnGoal,
         on_cancel: OnCancel | None = None,
-        generation: Generation = 1,
+        ros_version: RosVersion = 1,
         run: Run | None = None,
         timing: ActionTiming = _USUAL_TIMING,
     ) -> None:
@@ -118,7 +118,7 @@ class ActionServer:
             on_cancel: called when a client asks to cancel a goal; ends the goal itself, now or
                 later. Its value tells whether the server agrees, which matters in ROS 2 only;
                 without it ROS 2 goals cannot be cancelled.
-            generation: 1 for actionlib's wire, 2 for ROS 2's.
+            ros_version: 1 for actionlib's wire, 2 for ROS 2's.
             run: brings calls of `on_goal` and `on_cancel` into the owner's thread; without it
                 they run in the graph's threads. With it there is no thread for the status:
                 call `tick`.
@@ -127,7 +127,7 @@ class ActionServer:
         Raises:
             NotFoundError: nothing defines the action.
         """
-        self.types = action_types(action_type, generation)
+        self.types = action_types(action_type, ros_version)
         self.name = node.resolve_name(name)
         self.lock = threading.RLock()
         self._node = node
@@ -138,7 +138,7 @@ class ActionServer:
         self._cancelled_early: dict[str, int] = {}
         self._last_cancel_ns = 0
         self._numbers = itertools.count(1)
-        keep_s = _STATUS_LIST_TIMEOUT_S if generation == 1 else timing.result_timeout_s
+        keep_s = _STATUS_LIST_TIMEOUT_S if ros_version == 1 else timing.result_timeout_s
         self._keep_ns = int(keep_s * _NANO)
         self._waiting: set[threading.Event] = set()
         self._closed = False
@@ -146,7 +146,7 @@ class ActionServer:
         self._clock: Any = getattr(node, "clock", None)
         own = self._clock.now_ns if self._clock else _zero
         self.now_ns: Callable[[], int] = timing.now_ns or own
-        is_periodic = timing.status_hz > 0 and generation == 1
+        is_periodic = timing.status_hz > 0 and ros_version == 1
         period_ns = int(_NANO / timing.status_hz) if is_periodic else 0
         self._timer = StatusTimer(period_ns, self.now_ns, self._periodic_status)
         with node.announced_together():
@@ -321,7 +321,7 @@ class ActionServer:
                 or (not goal_id and not stamp_ns)
                 or (stamp_ns and goal.stamp_ns <= stamp_ns)
             ]
-            if self.types.generation == 1:
+            if self.types.ros_version == 1:
                 if goal_id and goal_id not in self._goals:
                     self._cancelled_early[goal_id] = self.now_ns()
                 self._last_cancel_ns = max(self._last_cancel_ns, stamp_ns)
@@ -360,7 +360,7 @@ class ActionServer:
         self.post(lambda: self._cancel(goal))
 
     def _cancel(self, goal: ServerGoal) -> bool:
-        if self.types.generation == 1:
+        if self.types.ros_version == 1:
             changed = goal.begin_canceling()
             if changed and self._on_cancel is not None:
                 self._call(self._on_cancel, goal)
@@ -390,7 +390,7 @@ class ActionServer:
         from gazelle.graph.actions.actionlib_wire import ActionlibWire
         from gazelle.graph.actions.ros2_wire import Ros2Wire
 
-        if self.types.generation == 1:
+        if self.types.ros_version == 1:
             return ActionlibWire(self._node, self, inline=inline)
         return Ros2Wire(self._node, self)
 
@@ -426,7 +426,7 @@ class ActionServer:
         """Return a name that no goal has, as the original makes them."""
         node = str(getattr(self._node, "name", "")) or "/gazelle"
         number, now_ns = next(self._numbers), self.now_ns()
-        if self.types.generation == 1:
+        if self.types.ros_version == 1:
             return f"{node}-{number}-{now_ns // _NANO}.{now_ns % _NANO}"
         return blake2b(f"{node}{self.name}-{number}-{now_ns}".encode(), digest_size=16).hexdigest()
 

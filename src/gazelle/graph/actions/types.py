@@ -15,9 +15,9 @@ from gazelle.interfaces import (
     to_plain,
 )
 
-__all__ = ["ActionTypes", "Generation", "action_name", "action_types", "as_message"]
+__all__ = ["ActionTypes", "RosVersion", "action_name", "action_types", "as_message"]
 
-Generation = Literal[1, 2]
+RosVersion = Literal[1, 2]
 
 _SUFFIX = "Action"
 
@@ -28,7 +28,7 @@ class ActionTypes:
 
     Attributes:
         name: ``pkg/action/Name``.
-        generation: 1 for actionlib, 2 for ROS 2.
+        ros_version: 1 for actionlib, 2 for ROS 2.
         Goal, Result, Feedback: the user's three messages.
         SendGoal, CancelGoal, GetResult: ROS 2's services, None in actionlib.
         Envelope: by part (``goal``, ``result``, ``feedback``) the message of its topic; in ROS 2
@@ -38,7 +38,7 @@ class ActionTypes:
     """
 
     name: str
-    generation: Generation
+    ros_version: RosVersion
     Goal: Any
     Result: Any
     Feedback: Any
@@ -74,7 +74,7 @@ def action_name(kind: Any) -> str:
     return f"{words[0]}/action/{words[-1].removesuffix(_SUFFIX)}"
 
 
-def action_types(kind: Any, generation: Generation) -> ActionTypes:
+def action_types(kind: Any, ros_version: RosVersion) -> ActionTypes:
     """Return the classes of an action; those of actionlib have ROS 1's form if `kind` has it.
 
     Raises:
@@ -82,7 +82,7 @@ def action_types(kind: Any, generation: Generation) -> ActionTypes:
         GraphError: `kind` is no action's type.
     """
     name = action_name(kind)
-    if generation == 2:
+    if ros_version == 2:
         return _ros2(name)
     return _actionlib(name, ros1_message_type if hasattr(kind, "_slot_types") else message_type)
 

@@ -45,14 +45,14 @@ class MapFile:
 
 
 def read_map_file(
-    path: Path | str, diagnostics: Diagnostics, generation: int = 1
+    path: Path | str, diagnostics: Diagnostics, ros_version: int = 1
 ) -> MapFile | None:
     """Read a map's YAML; None when it has errors, which are all reported.
 
     Args:
         path: of the YAML; ``~`` is the home folder.
         diagnostics: takes the findings.
-        generation: whose map_server's words a missing picture is told in.
+        ros_version: whose map_server's words a missing picture is told in.
     """
     path = Path(path).expanduser()
     entries = _entries(path, diagnostics)
@@ -74,33 +74,33 @@ def read_map_file(
     reader.check_values(found)
     if reader.failed:
         # Otherwise whoever reads the picture tells of it.
-        reader.check_image(found, generation)
+        reader.check_image(found, ros_version)
         return None
     return found
 
 
 def report_bad_image(
-    path: Path, problem: str, span: SourceSpan | None, diagnostics: Diagnostics, generation: int
+    path: Path, problem: str, span: SourceSpan | None, diagnostics: Diagnostics, ros_version: int
 ) -> None:
     """Tell that a map's picture cannot be read, in the words of its generation's map_server."""
-    text, phrase = _words_of_image(path, problem, generation)
+    text, phrase = _words_of_image(path, problem, ros_version)
     diagnostics.report("map.bad-image", text, span, phrase=phrase)
 
 
 def report_missing_image(
-    path: Path, span: SourceSpan | None, diagnostics: Diagnostics, generation: int
+    path: Path, span: SourceSpan | None, diagnostics: Diagnostics, ros_version: int
 ) -> None:
     """Tell that a map's picture is not there, and which one has nearly its name."""
     folder = path.parent
     there = sorted(item.name for item in folder.iterdir()) if is_folder(folder) else []
-    text, phrase = _words_of_image(path, "there is no such file", generation)
+    text, phrase = _words_of_image(path, "there is no such file", ros_version)
     fix = did_you_mean(path.name, there)
     diagnostics.report("map.no-image", text, span, fix=fix, phrase=phrase)
 
 
-def _words_of_image(path: Path, problem: str, generation: int) -> tuple[str, str]:
+def _words_of_image(path: Path, problem: str, ros_version: int) -> tuple[str, str]:
     """Return what is said of a picture, and what of it people search for."""
-    if generation == 1:
+    if ros_version == 1:
         phrase = "failed to open image file"
         return f'{phrase} "{path}": {problem}', phrase
     phrase = "Failed to load image file"
@@ -206,10 +206,10 @@ class _Reader:
             return self._path
         return self._path.parent / Path(value).expanduser()
 
-    def check_image(self, found: MapFile, generation: int) -> None:
+    def check_image(self, found: MapFile, ros_version: int) -> None:
         """Tell of a picture that is not there."""
         if "image" in self._entries and not exists(found.image):
-            report_missing_image(found.image, found.image_span, self._diagnostics, generation)
+            report_missing_image(found.image, found.image_span, self._diagnostics, ros_version)
 
     def check_values(self, found: MapFile) -> None:
         """Tell of values that a map cannot have."""

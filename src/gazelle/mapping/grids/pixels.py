@@ -1,7 +1,7 @@
 """What a grey value means in a map, and which grey value a cell becomes.
 
 Two programs read and write these pictures and differ in details: ``map_server`` (ROS 1, noetic)
-and ``nav2_map_server`` (ROS 2, humble and jazzy). ``generation`` 1 and 2 stand for them.
+and ``nav2_map_server`` (ROS 2, humble and jazzy). ``ros_version`` 1 and 2 stand for them.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def cells_of_pixels(
     negate: bool = False,
     occupied_thresh: float = 0.65,
     free_thresh: float = 0.196,
-    generation: int = 1,
+    ros_version: int = 1,
 ) -> NDArray[np.int8]:
     """Return the cells of a picture.
 
@@ -42,7 +42,7 @@ def cells_of_pixels(
         negate: white means occupied.
         occupied_thresh: above this occupancy (0 … 1) a cell is occupied.
         free_thresh: below this occupancy a cell is free.
-        generation: 1 as ``map_server``, 2 as ``nav2_map_server``.
+        ros_version: 1 as ``map_server``, 2 as ``nav2_map_server``.
 
     Returns:
         int8, (height, width), row 0 at the bottom.
@@ -52,17 +52,17 @@ def cells_of_pixels(
     channels = pixels if mode is MapMode.TRINARY or not opaque else pixels[..., :3]
     grey = channels.mean(axis=2) if channels.shape[2] > 1 else channels[..., 0].astype(float)
     if mode is MapMode.RAW:
-        return _raw(255 - grey if negate and generation == 1 else grey, generation)
+        return _raw(255 - grey if negate and ros_version == 1 else grey, ros_version)
     occupancy = (grey if negate else 255 - grey) / 255.0
     if mode is MapMode.TRINARY:
         between = np.full(occupancy.shape, _UNKNOWN)
     else:
-        between = _scaled(occupancy, occupied_thresh, free_thresh, generation)
+        between = _scaled(occupancy, occupied_thresh, free_thresh, ros_version)
     cells = np.select(
         [occupancy > occupied_thresh, occupancy < free_thresh], [_OCCUPIED, _FREE], between
     )
     if mode is MapMode.SCALE and opaque:
-        cells = _without_transparent(cells, pixels[..., 3], generation)
+        cells = _without_transparent(cells, pixels[..., 3], ros_version)
     return np.ascontiguousarray(cells[::-1].astype(np.int8))
 
 
@@ -100,8 +100,8 @@ def pixels_of_cells(
     return grey[..., None]
 
 
-def _raw(grey: NDArray[np.float64], generation: int) -> NDArray[np.int8]:
-    if generation == 1:
+def _raw(grey: NDArray[np.float64], ros_version: int) -> NDArray[np.int8]:
+    if ros_version == 1:
         # An unsigned char stored as int8: 255 becomes −1, 200 becomes −56.
         cells = np.floor(grey).astype(np.uint8).view(np.int8)
     else:
@@ -111,17 +111,17 @@ def _raw(grey: NDArray[np.float64], generation: int) -> NDArray[np.int8]:
 
 
 def _scaled(
-    occupancy: NDArray[np.float64], occupied: float, free: float, generation: int
+    occupancy: NDArray[np.float64], occupied: float, free: float, ros_version: int
 ) -> NDArray[np.float64]:
     # Equal thresholds leave at most the threshold itself between them.
     ratio = np.clip((occupancy - free) / max(occupied - free, 1e-9), 0.0, 1.0)
-    return np.floor(1 + 98 * ratio) if generation == 1 else np.rint(ratio * 100.0)
+    return np.floor(1 + 98 * ratio) if ros_version == 1 else np.rint(ratio * 100.0)
 
 
 def _without_transparent(
-    cells: NDArray[np.float64], opacity: NDArray[np.uint8], generation: int
+    cells: NDArray[np.float64], opacity: NDArray[np.uint8], ros_version: int
 ) -> NDArray[np.float64]:
-    if generation == 1:
+    if ros_version == 1:
         # map_server looks at opacity only between the thresholds, and only for 0.
         between = (cells != _FREE) & (cells != _OCCUPIED)
         return np.where(between & (opacity < 1), _UNKNOWN, cells)

@@ -28,28 +28,28 @@ _DEEP = ("I", "I;16", "I;16B", "I;16L", "I;16N")
 
 
 def read_map(
-    path: Path | str, diagnostics: Diagnostics, *, generation: int = 1
+    path: Path | str, diagnostics: Diagnostics, *, ros_version: int = 1
 ) -> OccupancyGrid | None:
     """Read a map's YAML and its picture.
 
     Args:
         path: of the YAML.
         diagnostics: takes the findings, all at once.
-        generation: 1 reads grey values and words errors as ``map_server`` does, 2 as
+        ros_version: 1 reads grey values and words errors as ``map_server`` does, 2 as
             ``nav2_map_server`` does.
 
     Returns:
         The grid; None when there is an error.
     """
-    described = read_map_file(path, diagnostics, generation)
-    return None if described is None else read_map_image(described, diagnostics, generation)
+    described = read_map_file(path, diagnostics, ros_version)
+    return None if described is None else read_map_image(described, diagnostics, ros_version)
 
 
 def read_map_image(
-    described: MapFile, diagnostics: Diagnostics, generation: int = 1
+    described: MapFile, diagnostics: Diagnostics, ros_version: int = 1
 ) -> OccupancyGrid | None:
     """Read the picture that a map's YAML names; None when it cannot be read."""
-    pixels = _pixels(described, diagnostics, generation)
+    pixels = _pixels(described, diagnostics, ros_version)
     if pixels is None:
         return None
     cells = cells_of_pixels(
@@ -58,13 +58,13 @@ def read_map_image(
         negate=described.negate,
         occupied_thresh=described.occupied_thresh,
         free_thresh=described.free_thresh,
-        generation=generation,
+        ros_version=ros_version,
     )
     return OccupancyGrid(cells, described.resolution_m, described.origin)
 
 
 def _pixels(
-    described: MapFile, diagnostics: Diagnostics, generation: int
+    described: MapFile, diagnostics: Diagnostics, ros_version: int
 ) -> NDArray[np.uint8] | None:
     path, span = described.image, described.image_span
     try:
@@ -72,11 +72,11 @@ def _pixels(
         with opened_picture(path, most_pixels=None) as picture:
             return _channels(picture)
     except FileNotFoundError:
-        report_missing_image(path, span, diagnostics, generation)
+        report_missing_image(path, span, diagnostics, ros_version)
         return None
     except (OSError, PictureError) as error:
         problem = getattr(error, "strerror", None) or str(error)
-    report_bad_image(path, problem, span, diagnostics, generation)
+    report_bad_image(path, problem, span, diagnostics, ros_version)
     return None
 
 

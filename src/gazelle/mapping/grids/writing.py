@@ -27,14 +27,14 @@ class SaveOptions:
     """How a map is written.
 
     Attributes:
-        generation: 1 as ``map_saver`` of ``map_server``, 2 as that of ``nav2_map_server``.
+        ros_version: 1 as ``map_saver`` of ``map_server``, 2 as that of ``nav2_map_server``.
         mode: ``map_saver`` of generation 1 knows trinary only.
         image_format: ``pgm``, ``png`` or ``bmp``; empty for png in scale mode, else pgm.
         occupied_thresh: occupancy 0 … 1 from which on a cell is black.
         free_thresh: occupancy 0 … 1 up to which a cell is white.
     """
 
-    generation: int = 1
+    ros_version: int = 1
     mode: MapMode = MapMode.TRINARY
     image_format: str = ""
     occupied_thresh: float = 0.65
@@ -58,9 +58,9 @@ def write_map(
     image, described = Path(f"{stem}.{kind}"), Path(f"{stem}.yaml")
     occupied, free = round(options.occupied_thresh * 100), round(options.free_thresh * 100)
     pixels = pixels_of_cells(grid.cells, options.mode, occupied=occupied, free=free)
-    text = _yaml_ros1(grid, image) if options.generation == 1 else _yaml_ros2(grid, image, options)
+    text = _yaml_ros1(grid, image) if options.ros_version == 1 else _yaml_ros2(grid, image, options)
     try:
-        image.write_bytes(_picture(pixels, kind, grid.resolution_m, options.generation))
+        image.write_bytes(_picture(pixels, kind, grid.resolution_m, options.ros_version))
         described.write_text(text, encoding="utf-8")
     except OSError as error:
         raise MapWriteError(
@@ -73,7 +73,7 @@ def _check(options: SaveOptions) -> None:
     if options.image_format and options.image_format.lower() not in _FORMATS:
         hint = did_you_mean(options.image_format, _FORMATS) or f"there are {', '.join(_FORMATS)}"
         raise MapWriteError(f"image format '{options.image_format}' is not written; {hint}")
-    if options.generation == 1 and options.mode is not MapMode.TRINARY:
+    if options.ros_version == 1 and options.mode is not MapMode.TRINARY:
         raise MapWriteError(
             f"map_saver of map_server writes trinary maps only, not {options.mode.value}; "
             "nav2_map_server's map_saver_cli writes the others"
@@ -86,10 +86,10 @@ def _check(options: SaveOptions) -> None:
         raise MapWriteError("Threshold_free must be smaller than threshold_occupied")
 
 
-def _picture(pixels: NDArray[np.uint8], kind: str, resolution_m: float, generation: int) -> bytes:
+def _picture(pixels: NDArray[np.uint8], kind: str, resolution_m: float, ros_version: int) -> bytes:
     if kind == "pgm":
         height, width = pixels.shape[:2]
-        creator = f"# CREATOR: map_saver.cpp {resolution_m:.3f} m/pix\n" if generation == 1 else ""
+        creator = f"# CREATOR: map_saver.cpp {resolution_m:.3f} m/pix\n" if ros_version == 1 else ""
         return f"P5\n{creator}{width} {height}\n255\n".encode() + pixels[..., 0].tobytes()
     import io
 

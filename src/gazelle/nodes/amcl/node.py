@@ -47,7 +47,7 @@ _SENSOR_MODELS = ("beam", "likelihood_field", "likelihood_field_prob")
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """ROS 1: localise until told to stop."""
     node = start_node(arguments, graph)
-    amcl = AmclNode(node, parameter_tree(node, arguments), generation=1)
+    amcl = AmclNode(node, parameter_tree(node, arguments), ros_version=1)
     amcl.start()
     arguments.ready()
     while not stop.wait(_MAP_RETRY_S):
@@ -60,7 +60,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """ROS 2: be a managed node that localises while it is active."""
     node = start_node(arguments, graph)
-    amcl = AmclNode(node, parameter_tree(node, arguments), generation=2)
+    amcl = AmclNode(node, parameter_tree(node, arguments), ros_version=2)
 
     def activate() -> bool:
         amcl.start()
@@ -82,14 +82,14 @@ def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
 class AmclNode:
     """The filter with its topics, services and transforms."""
 
-    def __init__(self, node: Node, tree: dict[str, Any], generation: int) -> None:
+    def __init__(self, node: Node, tree: dict[str, Any], ros_version: int) -> None:
         """Read the parameters; nothing is listened to before `start`."""
         found = Diagnostics()
-        self._node, self._generation = node, generation
-        table = NAV2_AMCL if generation == 2 else AMCL
+        self._node, self._ros_version = node, ros_version
+        table = NAV2_AMCL if ros_version == 2 else AMCL
         self._settings = node_reader(table, tree, node.resolve_name("~"), found)
         self._settings.report_unknown()
-        self._options = _checked(self._settings, self._settings.fill(AmclOptions), generation)
+        self._options = _checked(self._settings, self._settings.fill(AmclOptions), ros_version)
         s = self._settings
         self._map_frame = s.text("global_frame_id").removeprefix("/")
         self._odom_frame = s.text("odom_frame_id").removeprefix("/")
@@ -97,17 +97,17 @@ class AmclNode:
         self._tolerance_ns = int(s.number("transform_tolerance") * _NANO)
         self._sends_tf = s.flag("tf_broadcast")
         self._first_map_only = s.flag("first_map_only")
-        self._uses_topic = generation == 2 or s.flag("use_map_topic")
+        self._uses_topic = ros_version == 2 or s.flag("use_map_topic")
         rate = s.number("save_pose_rate")
         self._save_ns = int(_NANO / rate) if rate > 0 else None
-        self._forces = generation == 1 and s.flag("force_update_after_initialpose")
-        self._forces_map = generation == 1 and s.flag("force_update_after_set_map")
+        self._forces = ros_version == 1 and s.flag("force_update_after_initialpose")
+        self._forces_map = ros_version == 1 and s.flag("force_update_after_set_map")
         self._filter = Amcl(self._options, zlib.crc32(node.name.encode()))
         self._lock = threading.RLock()
         self._frames = Frames(node)
-        self._out = Outputs(node, self._map_frame, self._odom_frame, generation)
+        self._out = Outputs(node, self._map_frame, self._odom_frame, ros_version)
         self._running = False
-        self._placed = generation == 1 or s.flag("set_initial_pose")
+        self._placed = ros_version == 1 or s.flag("set_initial_pose")
         self._T_map_odom: PlanePose | None = None
         self._odometry: tuple[PlanePose, int] | None = None
         self._saved_ns = 0
@@ -127,9 +127,9 @@ class AmclNode:
             self._options.initial_pose_a,
         )
         if not self._was_given():
-            self._hint = SpawnHint(node, begins, is_ros2=self._generation == 2)
+            self._hint = SpawnHint(node, begins, is_ros2=self._ros_version == 2)
         empty = service_type("std_srvs/srv/Empty")
-        ros2 = self._generation == 2
+        ros2 = self._ros_version == 2
         everywhere = "reinitialize_global_localization" if ros2 else "global_localization"
         node.create_service(everywhere, empty, self._on_everywhere)
         node.create_service("request_nomotion_update", empty, self._on_nomotion)
@@ -181,7 +181,7 @@ class AmclNode:
             )
 
     def _was_given(self) -> bool:
-        if self._generation == 2:
+        if self._ros_version == 2:
             return self._settings.has("set_initial_pose")
         names = ("initial_pose_x", "initial_pose_y", "initial_pose_a")
         return any(self._settings.has(name) for name in names)
@@ -193,7 +193,7 @@ class AmclNode:
         self._settings = node_reader(table, tree, self._node.resolve_name("~"), found)
         with self._lock:
             options = self._settings.fill(AmclOptions)
-            self._options = _checked(self._settings, options, self._generation)
+            self._options = _checked(self._settings, options, self._ros_version)
             self._filter.set_options(self._options)
         log_findings(self._node, found)
 
@@ -385,7 +385,7 @@ def _triple(pose: Any) -> PlanePose:
     return x, y, yaw
 
 
-def _checked(settings: ParameterReader, options: AmclOptions, generation: int) -> AmclOptions:
+def _checked(settings: ParameterReader, options: AmclOptions, ros_version: int) -> AmclOptions:
     """Return options whose models exist and whose limits go together."""
     from dataclasses import replace
 
@@ -404,7 +404,7 @@ def _checked(settings: ParameterReader, options: AmclOptions, generation: int) -
         text += "they'll be set to be equal."
         settings.report("parameter.bad-value", text)
         options = replace(options, max_particles=options.min_particles)
-    if generation == 2:
+    if ros_version == 2:
         options = replace(
             options,
             initial_pose_x=settings.number("initial_pose.x"),

@@ -24,13 +24,13 @@ __all__ = ["Outputs"]
 class Outputs:
     """``amcl_pose``, ``particlecloud`` or ``particle_cloud``, and the transform."""
 
-    def __init__(self, node: Node, frame_id: str, odom_frame: str, generation: int) -> None:
+    def __init__(self, node: Node, frame_id: str, odom_frame: str, ros_version: int) -> None:
         """Offer the topics."""
-        self._frame_id, self._odom_frame, self._generation = frame_id, odom_frame, generation
+        self._frame_id, self._odom_frame, self._ros_version = frame_id, odom_frame, ros_version
         pose = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")
         self._poses = node.create_publisher("amcl_pose", pose, latch=True, queue_size=2)
-        kind = "nav2_msgs/msg/ParticleCloud" if generation == 2 else "geometry_msgs/msg/PoseArray"
-        topic = "particle_cloud" if generation == 2 else "particlecloud"
+        kind = "nav2_msgs/msg/ParticleCloud" if ros_version == 2 else "geometry_msgs/msg/PoseArray"
+        topic = "particle_cloud" if ros_version == 2 else "particlecloud"
         self._cloud = node.create_publisher(topic, message_type(kind), latch=True, queue_size=2)
         self._tf = TransformBroadcaster(node)
 
@@ -58,7 +58,7 @@ class Outputs:
             set_plane_pose(pose, particle_pose)
             poses.append(pose)
         message: Any
-        if self._generation == 2:
+        if self._ros_version == 2:
             particle = message_type("nav2_msgs/msg/Particle")
             message = message_type("nav2_msgs/msg/ParticleCloud")()
             message.particles = [

@@ -89,7 +89,7 @@ def start(
     found = Diagnostics()
     reader_of(table, given, node.name, parameters.goal_names, found).report_unknown()
     log_findings(node, found)
-    if arguments.generation != 1:
+    if arguments.ros_version != 1:
         offer_parameters(node, parameters.tree)
     return node, parameters
 

@@ -36,7 +36,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     node = start_node(arguments, graph)
     tree = parameter_tree(node, arguments)
     found = Diagnostics()
-    options = read_options(tree, node.name, arguments.generation, found)
+    options = read_options(tree, node.name, arguments.ros_version, found)
     log_findings(node, found)
     joystick = _Joystick(node, options)
     arguments.ready()

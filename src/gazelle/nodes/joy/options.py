@@ -68,18 +68,18 @@ class JoyOptions:
 
 
 def read_options(
-    tree: Mapping[str, Any], name: str, generation: Literal[1, 2], found: Diagnostics
+    tree: Mapping[str, Any], name: str, ros_version: Literal[1, 2], found: Diagnostics
 ) -> JoyOptions:
     """Read the parameters of a node.
 
     Args:
         tree: the parameters.
         name: of the node.
-        generation: of ROS.
+        ros_version: of ROS.
         found: receives what is wrong.
     """
     settings = node_reader(PARAMETERS, tree, name, found)
-    is_ros2 = generation == 2
+    is_ros2 = ros_version == 2
     path = Path(settings.text("dev"))
     if is_ros2 and not settings.has("dev"):
         path = Path(f"/dev/input/js{settings.integer('device_id')}")

@@ -134,7 +134,7 @@ def parse_cli(words: Sequence[str]) -> Wanted:
         LaunchError: it is wrong.
     """
     # Without -f the original names the file by the time, in seconds.
-    wanted = Wanted("", "map", SaveOptions(generation=2))
+    wanted = Wanted("", "map", SaveOptions(ros_version=2))
     rest = list(words)
     while rest:
         word = rest.pop(0)
@@ -248,7 +248,7 @@ def _write(node: Node, message: Any, wanted: Wanted) -> bool:
         return False
     for path in (image, described):
         node.log("info", f"Writing map occupancy data to {path}")
-    node.log("info", "Done" if wanted.options.generation == 1 else "Map saved successfully")
+    node.log("info", "Done" if wanted.options.ros_version == 1 else "Map saved successfully")
     return True
 
 

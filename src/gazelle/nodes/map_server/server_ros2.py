@@ -98,7 +98,7 @@ class _Server:
     def _load(self, path: str) -> int:
         """Read a map; returns the result code."""
         found = Diagnostics()
-        grid = read_map(path.removeprefix("file://"), found, generation=2)
+        grid = read_map(path.removeprefix("file://"), found, ros_version=2)
         log_findings(self._node, found)
         if grid is None:
             return result_of(found)

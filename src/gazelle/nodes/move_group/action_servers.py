@@ -47,7 +47,7 @@ class OneAtATime:
             kind,
             on_goal=self._on_goal,
             on_cancel=self._on_cancel,
-            generation=context.generation,
+            ros_version=context.ros_version,
         )
 
     def _on_goal(self, goal: ServerGoal) -> None:
@@ -101,7 +101,7 @@ def offer_move_action(context: MoveGroupContext) -> OneAtATime:
             context.tell("motion request", MoveGroupError(attempt.code, attempt.why))
         _end(goal, attempt.code, attempt.why, _move_result(context, attempt))
 
-    return OneAtATime(context, _NAMES[context.generation], _MOVE, work)
+    return OneAtATime(context, _NAMES[context.ros_version], _MOVE, work)
 
 
 def offer_execute_action(context: MoveGroupContext) -> OneAtATime:

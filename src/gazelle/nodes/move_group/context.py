@@ -42,7 +42,7 @@ class MoveGroupContext:
 
     Attributes:
         node: what services and actions are offered by.
-        generation: 1 for ROS 1's names and wire of actions, 2 for ROS 2's.
+        ros_version: 1 for ROS 1's names and wire of actions, 2 for ROS 2's.
         config: all that the parameters say.
         robot: joints and groups.
         monitor: keeps the scene.
@@ -53,7 +53,7 @@ class MoveGroupContext:
     """
 
     node: Node
-    generation: Literal[1, 2]
+    ros_version: Literal[1, 2]
     config: MoveItConfig
     robot: RobotModel
     monitor: SceneMonitor
@@ -118,7 +118,7 @@ def make_context(
     robot: RobotModel,
     parameters: Mapping[str, Any],
     *,
-    generation: Literal[1, 2],
+    ros_version: Literal[1, 2],
 ) -> MoveGroupContext:
     """Put everything together; a controller that is not understood is logged.
 
@@ -127,12 +127,12 @@ def make_context(
         config: the robot's.
         robot: the same as motion sees it.
         parameters: the node's own, nested.
-        generation: of names and wires.
+        ros_version: of names and wires.
     """
     found = Diagnostics()
-    own = node_reader(MOVE_GROUP, parameters, node.name, found, generation=generation)
+    own = node_reader(MOVE_GROUP, parameters, node.name, found, ros_version=ros_version)
     states = StateMonitor(node, own.text("joint_state_topic"))
-    monitor = SceneMonitor(node, robot, states, generation=generation)
+    monitor = SceneMonitor(node, robot, states, ros_version=ros_version)
     maker = ProblemMaker(config, robot)
     executor = None
     if own.flag("allow_trajectory_execution"):
@@ -142,10 +142,10 @@ def make_context(
     log_findings(node, found)
     displays = tuple(
         node.create_publisher(name, "moveit_msgs/msg/DisplayTrajectory", latch=True)
-        for name in told_topics("display_planned_path", generation)
+        for name in told_topics("display_planned_path", ros_version)
     )
     return MoveGroupContext(
-        node, generation, config, robot, monitor, maker, RequestPlanner(maker), executor, displays
+        node, ros_version, config, robot, monitor, maker, RequestPlanner(maker), executor, displays
     )
 
 

@@ -53,7 +53,7 @@ class FakeControllers:
                 _FOLLOW,
                 on_goal=partial(self._on_goal, entry.type),
                 on_cancel=lambda _goal: True,
-                generation=1,
+                ros_version=1,
             )
             for entry in entries
             if entry.type in FAKE_TYPES

@@ -100,7 +100,7 @@ def _context(
     diagnostics = Diagnostics()
     robot = RobotModel.from_config(config, diagnostics=diagnostics)
     node.log("info", f"Loading robot model '{robot.name}'...")
-    context = make_context(node, config, robot, parameters, generation=arguments.generation)
+    context = make_context(node, config, robot, parameters, ros_version=arguments.ros_version)
     with _told_if_long(node):
         context.maker.warm_up(context.monitor.scene)
     with node.announced_together():
@@ -112,7 +112,7 @@ def _context(
         offer_sequences(context)
     log_findings(node, diagnostics, render_text)
     told = Diagnostics()
-    report_parameters(config, node.name, told, generation=arguments.generation)
+    report_parameters(config, node.name, told, ros_version=arguments.ros_version)
     log_findings(node, told)
     return context
 

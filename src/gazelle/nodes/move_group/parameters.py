@@ -132,7 +132,7 @@ _PIPELINE = ParameterTable("a planning pipeline", "How motions are planned.", ()
 
 
 def report_parameters(
-    config: MoveItConfig, name: str, diagnostics: Diagnostics, *, generation: int
+    config: MoveItConfig, name: str, diagnostics: Diagnostics, *, ros_version: int
 ) -> None:
     """Report what is not known, and what has no effect.
 
@@ -140,10 +140,10 @@ def report_parameters(
         config: all that was read.
         name: of the node.
         diagnostics: receives it.
-        generation: of ROS.
+        ros_version: of ROS.
     """
     tree = config.parameters
-    own = node_reader(MOVE_GROUP, tree, name, diagnostics, generation=generation)
+    own = node_reader(MOVE_GROUP, tree, name, diagnostics, ros_version=ros_version)
     own.report_unknown(*_names(config))
     for pipeline in config.pipelines.values():
         if pipeline.values is config.parameters or not _is_known(pipeline):
@@ -152,7 +152,7 @@ def report_parameters(
         values = pipeline.values
         # Planning groups, and planners.
         branches = [key for key, value in values.items() if isinstance(value, Mapping)]
-        reader = node_reader(_PIPELINE, values, label, diagnostics, generation=generation)
+        reader = node_reader(_PIPELINE, values, label, diagnostics, ros_version=ros_version)
         reader.report_unknown(*branches)
 
 

@@ -30,9 +30,9 @@ _NAME = "(noname)"
 _PERIOD_S = 0.25
 
 
-def told_topics(name: str, generation: int) -> tuple[str, ...]:
+def told_topics(name: str, ros_version: int) -> tuple[str, ...]:
     """Return the names of a topic that views listen to: MoveIt 1 has them below the node's."""
-    return (name, f"~{name}") if generation == 1 else (name,)
+    return (name, f"~{name}") if ros_version == 1 else (name,)
 
 
 class SceneMonitor:
@@ -45,7 +45,7 @@ class SceneMonitor:
     """
 
     def __init__(
-        self, node: Node, robot: RobotModel, states: StateMonitor, *, generation: int = 2
+        self, node: Node, robot: RobotModel, states: StateMonitor, *, ros_version: int = 2
     ) -> None:
         """Begin with an empty scene.
 
@@ -53,7 +53,7 @@ class SceneMonitor:
             node: listens and tells.
             robot: the robot.
             states: where its joints are.
-            generation: 1 for MoveIt 1's names of topics too.
+            ros_version: 1 for MoveIt 1's names of topics too.
         """
         self.robot = robot
         self.states = states
@@ -69,7 +69,7 @@ class SceneMonitor:
         self._is_new = True
         self._outs = [
             node.create_publisher(name, "moveit_msgs/msg/PlanningScene", queue_size=100)
-            for name in told_topics("monitored_planning_scene", generation)
+            for name in told_topics("monitored_planning_scene", ros_version)
         ]
         states.on_change(self._changed.set)
 

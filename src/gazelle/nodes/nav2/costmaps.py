@@ -56,7 +56,7 @@ class Nav2Costmap:
         tree = tree_of_node(arguments, self.node.name)
         if name == "local_costmap":
             tree.setdefault("global_frame", "odom")
-        made = assemble(tree, self.node.name, diagnostics, generation=2)
+        made = assemble(tree, self.node.name, diagnostics, ros_version=2)
         frame = made.costmap.options.global_frame.removeprefix("/")
         publisher = CostmapPublisher(
             self.node, space, frame, raw=True, footprint="published_footprint"

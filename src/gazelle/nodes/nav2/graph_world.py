@@ -109,7 +109,7 @@ class GraphWorld:
     def _client(self, name: str, kind: str) -> ActionClient:
         if name not in self._clients:
             package, _, bare = kind.split("/")
-            self._clients[name] = ActionClient(self._node, name, f"{package}/{bare}", generation=2)
+            self._clients[name] = ActionClient(self._node, name, f"{package}/{bare}", ros_version=2)
         return self._clients[name]
 
 

@@ -146,7 +146,7 @@ class ManagedServer(ABC):
             self._costmap.live.start()
         self._ending = threading.Event()
         for name, kind, answer in self._served():
-            action = SingleGoal(self._node, name, f"nav2_msgs/{kind}", generation=2)
+            action = SingleGoal(self._node, name, f"nav2_msgs/{kind}", ros_version=2)
             self._actions[name] = action
             words = (action, answer, self._ending)
             threading.Thread(target=self._work, args=words, name=name, daemon=True).start()

@@ -35,7 +35,7 @@ class _Follower(ManagedServer):
     def __init__(self, setup: ServerSetup) -> None:
         super().__init__(setup, WAYPOINT_FOLLOWER)
         self._client = ActionClient(
-            self._node, "navigate_to_pose", "nav2_msgs/NavigateToPose", generation=2
+            self._node, "navigate_to_pose", "nav2_msgs/NavigateToPose", ros_version=2
         )
         self._pause_s = 0.0
 

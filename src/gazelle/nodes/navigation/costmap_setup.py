@@ -30,7 +30,7 @@ from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["COSTMAP_TABLES", "INHERITED", "Assembly", "assemble", "costmap_table", "layer_table"]
 
-Generation = Literal[1, 2]
+RosVersion = Literal[1, 2]
 
 _LIVE = {
     CostmapOptions: ("transform_tolerance", "update_frequency", "publish_frequency", "footprint",
@@ -95,14 +95,14 @@ class Assembly:
         }
 
 
-def costmap_table(generation: Generation = 1) -> ParameterTable:
+def costmap_table(ros_version: RosVersion = 1) -> ParameterTable:
     """Return the parameters of a costmap as a whole."""
-    return _table(CostmapOptions, generation)
+    return _table(CostmapOptions, ros_version)
 
 
-def layer_table(options: type, generation: Generation = 1) -> ParameterTable:
+def layer_table(options: type, ros_version: RosVersion = 1) -> ParameterTable:
     """Return the parameters of a layer or of a sensor."""
-    return _table(options, generation)
+    return _table(options, ros_version)
 
 
 COSTMAP_TABLES: tuple[ParameterTable, ...] = ()
@@ -114,7 +114,7 @@ def assemble(
     name: str,
     diagnostics: Diagnostics,
     *,
-    generation: Generation = 1,
+    ros_version: RosVersion = 1,
     above: Mapping[str, Any] | None = None,
 ) -> Assembly:
     """Make a costmap of its parameters; what is wrong with them is reported.
@@ -123,15 +123,15 @@ def assemble(
         tree: the parameters, nested.
         name: what messages call it, such as ``/move_base/local_costmap``.
         diagnostics: receives what is wrong.
-        generation: whose defaults and layout of layers.
+        ros_version: whose defaults and layout of layers.
         above: parameters of the node, where ROS 1 also looks for outline and ranges.
     """
     tree, above = dict(tree), above or {}
-    is_old = generation == 1 and "plugins" not in tree
+    is_old = ros_version == 1 and "plugins" not in tree
     rows = (
         _old_layers(tree, diagnostics, name)
         if is_old
-        else _rows(tree, generation, name, diagnostics)
+        else _rows(tree, ros_version, name, diagnostics)
     )
     own = {key: value for key, value in tree.items() if key not in {row.name for row in rows}}
     for key in _OUTLINE:
@@ -140,12 +140,12 @@ def assemble(
     outline = own.get("footprint")
     if isinstance(outline, list):
         own["footprint"] = repr(outline)
-    settings = node_reader(costmap_table(generation), own, name, diagnostics)
+    settings = node_reader(costmap_table(ros_version), own, name, diagnostics)
     options = _sized(
         settings, settings.fill(CostmapOptions, plugins=tuple(row.name for row in rows))
     )
     settings.tree.pop("plugins", None)
-    inherited = _RANGES if generation == 1 else ()
+    inherited = _RANGES if ros_version == 1 else ()
     settings.report_unknown("filters", *inherited, *_left_out(settings))
     footprint = _footprint(settings, options)
     made = Assembly(
@@ -154,7 +154,7 @@ def assemble(
         settings,
     )
     made.costmap.layers = [
-        _layer(row, made, diagnostics, generation, (tree, above)) for row in rows
+        _layer(row, made, diagnostics, ros_version, (tree, above)) for row in rows
     ]
     return made
 
@@ -166,18 +166,18 @@ class _LayerRow:
     tree: dict[str, Any]
 
 
-def _table(options: type, generation: Generation) -> ParameterTable:
+def _table(options: type, ros_version: RosVersion) -> ParameterTable:
     family, summary = _FAMILIES[options]
     names = tuple(name for name, kind in LAYER_TYPES.items() if kind is options)
-    defaults = getattr(options, "NAV2_DEFAULTS", {}) if generation == 2 else {}
+    defaults = getattr(options, "NAV2_DEFAULTS", {}) if ros_version == 2 else {}
     return table_of(options, family, summary, names, defaults=defaults, live=_LIVE[options])
 
 
 def _rows(
-    tree: Mapping[str, Any], generation: Generation, name: str, diagnostics: Diagnostics
+    tree: Mapping[str, Any], ros_version: RosVersion, name: str, diagnostics: Diagnostics
 ) -> list[_LayerRow]:
     """Return the layers that ``plugins`` names."""
-    default = CostmapOptions.NAV2_DEFAULTS["plugins"] if generation == 2 else ()
+    default = CostmapOptions.NAV2_DEFAULTS["plugins"] if ros_version == 2 else ()
     found = []
     for item in _listed(tree.get("plugins", default), name, diagnostics):
         if isinstance(item, Mapping):
@@ -268,11 +268,11 @@ def _layer(
     row: _LayerRow,
     made: Assembly,
     diagnostics: Diagnostics,
-    generation: Generation,
+    ros_version: RosVersion,
     trees: Sequence[Mapping[str, Any]],
 ) -> Layer:
     name = f"{made.settings.name}/{row.name}"
-    table = _table(row.options, generation)
+    table = _table(row.options, ros_version)
     settings = node_reader(table, row.tree, name, diagnostics)
     made.layers[row.name] = settings
     if row.options is StaticOptions:
@@ -286,22 +286,22 @@ def _layer(
     kind: type[ObstacleOptions] = row.options
     options = settings.fill(kind, track_unknown_space=settings.flag("track_unknown_space", own))
     sources = {
-        source: _source(source, settings, generation, (row.tree, *trees)) for source in names
+        source: _source(source, settings, ros_version, (row.tree, *trees)) for source in names
     }
     settings.report_unknown(*names)
     return ObstacleLayer(options, sources, row.name)
 
 
 def _source(
-    source: str, layer: ParameterReader, generation: Generation, trees: Sequence[Mapping[str, Any]]
+    source: str, layer: ParameterReader, ros_version: RosVersion, trees: Sequence[Mapping[str, Any]]
 ) -> SourceOptions:
     """Return a sensor; ranges that it does not say are those of the layer or above."""
-    settings = layer.below(source, _table(SourceOptions, generation))
-    for key in _RANGES if generation == 1 else ():
+    settings = layer.below(source, _table(SourceOptions, ros_version))
+    for key in _RANGES if ros_version == 1 else ():
         above = next((tree[key] for tree in trees if key in tree), None)
         if above is not None:
             settings.tree.setdefault(key, above)
-    default = "PointCloud" if generation == 1 else "LaserScan"
+    default = "PointCloud" if ros_version == 1 else "LaserScan"
     options = settings.fill(
         SourceOptions,
         topic=settings.text("topic") or source,

@@ -26,14 +26,14 @@ class SingleGoal:
     """
 
     def __init__(
-        self, node: Node, name: str, action_type: str, *, generation: Literal[1, 2] = 1
+        self, node: Node, name: str, action_type: str, *, ros_version: Literal[1, 2] = 1
     ) -> None:
         """Offer the action."""
         self.current: ServerGoal | None = None
         self.name = name
         self._next: ServerGoal | None = None
         self._changed = threading.Condition()
-        self._generation = generation
+        self._ros_version = ros_version
         self._refuses = ""
         self._server = ActionServer(
             node,
@@ -41,7 +41,7 @@ class SingleGoal:
             action_type,
             on_goal=self._on_goal,
             on_cancel=self._on_cancel,
-            generation=generation,
+            ros_version=ros_version,
         )
 
     @property
@@ -92,7 +92,7 @@ class SingleGoal:
             self.current = goal
         if before is not None and before.is_active:
             self._replace(before)
-        if self._generation == 1:
+        if self._ros_version == 1:
             goal.accept(_ACCEPTED)
         elif not goal.status.is_terminal and not goal.is_cancel_requested:
             # Cancelled between the two: whoever works on it sees that.
@@ -130,7 +130,7 @@ class SingleGoal:
             self._changed.notify_all()
 
     def _replace(self, goal: ServerGoal) -> None:
-        if self._generation == 1:
+        if self._ros_version == 1:
             goal.cancel(text=_REPLACED)
         elif goal.is_cancel_requested:
             goal.cancel()
@@ -141,21 +141,21 @@ class SingleGoal:
         if self._refuses:
             goal.reject(text=self._refuses)
             return
-        if self._generation == 2:
+        if self._ros_version == 2:
             goal.accept_deferred()
         with self._changed:
             before, self._next = self._next, goal
             self._changed.notify_all()
         if before is not None:
             # It was never begun.
-            if self._generation == 1 or before.is_cancel_requested:
+            if self._ros_version == 1 or before.is_cancel_requested:
                 before.cancel(text=_REPLACED)
             else:
                 before.execute()
                 before.abort(text=_REPLACED)
 
     def _on_cancel(self, goal: ServerGoal) -> bool:
-        if self._generation == 2:
+        if self._ros_version == 2:
             # It is not cancelled before this returns; whoever takes it sees that it is to end.
             return True
         with self._changed:

@@ -66,7 +66,7 @@ class ToolboxServices:
             return
         stem = request.name.data or "map"
         try:
-            written = write_map(grid, stem, SaveOptions(generation=2))
+            written = write_map(grid, stem, SaveOptions(ros_version=2))
         except MapWriteError as error:
             self._node.log("error", str(error))
             response.result = _FAILED

@@ -179,7 +179,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Drive until told to stop."""
     node = start_node(arguments, graph, offers_parameters=False)
     tree = parameter_tree(node, arguments)
-    is_ros2 = arguments.generation == 2
+    is_ros2 = arguments.ros_version == 2
     found = Diagnostics()
     driving = read_driving(tree, node.name, found, is_ros2=is_ros2)
     log_findings(node, found)

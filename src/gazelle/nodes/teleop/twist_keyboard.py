@@ -163,7 +163,7 @@ class _Times:
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """ROS 1: wait for somebody who listens, then drive until Ctrl-C or told to stop."""
-    return _drive(arguments, graph, stop, is_ros2=arguments.generation == 2)
+    return _drive(arguments, graph, stop, is_ros2=arguments.ros_version == 2)
 
 
 def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:

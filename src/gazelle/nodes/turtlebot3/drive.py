@@ -29,7 +29,7 @@ PARAMETERS = ParameterTable(
     ("turtlebot3_gazebo/turtlebot3_drive",),
     (
         Parameter(
-            "cmd_vel_topic_name", "text", "cmd_vel", "where commands are sent", generations=(1,)
+            "cmd_vel_topic_name", "text", "cmd_vel", "where commands are sent", ros_versions=(1,)
         ),
     ),
 )

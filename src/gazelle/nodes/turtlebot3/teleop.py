@@ -34,7 +34,7 @@ PARAMETERS = ParameterTable(
             "text",
             "burger",
             "burger, waffle or waffle_pi: how fast it may go",
-            generations=(1,),
+            ros_versions=(1,),
         ),
     ),
 )

@@ -169,7 +169,7 @@ class Member:
             "turtlesim/RotateAbsolute",
             on_goal=self._on_goal,
             on_cancel=lambda _goal: True,
-            generation=2,
+            ros_version=2,
         )
 
     def _on_goal(self, goal: ServerGoal) -> None:

@@ -49,7 +49,7 @@ PARAMETERS = ParameterTable(
             "flag",
             False,
             "turtles go sideways, too, as they always do in ROS 1",
-            generations=(2,),
+            ros_versions=(2,),
             live=True,
         ),
         Parameter(
@@ -84,7 +84,7 @@ def settings_of(
     Raises:
         LaunchError: a value of the command line does not fit (ROS 2).
     """
-    if arguments.generation == 2:
+    if arguments.ros_version == 2:
         return _Ros2Settings(node, arguments, on_background)
     return _Ros1Settings(node)
 

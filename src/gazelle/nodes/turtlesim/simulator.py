@@ -60,7 +60,7 @@ class Simulator:
         """Offer the services and make the first turtle."""
         self._node = node
         self._png = Path(png or "turtlesim.png")
-        self._is_ros2 = arguments.generation == 2
+        self._is_ros2 = arguments.ros_version == 2
         self._lock = threading.RLock()
         self._members: dict[str, Member] = {}
         self._count = 0

@@ -67,7 +67,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
         return 0
     with Keys("turtle_teleop_key", takes_ctrl_c=False) as keys:
         node = start_node(arguments, graph, offers_parameters=False)
-        is_ros2 = arguments.generation == 2
+        is_ros2 = arguments.ros_version == 2
         scales = (_ros2_scales if is_ros2 else _scales)(node, arguments)
         drive = _driver(node, scales)
         turner = _Turner(node) if is_ros2 else None
@@ -117,7 +117,7 @@ class _Turner:
     def __init__(self, node: Node) -> None:
         self._node = node
         name, kind = "turtle1/rotate_absolute", "turtlesim/RotateAbsolute"
-        self._client = ActionClient(node, name, kind, generation=2)
+        self._client = ActionClient(node, name, kind, ros_version=2)
         self._goal: ClientGoal | None = None
 
     def press(self, key: str) -> None:

@@ -119,7 +119,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
         steps, has_priority = Steps(own), own.flag("priority")
-    relay = _Relay(node, steps, arguments.generation, has_priority=has_priority)
+    relay = _Relay(node, steps, arguments.ros_version, has_priority=has_priority)
     arguments.ready()
     for _now_ns in ticks(node, _SECOND_NS, stop):
         relay.show()
@@ -130,9 +130,9 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 class _Relay:
     def __init__(
-        self, node: Node, steps: Steps, generation: Literal[1, 2], *, has_priority: bool
+        self, node: Node, steps: Steps, ros_version: Literal[1, 2], *, has_priority: bool
     ) -> None:
-        self._node, self._steps, self._generation = node, steps, generation
+        self._node, self._steps, self._ros_version = node, steps, ros_version
         self._servers: list[ActionServer] = []
         self._has_priority = has_priority
         if steps.refused:
@@ -181,7 +181,7 @@ class _Relay:
                 name,
                 f"twist_mux_msgs/{kind}",
                 on_goal=on_goal,
-                generation=self._generation,
+                ros_version=self._ros_version,
             )
         )
 

@@ -21,5 +21,5 @@ _STAMPED = frozenset({"jazzy", "kilted", "rolling"})
 
 def is_stamped(own: ParameterReader) -> bool:
     """Tell what ``~use_stamped`` says; from Jazzy on it is true unless told otherwise."""
-    newer = own.generation == 2 and os.environ.get("ROS_DISTRO", "") in _STAMPED
+    newer = own.ros_version == 2 and os.environ.get("ROS_DISTRO", "") in _STAMPED
     return own.flag("use_stamped", newer)

@@ -36,9 +36,9 @@ TABLE = PluginTable(
         "Publishes what touches the collisions that the contact sensor around it watches.",
         ("gazebo_ros_bumper",),
         (
-            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter("robotNamespace", "text", "", "namespace of the topic", ros_versions=(1,)),
             Parameter(
-                "bumperTopicName", "text", "bumper_states", "topic (ROS 1)", generations=(1,)
+                "bumperTopicName", "text", "bumper_states", "topic (ROS 1)", ros_versions=(1,)
             ),
             Parameter(
                 "frameName",

@@ -11,7 +11,7 @@ from gazelle.simulator.plugins.table import PluginTable
 __all__ = ["CAMERA_TABLE", "DEPTH_TABLE", "OPENNI_TABLE", "TRIGGERED_TABLE"]
 
 _COMMON = (
-    Parameter("robotNamespace", "text", "", "namespace of all topics", generations=(1,)),
+    Parameter("robotNamespace", "text", "", "namespace of all topics", ros_versions=(1,)),
     Parameter("cameraName", "text", "", "namespace within it", "", aliases=("camera_name",)),
     Parameter("frameName", "text", "/world", "frame of the data", "", aliases=("frame_name",)),
     Parameter(
@@ -21,7 +21,7 @@ _COMMON = (
         "largest publish rate, 0 for the sensor's",
         "Hz",
         aliases=("update_rate",),
-        generations=(1,),
+        ros_versions=(1,),
     ),
     Parameter(
         "hackBaseline", "number", 0.0, "stereo baseline in P[3]", "m", aliases=("hack_baseline",)
@@ -58,7 +58,7 @@ _COMMON = (
         "text",
         "image_trigger",
         "of the triggered camera (ROS 1)",
-        generations=(1,),
+        ros_versions=(1,),
     ),
     Parameter("rightFrameName", "refused", "", "no release of the plug-in reads it"),
 )
@@ -127,12 +127,12 @@ CAMERA_TABLE = PluginTable(
         ("gazebo_ros_camera", "gazebo_ros_prosilica"),
         (
             *_COMMON,
-            Parameter("imageTopicName", "text", "image_raw", "picture", generations=(1,)),
+            Parameter("imageTopicName", "text", "image_raw", "picture", ros_versions=(1,)),
             Parameter(
-                "cameraInfoTopicName", "text", "camera_info", "camera_info", generations=(1,)
+                "cameraInfoTopicName", "text", "camera_info", "camera_info", ros_versions=(1,)
             ),
             Parameter(
-                "min_depth", "number", 0.4, "nearest depth that is kept", "m", generations=(2,)
+                "min_depth", "number", 0.4, "nearest depth that is kept", "m", ros_versions=(2,)
             ),
             Parameter(
                 "max_depth",
@@ -140,14 +140,14 @@ CAMERA_TABLE = PluginTable(
                 math.inf,
                 "farthest depth that is kept",
                 "m",
-                generations=(2,),
+                ros_versions=(2,),
             ),
             Parameter(
                 "triggered",
                 "flag",
                 False,
                 "a picture for each message on `{camera_name}/image_trigger`",
-                generations=(2,),
+                ros_versions=(2,),
             ),
             Parameter("pollServiceName", "refused", "", "of prosilica; pictures are not polled"),
         ),

@@ -134,12 +134,12 @@ TABLE = PluginTable(
                 "flag",
                 False,
                 "publish wheel joint states",
-                generations=(1,),
+                ros_versions=(1,),
             ),
-            Parameter("legacyMode", "flag", True, "exchange the wheels", generations=(1,)),
+            Parameter("legacyMode", "flag", True, "exchange the wheels", ros_versions=(1,)),
             *covariances(1e-5, 1e-3, "pose covariance {}"),
             Parameter(
-                "num_wheel_pairs", "number", 1.0, "pairs of wheels (ROS 2)", generations=(2,)
+                "num_wheel_pairs", "number", 1.0, "pairs of wheels (ROS 2)", ros_versions=(2,)
             ),
             DEBUG_LEVEL,
             ALWAYS_ON,
@@ -154,7 +154,7 @@ TABLE = PluginTable(
             "sensor_msgs/msg/JointState",
             rate="`updateRate`",
             frame="none",
-            generations=(1,),
+            ros_versions=(1,),
         ),
     ),
     behaviour=(

@@ -93,19 +93,19 @@ def topics(*, in_ros2: bool = True, has_aliases: bool = False) -> tuple[Paramete
         in_ros2: whether there is such a plug-in of ROS 2.
         has_aliases: whether the topics have names in ROS 2's style as well.
     """
-    generations = (1,) if in_ros2 else (1, 2)
+    ros_versions = (1,) if in_ros2 else (1, 2)
     command, odometry = (("command_topic",), ("odometry_topic",)) if has_aliases else ((), ())
     return (
         Parameter(
-            "robotNamespace", "text", "", "namespace of all topics", generations=generations
+            "robotNamespace", "text", "", "namespace of all topics", ros_versions=ros_versions
         ),
         Parameter(
             "commandTopic", "text", "cmd_vel", "commands",
-            aliases=command, generations=generations,
+            aliases=command, ros_versions=ros_versions,
         ),
         Parameter(
             "odometryTopic", "text", "odom", "odometry",
-            aliases=odometry, generations=generations,
+            aliases=odometry, ros_versions=ros_versions,
         ),
     )  # fmt: skip
 
@@ -120,13 +120,13 @@ def frames(base: str, *, in_ros2: bool = True) -> tuple[Parameter, ...]:
 
 
 def covariances(
-    place: float, yaw: float, about: str = "covariance {}", generations: tuple[int, ...] = (1, 2)
+    place: float, yaw: float, about: str = "covariance {}", ros_versions: tuple[int, ...] = (1, 2)
 ) -> tuple[Parameter, ...]:
     """Return the rows of odometry's covariances, m² and rad²."""
     return tuple(
         Parameter(
             f"covariance_{axis}", "number", default, about.format(axis), unit,
-            generations=generations,
+            ros_versions=ros_versions,
         )
         for axis, default, unit in (("x", place, "m²"), ("y", place, "m²"), ("yaw", yaw, "rad²"))
     )  # fmt: skip

@@ -25,10 +25,10 @@ TABLE = PluginTable(
         "Applies the last wrench of a topic to a link, until the next one.",
         ("gazebo_ros_force",),
         (
-            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter("robotNamespace", "text", "", "namespace of the topic", ros_versions=(1,)),
             Parameter("bodyName", "text", "", "the link", "", aliases=("link_name",)),
-            Parameter("topicName", "text", "gazebo_ros_force", "commands", generations=(1,)),
-            Parameter("force_frame", "text", "world", "world or link (ROS 2)", generations=(2,)),
+            Parameter("topicName", "text", "gazebo_ros_force", "commands", ros_versions=(1,)),
+            Parameter("force_frame", "text", "world", "world or link (ROS 2)", ros_versions=(2,)),
         ),
     ),
     topics=(

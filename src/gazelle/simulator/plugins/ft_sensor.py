@@ -36,11 +36,11 @@ TABLE = PluginTable(
         "A model plug-in that measures what a joint carries, or (ROS 2) all force on a link.",
         ("gazebo_ros_ft_sensor",),
         (
-            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter("robotNamespace", "text", "", "namespace of the topic", ros_versions=(1,)),
             Parameter("jointName", "text", "", "the joint", "", aliases=("joint_name",)),
-            Parameter("topicName", "text", "", "topic (ROS 1), must be given", generations=(1,)),
+            Parameter("topicName", "text", "", "topic (ROS 1), must be given", ros_versions=(1,)),
             Parameter(
-                "body_name", "text", "", "the link, instead of a joint (ROS 2)", generations=(2,)
+                "body_name", "text", "", "the link, instead of a joint (ROS 2)", ros_versions=(2,)
             ),
             Parameter("frame_name", "text", "world", "`header.frame_id` with `body_name`"),
             Parameter(

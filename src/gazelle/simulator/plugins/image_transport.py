@@ -108,7 +108,7 @@ def _compressed_depth(frame: str, settings: DynamicParameters, depth_of: DepthOf
 
 def _learn_theora() -> None:
     """The one message type that only this module names."""
-    from gazelle.interfaces import Generation, add_package
+    from gazelle.interfaces import RosVersion, add_package
 
     folder = Path(__file__).with_name("definitions") / "theora_image_transport"
-    add_package("theora_image_transport", folder, Generation.ROS1)
+    add_package("theora_image_transport", folder, RosVersion.ROS1)

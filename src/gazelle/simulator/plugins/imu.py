@@ -85,15 +85,15 @@ SENSOR_TABLE = PluginTable(
         "Publishes the readings of the imu sensor it stands in.",
         ("gazebo_ros_imu_sensor",),
         (
-            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
-            Parameter("topicName", "text", "imu_data", "topic (ROS 1)", generations=(1,)),
+            Parameter("robotNamespace", "text", "", "namespace of the topic", ros_versions=(1,)),
+            Parameter("topicName", "text", "imu_data", "topic (ROS 1)", ros_versions=(1,)),
             Parameter("frameName", "text", "", "frame of the data", "", aliases=("frame_name",)),
             Parameter(
                 "bodyName",
                 "text",
                 "",
                 "frame of the data when frameName is absent",
-                generations=(1,),
+                ros_versions=(1,),
             ),
             Parameter(
                 "updateRateHZ",
@@ -101,7 +101,7 @@ SENSOR_TABLE = PluginTable(
                 0.0,
                 "publish rate, 0 for the sensor's",
                 "Hz",
-                generations=(1,),
+                ros_versions=(1,),
             ),
             Parameter(
                 "gaussianNoise", "number", 0.0, "sigma of rates and accelerations", "rad/s, m/s²"

@@ -27,17 +27,17 @@ TABLE = PluginTable(
         ("gazebo_ros_joint_pose_trajectory",),
         (
             Parameter(
-                "robotNamespace", "text", "", "namespace of topic and service", generations=(1,)
+                "robotNamespace", "text", "", "namespace of topic and service", ros_versions=(1,)
             ),
             Parameter(
-                "topicName", "text", "set_joint_trajectory", "trajectories", generations=(1,)
+                "topicName", "text", "set_joint_trajectory", "trajectories", ros_versions=(1,)
             ),
             Parameter(
                 "serviceName",
                 "text",
                 "set_joint_trajectory",
                 "the same as a service",
-                generations=(1,),
+                ros_versions=(1,),
             ),
             Parameter(
                 "updateRate",

@@ -22,7 +22,7 @@ TABLE = PluginTable(
         "Publishes the positions and velocities of joints.",
         ("gazebo_ros_joint_state_publisher",),
         (
-            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter("robotNamespace", "text", "", "namespace of the topic", ros_versions=(1,)),
             Parameter(
                 "jointName",
                 "text",

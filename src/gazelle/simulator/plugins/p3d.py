@@ -23,10 +23,10 @@ TABLE = PluginTable(
         "Publishes the true pose and velocity of a link as odometry.",
         ("gazebo_ros_p3d",),
         (
-            Parameter("robotNamespace", "text", "", "namespace of the topic", generations=(1,)),
+            Parameter("robotNamespace", "text", "", "namespace of the topic", ros_versions=(1,)),
             Parameter("bodyName", "text", "", "the link", "", aliases=("body_name",)),
             Parameter(
-                "topicName", "text", "odom", "topic", "", aliases=("topic_name",), generations=(1,)
+                "topicName", "text", "odom", "topic", "", aliases=("topic_name",), ros_versions=(1,)
             ),
             Parameter(
                 "frameName",

@@ -96,18 +96,13 @@ class PluginReader(ParameterReader):
         owner = ParameterOwner(plugin.name, f"plug-in '{plugin.name}'")
         source = TagSource(plugin.parameters)
         version = ros_version if table.in_both_ros else 0
-        super().__init__(table.parameters, source, owner, diagnostics, generation=version)
+        super().__init__(table.parameters, source, owner, diagnostics, ros_version=version)
         self.plugin = plugin
         self._read: set[str] = set()
         self.ros = RosBlock()
         if version != 1:
             self._read.add("ros")
             self.ros = _read_ros_block(plugin.parameters.find("ros"), diagnostics)
-
-    @property
-    def ros_version(self) -> int:
-        """Which of two plug-ins this is, 0 when only its keys tell."""
-        return self.generation
 
     def is_ros2(self, *marks: str) -> bool:
         """Tell whether this is ROS 2's plug-in.
@@ -204,7 +199,7 @@ class PluginReader(ParameterReader):
 
     def _known_row(self, name: str) -> Parameter | None:
         if name == "ros":
-            return Parameter("ros", "group", None, "", generations=(_ROS2,))
+            return Parameter("ros", "group", None, "", ros_versions=(_ROS2,))
         return self.table.exact_row(name)
 
     def _instead_of(self, row: Parameter, name: str) -> str:

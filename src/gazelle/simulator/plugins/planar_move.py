@@ -56,7 +56,7 @@ TABLE = PluginTable(
                 20.0,
                 "how often the velocity is set (ROS 2)",
                 "Hz",
-                generations=(2,),
+                ros_versions=(2,),
             ),
             Parameter(
                 "cmdTimeout",
@@ -64,11 +64,11 @@ TABLE = PluginTable(
                 -1.0,
                 "age at which a command ends (ROS 1)",
                 "s",
-                generations=(1,),
+                ros_versions=(1,),
             ),
-            Parameter("publish_odom", "flag", True, "publish odometry (ROS 2)", generations=(2,)),
+            Parameter("publish_odom", "flag", True, "publish odometry (ROS 2)", ros_versions=(2,)),
             Parameter(
-                "publish_odom_tf", "flag", True, "publish odom → base (ROS 2)", generations=(2,)
+                "publish_odom_tf", "flag", True, "publish odom → base (ROS 2)", ros_versions=(2,)
             ),
             *covariances(1e-5, 1e-3, "covariance {} (ROS 2)", (2,)),
         ),

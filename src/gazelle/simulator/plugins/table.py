@@ -73,6 +73,6 @@ def _section(table: PluginTable) -> list[str]:
 
 def _topic_line(row: Topic) -> str:
     way = "" if row.kind == "publishes" else " (listens)"
-    if row.ros2 or row.generations == _ROS1:
+    if row.ros2 or row.ros_versions == _ROS1:
         way += ", in ROS 2 " + (f"`{row.ros2}`" if row.ros2 else "none")
     return f"| `{row.name}`{way} | `{row.type}` | {row.rate} | {row.frame} |"

@@ -167,7 +167,7 @@ TABLE = PluginTable(
                 "flag",
                 False,
                 "publish odometry and odom → base (ROS 2)",
-                generations=(2,),
+                ros_versions=(2,),
             ),
             WHEEL_TF,
             Parameter(

@@ -25,19 +25,19 @@ TABLE = PluginTable(
         ("gazebo_ros_vacuum_gripper",),
         (
             Parameter(
-                "robotNamespace", "text", "", "namespace of topic and services", generations=(1,)
+                "robotNamespace", "text", "", "namespace of topic and services", ros_versions=(1,)
             ),
             Parameter("bodyName", "text", "", "the link that holds", "", aliases=("link_name",)),
             Parameter(
-                "topicName", "text", "grasping", "whether something is held", generations=(1,)
+                "topicName", "text", "grasping", "whether something is held", ros_versions=(1,)
             ),
-            Parameter("max_distance", "number", 0.05, "reach (ROS 2)", "m", generations=(2,)),
+            Parameter("max_distance", "number", 0.05, "reach (ROS 2)", "m", ros_versions=(2,)),
             Parameter(
                 "fixed",
                 "text",
                 "",
                 "a model or link that is never held, repeatable (ROS 2)",
-                generations=(2,),
+                ros_versions=(2,),
             ),
         ),
     ),

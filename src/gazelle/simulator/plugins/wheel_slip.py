@@ -53,7 +53,7 @@ TABLE = PluginTable(
                 "text",
                 "wheel_slip",
                 "below the model's name (ROS 1)",
-                generations=(1,),
+                ros_versions=(1,),
             ),
             Parameter(
                 "wheel_spin_tolerance", "number", 1e-3, "rim speed below which slip is 0", "m/s"

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from gazelle.diagnostics import nearest_names
 from gazelle.graph import ANY_TYPE, Entity, Kind
-from gazelle.interfaces import Generation, definition
+from gazelle.interfaces import RosVersion, definition
 from gazelle.interfaces.definition import FORMATS, Array, Field, attribute_name
 from gazelle.studio.errors import StudioError
 
@@ -112,7 +112,7 @@ def _walk(name: str, type_name: str, parts: list[str]) -> tuple[tuple[Step, ...]
             field = _item(field)
             continue
         match = _STEP.fullmatch(part)
-        fields = {one.name: one for one in definition(owner, Generation.ROS2).fields}
+        fields = {one.name: one for one in definition(owner, RosVersion.ROS2).fields}
         if match is None or match[1] not in fields or (field and not field.type.is_message):
             near = nearest_names(part, fields)
             known = near or tuple(fields)
@@ -153,7 +153,7 @@ def _numbers(
 
 
 def _inside(topic: str, owner: str, steps: tuple[Step, ...], message: Any) -> Iterator[Curve]:
-    for one in definition(owner, Generation.ROS2).fields:
+    for one in definition(owner, RosVersion.ROS2).fields:
         if one.type.base not in _SKIPPED:
             yield from _numbers(topic, owner, (*steps, attribute_name(one.name)), one, message)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.documents.yaml import YamlError, load_yaml
-from gazelle.interfaces import Generation, Message, definition, fill, time_keys
+from gazelle.interfaces import Message, RosVersion, definition, fill, time_keys
 from gazelle.interfaces.definition import Array, Field
 from gazelle.studio.errors import StudioError
 
@@ -27,7 +27,7 @@ def filled(message_class: Any, values: Any, now_ns: int) -> Message:
         StudioError: a text is not YAML.
     """
     message: Message = message_class()
-    keys = time_keys(now_ns, Generation.ROS2)
+    keys = time_keys(now_ns, RosVersion.ROS2)
     fill(message, _read(message_class.FIELDS, values, keys, ""), keys=keys)
     return message
 
@@ -58,7 +58,7 @@ def _one(item: Field, value: Any, keys: Any, path: str) -> Any:
     if item.type.is_string or (item.type.is_message and isinstance(value, str) and value in keys):
         return value
     if item.type.is_message:
-        return _read(definition(item.type.base, Generation.ROS2).fields, value, keys, f"{path}.")
+        return _read(definition(item.type.base, RosVersion.ROS2).fields, value, keys, f"{path}.")
     if isinstance(value, str):
         return _NUMBER_WORDS.get(value, _yaml(value, path)) if value.strip() else 0
     return value

@@ -114,7 +114,7 @@ def set_logger(node: Node, params: Params) -> dict[str, str]:
     logger, level = params.text("logger"), params.text("level").lower()
     if level not in _ROS2_LEVELS:
         raise StudioError(f"there is no level '{level}'", known=_ROS2_LEVELS)
-    if _generation(node, target) == 1:
+    if _ros_version(node, target) == 1:
         name = f"{target}/set_logger_level"
         request_response(node, name, _ROS1_SET, logger=logger, level=level)
         return {}
@@ -128,7 +128,7 @@ def set_logger(node: Node, params: Params) -> dict[str, str]:
 
 
 def _loggers(node: Node, target: str) -> list[LoggerRow]:
-    if _generation(node, target) == 1:
+    if _ros_version(node, target) == 1:
         found = request_response(node, f"{target}/get_loggers", _ROS1_GET).loggers
         return [{"name": one.name, "level": one.level.lower()} for one in found]
     own = target.strip("/").replace("/", ".")
@@ -152,7 +152,7 @@ def _offering(node: Node) -> dict[str, int]:
     }
 
 
-def _generation(node: Node, target: str) -> int:
+def _ros_version(node: Node, target: str) -> int:
     offering = _offering(node)
     if target not in offering:
         raise unknown("node with loggers", target, offering)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NotRequired, TypedDict
 
 from gazelle.errors import NotFoundError
-from gazelle.interfaces import Definition, Field, Generation, definition, known_types
+from gazelle.interfaces import Definition, Field, RosVersion, definition, known_types
 from gazelle.interfaces.definition import Array
 from gazelle.interfaces.naming import split_name
 from gazelle.studio.errors import StudioError
@@ -83,11 +83,11 @@ def list_types(params: Params) -> list[str]:
 
 def field_tree(full: str) -> list[TypeField]:
     """Return the fields of a message with those of all messages inside."""
-    return [_field(item) for item in definition(full, Generation.ROS2).fields]
+    return [_field(item) for item in definition(full, RosVersion.ROS2).fields]
 
 
 def _described(full: str, kind: str) -> TypeValue:
-    parts = {word: definition(full + end, Generation.ROS2) for word, end in _PARTS[kind].items()}
+    parts = {word: definition(full + end, RosVersion.ROS2) for word, end in _PARTS[kind].items()}
     fields: list[TypeField] = []
     for word, part in parts.items():
         tree = [_field(item) for item in part.fields]
@@ -118,7 +118,7 @@ def _field(item: Field) -> TypeField:
         "default": item.default,
     }
     if item.type.is_message:
-        inner = definition(item.type.base, Generation.ROS2)
+        inner = definition(item.type.base, RosVersion.ROS2)
         value["fields"] = [_field(one) for one in inner.fields]
         if inner.constants:
             value["constants"] = _constants(inner)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from gazelle.interfaces import Definition, Field, Generation, definition
+from gazelle.interfaces import Definition, Field, RosVersion, definition
 from gazelle.interfaces.definition import FORMATS, Array
 
 __all__ = ["ros_interfaces", "ros_name"]
@@ -39,7 +39,7 @@ def _collect(full: str, found: dict[str, Definition]) -> None:
     """Add a message behind those inside of it."""
     if full in found:
         return
-    known = definition(full, Generation.ROS2)
+    known = definition(full, RosVersion.ROS2)
     for field in known.fields:
         if field.type.is_message:
             _collect(field.type.base, found)

@@ -106,7 +106,7 @@ def create_package(
     name: str,
     parent: Path,
     *,
-    generation: Literal[1, 2] = 1,
+    ros_version: Literal[1, 2] = 1,
 ) -> tuple[Path, ...]:
     """Write a package into a folder of its name, with manifest, build and launch files.
 
@@ -117,7 +117,7 @@ def create_package(
         kind: one of `KINDS`.
         name: of the package and of what is in it.
         parent: where the package's folder is made; made itself when it is not there.
-        generation: 1 writes catkin (manifest format 2), 2 ament_python (format 3).
+        ros_version: 1 writes catkin (manifest format 2), 2 ament_python (format 3).
 
     Returns:
         The files written, sorted.
@@ -130,7 +130,7 @@ def create_package(
     _check_free(folder)
     texts = {
         folder / target.replace("@name@", name): _filled(template, name)
-        for target, template in FILES[kind, generation].items()
+        for target, template in FILES[kind, ros_version].items()
     }
     for path, text in texts.items():
         try:

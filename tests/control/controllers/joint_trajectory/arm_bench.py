@@ -38,11 +38,13 @@ class Bench:
         joints: Sequence[PlantJoint] = tuple(PlantJoint(name) for name in JOINTS),
         subscribed: bool = True,
         start: bool = True,
-        generation: int | None = None,
+        ros_version: int | None = None,
     ) -> None:
         is_ros2 = type_name == ROS2
         cls = Ros2JointTrajectoryController if is_ros2 else Ros1JointTrajectoryController
-        self.robot, self.plant = make_robot(joints, generation=generation or (2 if is_ros2 else 1))
+        self.robot, self.plant = make_robot(
+            joints, ros_version=ros_version or (2 if is_ros2 else 1)
+        )
         self.diagnostics = Diagnostics()
         given: dict[str, Any] = {"joints": [joint.name for joint in joints]}
         if is_ros2:

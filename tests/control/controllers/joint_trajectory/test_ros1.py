@@ -441,4 +441,4 @@ def test_wrong_joints_are_named(parameters: dict[str, Any], text: str) -> None:
 
 def test_ros2_robots_are_told_their_type() -> None:
     with pytest.raises(ControllerError, match="ROS 2 has joint_trajectory_controller/Joint"):
-        Bench(POSITION, generation=2)
+        Bench(POSITION, ros_version=2)

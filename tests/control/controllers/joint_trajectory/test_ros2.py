@@ -594,4 +594,4 @@ def test_parameters_that_do_not_fit_are_named(parameters: dict[str, Any], text: 
 
 def test_ros1_robots_are_told_their_types() -> None:
     with pytest.raises(ControllerError, match="ROS 1 has position_controllers/JointTrajectory"):
-        Bench(ROS2, generation=1)
+        Bench(ROS2, ros_version=1)

@@ -46,7 +46,7 @@ def main(argv: list[str]) -> int:
 
 
 def _refuse_ros1(client: ManagerClient) -> None:
-    if client.generation == 1:
+    if client.ros_version == 1:
         raise ToolError(
             f"{client.name} is a controller manager of ROS 1; use: controller_manager list | load "
             "| start | stop …"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.cli.tool import ToolError, hint
 from gazelle.interfaces import definition, find_source, known_types
-from gazelle.interfaces.definition import Generation
+from gazelle.interfaces.definition import RosVersion
 
 __all__ = ["PARTS", "checked_name", "interface_text", "interfaces"]
 
@@ -23,7 +23,7 @@ def interfaces(part: str, package: str = "") -> list[str]:
     found = []
     for full in known_types(part, package):
         owner, its_part, name = full.split("/")
-        only_ros1 = find_source(owner, its_part, name, Generation.ROS2) is None
+        only_ros1 = find_source(owner, its_part, name, RosVersion.ROS2) is None
         if not only_ros1 or _is_users(owner, its_part, name):
             found.append(full)
     return found
@@ -53,17 +53,17 @@ def checked_name(name: str) -> tuple[str, str, str]:
 
 def interface_text(package: str, part: str, bare: str) -> str:
     """Return the text that defines an interface, of ROS 1's ones what ROS 2 would write."""
-    source = find_source(package, part, bare, Generation.ROS2)
+    source = find_source(package, part, bare, RosVersion.ROS2)
     if source is not None:
         return source.text
     pieces = [
-        definition(f"{package}/{part}/{bare}{suffix}", Generation.ROS2) for suffix in _PIECES[part]
+        definition(f"{package}/{part}/{bare}{suffix}", RosVersion.ROS2) for suffix in _PIECES[part]
     ]
     return "\n---\n".join(piece.text.strip("\n") for piece in pieces)
 
 
 def _is_users(package: str, part: str, name: str) -> bool:
-    source = find_source(package, part, name, Generation.ROS1)
+    source = find_source(package, part, name, RosVersion.ROS1)
     return source is not None and not source.file.startswith("<")
 
 

@@ -194,7 +194,7 @@ class MoveItPy:
             found = "; ".join(one.message for one in diagnostics.errors)
             raise RuntimeError(f"Unable to construct robot model: {found}")
         robot = MotionRobot.from_config(config, diagnostics=diagnostics)
-        made = make_context(self._node, config, robot, {}, generation=2)
+        made = make_context(self._node, config, robot, {}, ros_version=2)
         made.maker.warm_up(made.monitor.scene)
         return made
 

@@ -247,7 +247,7 @@ class ActionServer:
             action_type,
             on_goal=self._on_goal,
             on_cancel=self._on_cancel,
-            generation=2,
+            ros_version=2,
             run=self._post,
             timing=ActionTiming(result_timeout_s=result_timeout),
         )

@@ -137,7 +137,7 @@ class PidOutput:
         self.set_feed_forward(feed_forward)
         self._names = tuple(names)
         self._pids = PidBank([_gains(context, name) for name in names])
-        separator = "/" if context.generation == 1 else "."
+        separator = "/" if context.ros_version == 1 else "."
         self._live = [
             offer_live_gains(context, f"gains{separator}{name}", (self._pids, place))
             for place, name in enumerate(names)
@@ -210,10 +210,10 @@ def report_idle_gains(context: ControllerContext) -> None:
 
 
 def _gains(context: ControllerContext, name: str) -> PidGains:
-    found = read_gains(context.parameters, "gains", name, generation=context.generation)
+    found = read_gains(context.parameters, "gains", name, ros_version=context.ros_version)
     if found is not None:
         return found
-    if context.generation == 2:
+    if context.ros_version == 2:
         return PidGains()
     where = context.parameters.full_name(f"gains.{name}")
     text = f"controller '{context.name}': No p gain specified for pid. Namespace: {where} "

@@ -47,7 +47,7 @@ _ROS1 = (1,)
 
 
 def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
-    return Parameter(key, kind, default, meaning, unit, generations=_ROS1)
+    return Parameter(key, kind, default, meaning, unit, ros_versions=_ROS1)
 
 
 ROS1_TABLE = ControllerTable(
@@ -108,20 +108,20 @@ ROS1_TABLE = ControllerTable(
     "pos_vel_acc claim two and three of position, velocity, acceleration. Reads positions and "
     "velocities.",
     topics=(
-        Topic("~/command", "trajectory_msgs/JointTrajectory", "listens", generations=_ROS1),
+        Topic("~/command", "trajectory_msgs/JointTrajectory", "listens", ros_versions=_ROS1),
         Topic(
             "~/state",
             "control_msgs/JointTrajectoryControllerState",
             rate="state_publish_rate",
-            generations=_ROS1,
+            ros_versions=_ROS1,
         ),
-        Topic("~/query_state", "control_msgs/QueryTrajectoryState", "service", generations=_ROS1),
+        Topic("~/query_state", "control_msgs/QueryTrajectoryState", "service", ros_versions=_ROS1),
         Topic(
             "~/follow_joint_trajectory",
             "control_msgs/FollowJointTrajectory",
             "action",
             "feedback at action_monitor_rate",
-            generations=_ROS1,
+            ros_versions=_ROS1,
         ),
     ),
     behaviour=(
@@ -166,7 +166,7 @@ class Ros1JointTrajectoryController(Controller):
     def __init__(self, context: ControllerContext) -> None:
         """Read the parameters and offer topics, service and action."""
         super().__init__(context)
-        if context.generation == 2:
+        if context.ros_version == 2:
             text = f"controller '{context.name}': type '{context.type}' is ROS 1's; ROS 2 has "
             text += f"{ROS2_TABLE.parameters.types[0]}, and its 'command_interfaces' say what it"
             text += " commands"

@@ -152,7 +152,7 @@ class Ros2JointTrajectoryController(Controller):
     def __init__(self, context: ControllerContext) -> None:
         """Read the parameters and offer topics, service and action."""
         super().__init__(context)
-        if context.generation == 1:
+        if context.ros_version == 1:
             text = f"controller '{context.name}': type '{context.type}' is ROS 2's; ROS 1 has "
             raise ControllerError(f"{text}{', '.join(ROS1_TABLE.parameters.types)}")
         self._setup = setup = Ros2Setup(context)

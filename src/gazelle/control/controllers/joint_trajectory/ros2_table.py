@@ -15,7 +15,7 @@ _OLD_FF = ("ff_velocity_scale.<joint>",)
 def _row(
     key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "", live: bool = False
 ) -> Parameter:
-    return Parameter(key, kind, default, meaning, unit, live=live, generations=_ROS2)
+    return Parameter(key, kind, default, meaning, unit, live=live, ros_versions=_ROS2)
 
 
 _PARAMETERS = (
@@ -149,7 +149,7 @@ _PARAMETERS = (
         "feed-forward of velocity (velocity, effort)",
         aliases=_OLD_FF,
         live=True,
-        generations=_ROS2,
+        ros_versions=_ROS2,
     ),
     _row(
         "gains.<joint>.angle_wraparound",
@@ -174,23 +174,23 @@ ROS2_TABLE = ControllerTable(
     "`state_interfaces`.",
     topics=(
         Topic(
-            "~/joint_trajectory", "trajectory_msgs/JointTrajectory", "listens", generations=_ROS2
+            "~/joint_trajectory", "trajectory_msgs/JointTrajectory", "listens", ros_versions=_ROS2
         ),
         Topic(
             "~/speed_scaling_input",
             "control_msgs/SpeedScalingFactor",
             "listens",
-            generations=_ROS2,
+            ros_versions=_ROS2,
         ),
-        Topic("~/controller_state", _STATE, rate="state_publish_rate", generations=_ROS2),
-        Topic("~/state", _STATE, rate="state_publish_rate (Foxy to Humble)", generations=_ROS2),
-        Topic("~/query_state", "control_msgs/QueryTrajectoryState", "service", generations=_ROS2),
+        Topic("~/controller_state", _STATE, rate="state_publish_rate", ros_versions=_ROS2),
+        Topic("~/state", _STATE, rate="state_publish_rate (Foxy to Humble)", ros_versions=_ROS2),
+        Topic("~/query_state", "control_msgs/QueryTrajectoryState", "service", ros_versions=_ROS2),
         Topic(
             "~/follow_joint_trajectory",
             "control_msgs/FollowJointTrajectory",
             "action",
             "feedback at action_monitor_rate",
-            generations=_ROS2,
+            ros_versions=_ROS2,
         ),
     ),
     behaviour=(

@@ -21,9 +21,9 @@ from pathlib import Path
 from types import FrameType
 from typing import Literal
 
-__all__ = ["message_generation"]
+__all__ = ["message_ros_version"]
 
-Generation = Literal[1, 2]
+RosVersion = Literal[1, 2]
 
 _IMPORT = r"^[ \t]*(?:import|from)[ \t]+(?:{})\b"
 _ROS1 = re.compile(
@@ -36,11 +36,11 @@ _INSTALLED = ("site-packages", "dist-packages")
 _PREFIX_LEVELS = 3
 
 
-def message_generation() -> Generation:
+def message_ros_version() -> RosVersion:
     """Return 1 or 2 for the module that is just importing messages."""
     main = getattr(sys.modules.get("__main__"), "__file__", None)
     importer = _importing_file()
-    answers: Iterable[Generation | None] = (
+    answers: Iterable[RosVersion | None] = (
         _of_text(importer),
         _of_modules(),
         _of_text(main),
@@ -65,12 +65,12 @@ def _importing_file() -> str | None:
     return None
 
 
-def _of_modules() -> Generation | None:
+def _of_modules() -> RosVersion | None:
     return _either("rospy" in sys.modules, "rclpy" in sys.modules)
 
 
 @cache
-def _of_text(file: str | None) -> Generation | None:
+def _of_text(file: str | None) -> RosVersion | None:
     text = _text(file)
     return _either(bool(_ROS1.search(text)), bool(_ROS2.search(text)))
 
@@ -88,7 +88,7 @@ def _text(file: str | None) -> str:
 
 
 @cache
-def _of_package(file: str | None) -> Generation | None:
+def _of_package(file: str | None) -> RosVersion | None:
     if file is None or file.startswith("<"):
         return None
     path = Path(file).resolve()
@@ -110,7 +110,7 @@ def _share_folders(path: Path) -> list[Path]:
     return [Path(*parts[: place - 2], "share", Path(parts[place + 1]).stem)]
 
 
-def _either(ros1: bool, ros2: bool) -> Generation | None:
+def _either(ros1: bool, ros2: bool) -> RosVersion | None:
     if ros1 == ros2:
         return None
     return 1 if ros1 else 2

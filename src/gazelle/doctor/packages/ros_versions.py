@@ -11,7 +11,7 @@ from gazelle.doctor.packages.signs import SIGNS, Sign
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.report import Section
 
-__all__ = ["Generation", "check_generations", "generations", "generations_section"]
+__all__ = ["VersionSign", "check_ros_versions", "ros_versions_section", "version_signs"]
 
 _COLUMNS = ("part", "written for", "why", "what Gazelle does")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -23,13 +23,13 @@ _FORMATS = {
 }
 
 
-class Generation(NamedTuple):
+class VersionSign(NamedTuple):
     """A part of a package and its ROS.
 
     Attributes:
         part: ``package``, ``launch``, ``description``, ``code`` or ``parameters``.
         written_for: distributions, in words.
-        generation: 1, 2, or 0 when it tells nothing about it.
+        ros_version: 1, 2, or 0 when it tells nothing about it.
         why: the sign, in words.
         here: what Gazelle does with it.
         spans: where the sign stands, once per file.
@@ -38,14 +38,14 @@ class Generation(NamedTuple):
 
     part: str
     written_for: str
-    generation: int
+    ros_version: int
     why: str
     here: str
     spans: tuple[SourceSpan, ...]
     is_strict: bool
 
 
-def generations(source: SourcePackage) -> tuple[Generation, ...]:
+def version_signs(source: SourcePackage) -> tuple[VersionSign, ...]:
     """Return every sign found, the manifest's first; each with all its places."""
     found: dict[Sign, list[SourceSpan]] = {}
     for name in source.files:
@@ -58,10 +58,10 @@ def generations(source: SourcePackage) -> tuple[Generation, ...]:
             if place is not None:
                 found.setdefault(sign, []).append(_span(source, name, text, place))
     rows = (
-        Generation(
+        VersionSign(
             sign.part,
             sign.written_for,
-            sign.generation,
+            sign.ros_version,
             sign.why,
             sign.here,
             tuple(spans),
@@ -73,23 +73,23 @@ def generations(source: SourcePackage) -> tuple[Generation, ...]:
     return (_of_manifest(source), *sorted(rows, key=lambda row: order.index(row.part)))
 
 
-def generations_section(source: SourcePackage) -> Section:
+def ros_versions_section(source: SourcePackage) -> Section:
     """Return the table of a package's generations."""
     rows = tuple(
         (row.part, row.written_for, f"{row.why} ({_places(source, row.spans)})", row.here)
-        for row in generations(source)
+        for row in version_signs(source)
     )
     return Section("generations", f"{source.package.name}: written for", _COLUMNS, rows)
 
 
-def check_generations(source: SourcePackage, diagnostics: Diagnostics) -> None:
+def check_ros_versions(source: SourcePackage, diagnostics: Diagnostics) -> None:
     """Report files of one generation in a package that is built for the other."""
     if _serves_both(source):
         return
     own = 2 if source.is_ros2 else 1
     seen: set[str] = set()
-    for row in generations(source)[1:]:
-        if not row.is_strict or row.generation in {0, own}:
+    for row in version_signs(source)[1:]:
+        if not row.is_strict or row.ros_version in {0, own}:
             continue
         for span in row.spans:
             if span.file in seen:
@@ -99,11 +99,11 @@ def check_generations(source: SourcePackage, diagnostics: Diagnostics) -> None:
 
 
 def _report_mixed(
-    source: SourcePackage, row: Generation, span: SourceSpan, diagnostics: Diagnostics
+    source: SourcePackage, row: VersionSign, span: SourceSpan, diagnostics: Diagnostics
 ) -> None:
     name = span.file.removeprefix(f"{source.folder}/")
-    other = "ROS 1" if row.generation == 1 else "ROS 2"
-    own = "ROS 2" if row.generation == 1 else "ROS 1"
+    other = "ROS 1" if row.ros_version == 1 else "ROS 2"
+    own = "ROS 2" if row.ros_version == 1 else "ROS 1"
     text = f"'{name}' is written for {other} ({row.why}), the package is built for {own} "
     text += f"({source.build_type}); a real {own} cannot use the file"
     diagnostics.report("package.generations-mixed", text, span)
@@ -119,15 +119,17 @@ def _serves_both(source: SourcePackage) -> bool:
     return source.build_type not in {"ament_cmake", "ament_python", "catkin"}
 
 
-def _of_manifest(source: SourcePackage) -> Generation:
+def _of_manifest(source: SourcePackage) -> VersionSign:
     package = source.package
     written_for, why, here = _FORMATS.get(package.format, _FORMATS[1])
-    generation = 2 if source.is_ros2 else 1
+    ros_version = 2 if source.is_ros2 else 1
     if source.is_ros2:
         written_for, why = "ROS 2", f"{why}, build type {source.build_type}"
     elif package.format:
         written_for, why = f"ROS 1 {written_for}", f"{why}, build type {source.build_type}"
-    return Generation("package", written_for, generation, why, here, (source.manifest_span,), True)
+    return VersionSign(
+        "package", written_for, ros_version, why, here, (source.manifest_span,), True
+    )
 
 
 def _span(source: SourcePackage, name: str, text: str, place: re.Match[str]) -> SourceSpan:
