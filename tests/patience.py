@@ -36,7 +36,7 @@ PATIENCE_S = 60.0
 _WORK_ROUNDS = 200_000
 _ORDINARY_WORK_S = 0.02
 _LOOKS = 5
-_HIGHEST_SCALE = 20.0
+_MAX_SCALE = 20.0
 _PAUSE_S = 0.005
 
 
@@ -45,7 +45,7 @@ def scale() -> float:
     slowness = _measured_work_s() / _ORDINARY_WORK_S
     # Where the system tells no load (Windows), twice the time is allowed for.
     load = _load() / (os.cpu_count() or 1) if hasattr(os, "getloadavg") else 2.0
-    return min(max(1.0, slowness) * max(1.0, load), _HIGHEST_SCALE)
+    return min(max(1.0, slowness) * max(1.0, load), _MAX_SCALE)
 
 
 def _load() -> float:

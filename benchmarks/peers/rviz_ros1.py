@@ -26,8 +26,8 @@ _DISPLAY = ":78"
 _SIZE = (1024, 768)
 _PATIENCE_S = 60.0
 _WARM_UP_S = 5.0
-_FEWEST_ROBOT_PIXELS = 2000
-_FEWEST_LASER_PIXELS = 100
+_MIN_ROBOT_PIXELS = 2000
+_MIN_LASER_PIXELS = 100
 _BACKGROUND = (0, 0, 255)
 _ROBOT_GREY = range(60, 200)
 
@@ -64,9 +64,9 @@ def main(words: list[str]) -> int:
     if len(words) > 1:
         _save(picture, Path(words[1]))
     robot, laser = _robot_pixels(picture), _laser_pixels(picture)
-    print(f"pixels of the robot: {robot} (at least {_FEWEST_ROBOT_PIXELS})")
-    print(f"pixels of the laser: {laser} (at least {_FEWEST_LASER_PIXELS})")
-    return int(robot < _FEWEST_ROBOT_PIXELS or laser < _FEWEST_LASER_PIXELS)
+    print(f"pixels of the robot: {robot} (at least {_MIN_ROBOT_PIXELS})")
+    print(f"pixels of the laser: {laser} (at least {_MIN_LASER_PIXELS})")
+    return int(robot < _MIN_ROBOT_PIXELS or laser < _MIN_LASER_PIXELS)
 
 
 def _picture(workspaces: Path, folder: Path, stack: ExitStack) -> NDArray[np.uint8]:
@@ -110,8 +110,8 @@ def _seen() -> NDArray[np.uint8]:
     time.sleep(_WARM_UP_S)
     while True:
         picture = _screen()
-        enough = _robot_pixels(picture) >= _FEWEST_ROBOT_PIXELS
-        if (enough and _laser_pixels(picture) >= _FEWEST_LASER_PIXELS) or (
+        enough = _robot_pixels(picture) >= _MIN_ROBOT_PIXELS
+        if (enough and _laser_pixels(picture) >= _MIN_LASER_PIXELS) or (
             time.monotonic() > deadline
         ):
             return picture

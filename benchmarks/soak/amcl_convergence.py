@@ -28,7 +28,7 @@ TURTLEBOT3 = AmclOptions(
     laser_z_short=0.05, laser_z_max=0.05, laser_z_rand=0.5, odom_alpha1=0.1, odom_alpha2=0.1,
     odom_alpha3=0.1, odom_alpha4=0.1,
 )  # fmt: skip
-_CELL_M, _SIDE, _BEAMS, _LONGEST_M = 0.05, 120, 360, 3.5
+_CELL_M, _SIDE, _BEAMS, _MAX_LENGTH_M = 0.05, 120, 360, 3.5
 
 
 def room(seed: int) -> OccupancyGrid:
@@ -57,8 +57,8 @@ def scan_at(grid: OccupancyGrid, pose: np.ndarray, rng: np.random.Generator) -> 
         ]
     )
     ranges = (ranges + 0.5) * _CELL_M + rng.normal(0, 0.01, _BEAMS)
-    ranges[ranges > _LONGEST_M] = np.inf
-    return Scan(0, 0.0, step, ranges.astype(np.float32), 0.12, _LONGEST_M)
+    ranges[ranges > _MAX_LENGTH_M] = np.inf
+    return Scan(0, 0.0, step, ranges.astype(np.float32), 0.12, _MAX_LENGTH_M)
 
 
 def error_of_run(seed: int, updates: int = 40, options: AmclOptions = TURTLEBOT3) -> np.ndarray:

@@ -32,7 +32,7 @@ from gazelle.navigation.localisation import Amcl  # noqa: E402
 from gazelle.navigation.localisation.kernels import cast_ray  # noqa: E402
 from gazelle.workspace import Workspace  # noqa: E402
 
-FINE_M, LIDAR_M, LONGEST_M, BEAMS = 0.01, 0.172, 3.5, 360
+FINE_M, LIDAR_M, MAX_LENGTH_M, BEAMS = 0.01, 0.172, 3.5, 360
 START = (-2.0, -0.5)
 T_BASE_LASER = (-0.032, 0.0, 0.0)
 NEAREST_M = 0.16
@@ -64,12 +64,12 @@ class World:
         u, v = (x - self.grid.origin[0]) / FINE_M, (y - self.grid.origin[1]) / FINE_M
         step = math.tau / BEAMS
         ranges = FINE_M * np.array(
-            [cast_ray(self.grid.cells, u, v, yaw + k * step, LONGEST_M / FINE_M)
+            [cast_ray(self.grid.cells, u, v, yaw + k * step, MAX_LENGTH_M / FINE_M)
              for k in range(BEAMS)]
         )  # fmt: skip
         ranges += FINE_M / 2 + rng.normal(0, 0.01, BEAMS)
-        ranges[ranges > LONGEST_M - FINE_M] = np.inf
-        return Scan(0, 0.0, step, ranges.astype(np.float32), 0.12, LONGEST_M, T_BASE_LASER)
+        ranges[ranges > MAX_LENGTH_M - FINE_M] = np.inf
+        return Scan(0, 0.0, step, ranges.astype(np.float32), 0.12, MAX_LENGTH_M, T_BASE_LASER)
 
     def somewhere(self, rng: np.random.Generator) -> np.ndarray:
         """Return a pose with room around it."""

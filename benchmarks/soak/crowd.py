@@ -39,7 +39,7 @@ _FAST, _WATCHERS, _SLEEPERS, _NEIGHBOURS, _TOPICS_EACH = 6, 5, 5, 44, 4
 _ROLES = ("fast", "watcher", "neighbour", "sleeper")
 _PICTURES = "/camera/rgb/image_raw"
 _STARTING_S, _SETTLING_S, _SAMPLE_EVERY_S, _WARM_UP_S = 180.0, 20.0, 1.0, 300.0
-_LEAST_SHARE, _MOST_MB_PER_HOUR = 0.95, 1.0
+_MIN_SHARE, _MAX_MB_PER_HOUR = 0.95, 1.0
 _MEMBER = """
 import sys, threading, time
 import rospy
@@ -131,7 +131,7 @@ def main() -> int:
         _tell("memory", **one._asdict())
     steepest = max((one.surely_mb_per_hour for one in trends), default=0.0)
     _tell("judged", share=share, processes=len(trends), surely_mb_per_hour=steepest)
-    return int(share < _LEAST_SHARE or steepest > _MOST_MB_PER_HOUR)
+    return int(share < _MIN_SHARE or steepest > _MAX_MB_PER_HOUR)
 
 
 def _member_text() -> str:

@@ -25,7 +25,7 @@ from tests.fuzzing.kinds import KINDS
 from tests.fuzzing.run import Outcome, read_damaged
 
 _MEMORY_BYTES = 4 << 30
-_MOST_S = 1.0
+_MAX_S = 1.0
 
 
 def main() -> int:
@@ -60,7 +60,7 @@ def _read(name: str, numbers: range, guided: bool) -> Outcome:
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY_BYTES, _MEMORY_BYTES))
     with tempfile.TemporaryDirectory() as folder:
         read = read_guided if guided else read_damaged
-        return read(KINDS[name], numbers, Path(folder), most_s=_MOST_S)
+        return read(KINDS[name], numbers, Path(folder), most_s=_MAX_S)
 
 
 if __name__ == "__main__":

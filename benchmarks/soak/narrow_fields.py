@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from tests.navigation.narrow_fields import DRIVERS, cross
 
-_LEAST_SHARE = 0.96
+_MIN_SHARE = 0.96
 
 
 def main() -> int:
@@ -50,7 +50,7 @@ def main() -> int:
                           "with_contact": contacts, "median_s": round(float(np.median(times)), 1),
                           "others": others}), flush=True)  # fmt: skip
         stands = any("still about it" in one for one in others.values())
-        bad |= crossed < _LEAST_SHARE * options.fields or contacts > 0 or stands
+        bad |= crossed < _MIN_SHARE * options.fields or contacts > 0 or stands
     return int(bad)
 
 

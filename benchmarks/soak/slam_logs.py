@@ -27,7 +27,7 @@ from gazelle.mapping.poses import Poses, between, compose
 from gazelle.mapping.relative_pose_error import absolute_error_m
 from gazelle.mapping.slam import Slam
 
-MOST_SHARE = 0.01
+MAX_SHARE = 0.01
 
 
 class Mapped(NamedTuple):
@@ -58,7 +58,7 @@ class Mapped(NamedTuple):
     @property
     def is_broken(self) -> bool:
         """Whether it crashed, or is off by more than is allowed."""
-        return bool(self.crash) or not self.off_m <= MOST_SHARE * self.size_m
+        return bool(self.crash) or not self.off_m <= MAX_SHARE * self.size_m
 
 
 def main() -> int:
@@ -140,7 +140,7 @@ def _table(done: Sequence[Mapped]) -> str:
         first = own[0]
         rows.append(
             f"{log:<26}{first.scans:>6}{first.size_m:>8.1f}{np.median(off):>10.3f}"
-            f"{max(off):>10.3f}{MOST_SHARE * first.size_m:>9.2f}"
+            f"{max(off):>10.3f}{MAX_SHARE * first.size_m:>9.2f}"
             f"{sum(one.is_broken for one in own):>5}/{len(own)}"
         )
     return "\n".join(rows)

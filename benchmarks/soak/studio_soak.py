@@ -32,7 +32,7 @@ import psutil
 
 _WARM_UP_S = 300.0
 _STARTING_S = 180.0
-_MOST_GROWTH = 0.05
+_MAX_GROWTH = 0.05
 _FIGURES = ("page_heap_mb", "renderer_mb", "server_mb", "simulator_mb")
 _PANELS = "rviz,gzclient,rqt_plot,rqt_graph,rqt_topic,rqt_console,rqt_image_view,rqt_tf_tree"
 _DISPLAYS = {
@@ -220,7 +220,7 @@ def _judge(samples: list[dict[str, float]]) -> int:
         last = statistics.median(one[name] for one in samples[-third:])
         growth[name] = round(last / first - 1, 4)
     print(json.dumps({"growth": growth, "samples": len(samples)}))
-    return int(any(each > _MOST_GROWTH for each in growth.values()))
+    return int(any(each > _MAX_GROWTH for each in growth.values()))
 
 
 if __name__ == "__main__":

@@ -29,7 +29,7 @@ from numba.core.compiler_lock import global_compiler_lock
 
 __all__ = ["njit"]
 
-_LONGEST_WAIT_S = 60.0
+_MAX_WAIT_S = 60.0
 """Whoever compiles for longer was stopped in the middle: nobody waits for that."""
 
 _LOOK_EVERY_S = 0.02
@@ -149,7 +149,7 @@ def _turn(path: Path) -> Iterator[None]:
 
 def _locked(descriptor: int) -> bool:
     """Wait for a file's lock; tells whether it is ours."""
-    until = time.monotonic() + _LONGEST_WAIT_S
+    until = time.monotonic() + _MAX_WAIT_S
     while not _lock(descriptor):
         if time.monotonic() > until:
             return False

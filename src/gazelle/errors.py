@@ -31,7 +31,7 @@ __all__ = [
 _NO_ROOM = {getattr(errno, name, 0) for name in ("EDQUOT", "EFBIG", "ENOSPC")}
 _NO_RIGHT = {errno.EACCES, errno.EPERM}
 _SHOWN = 60
-_LONGEST_BYTES = 255
+_MAX_BYTES = 255
 
 
 class GazelleError(Exception):
@@ -115,7 +115,7 @@ def file_refusal_text(error: OSError) -> str:
     elif error.errno == errno.ENAMETOOLONG and error.filename is not None:
         whole = os.fsdecode(error.filename)
         part = max(PurePath(whole).parts, key=len)
-        name = part if len(os.fsencode(part)) > _LONGEST_BYTES else whole
+        name = part if len(os.fsencode(part)) > _MAX_BYTES else whole
         return f"{name[:_SHOWN]}…: {error.strerror}\n  fix: shorten it from {len(name)} characters"
     else:
         return ""

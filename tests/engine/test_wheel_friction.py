@@ -13,7 +13,7 @@ from gazelle.description.sdf import read_sdf
 from gazelle.description.urdf.reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
-from gazelle.engine.wheel_slip import MOST_WHEEL_MU, with_wheel_grip
+from gazelle.engine.wheel_slip import MAX_WHEEL_MU, with_wheel_grip
 from gazelle.geometry import Pose
 
 INERTIA = '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>'
@@ -71,7 +71,7 @@ def test_wheels_with_two_coefficients_of_one_size_have_the_smaller_one(mu2, coun
 
 def test_only_wheels_are_limited():
     model = robot(200.0)
-    for name, most in (("left", MOST_WHEEL_MU), ("ball", 0.0)):
+    for name, most in (("left", MAX_WHEEL_MU), ("ball", 0.0)):
         link = next(item for item in model.links if item.name == name)
         surface = with_wheel_grip(model, link, link.collisions[0], Diagnostics()).surface
         assert (surface.mu1, surface.mu2) == (most, most)
@@ -85,8 +85,8 @@ def test_endless_revolute_joints_of_sdf_carry_wheels_too():
       <joint name="j" type="revolute"><parent>base</parent><child>wheel</child>
         <axis><xyz>0 0 1</xyz>{}</axis></joint></model></sdf>"""
     for limit, most in (
-        ("", MOST_WHEEL_MU),
-        ("<limit><lower>-1e16</lower><upper>1e16</upper></limit>", MOST_WHEEL_MU),
+        ("", MAX_WHEEL_MU),
+        ("<limit><lower>-1e16</lower><upper>1e16</upper></limit>", MAX_WHEEL_MU),
         ("<limit><lower>-3</lower><upper>3</upper></limit>", 200.0),
     ):
         context = ReadContext(None, Diagnostics(), "bot.sdf")

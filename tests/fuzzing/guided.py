@@ -29,8 +29,8 @@ __all__ = ["reached", "read_guided"]
 _SOURCES = str(Path(gazelle.__file__).parent)
 # Without sys.monitoring each line costs a call of ours, so not every file is looked at.
 _LOOKED_AT_EVERY = 1 if sys.version_info >= (3, 12) else 8
-_MOST_KEPT = 500
-_LONGEST_BYTES = 20_000
+_MAX_KEPT = 500
+_MAX_BYTES = 20_000
 _FROM_GOOD = 0.3
 
 Line = tuple[str, int]
@@ -58,7 +58,7 @@ def read_guided(kind: Kind, numbers: Iterable[int], folder: Path, *, most_s: flo
         if number % _LOOKED_AT_EVERY == 0:
             lines = reached(read) - known
             known |= lines
-            if lines and len(kept) < _MOST_KEPT and len(data) < _LONGEST_BYTES:
+            if lines and len(kept) < _MAX_KEPT and len(data) < _MAX_BYTES:
                 kept.append(data)
             took_s = 0.0
         else:

@@ -44,8 +44,8 @@ __all__ = ["DRIVERS", "ROBOTS", "Field", "Robot", "Run", "controller_for", "cros
 
 _LENGTH_M, _WIDTH_M, _CELL_M, _FINE_M = 6.0, 5.0, 0.02, 0.005
 _WINDOW_M, _PERIOD_S, _STEPS = 3.0, 0.1, 10
-_GAP, _WIDEST = 1.3, 1.6
-_MOST_S = 300.0
+_GAP, _MAX_WIDTH = 1.3, 1.6
+_MAX_S = 300.0
 _START, _GOAL = (0.7, 2.5, 0.0), (5.3, 2.5, 0.0)
 
 
@@ -171,7 +171,9 @@ class Field:
         reach_m = math.hypot(robot.length_m, robot.width_m)
         while True:
             self.boxes = _boxes(rng, robot, reach_m)
-            if self._has_way(_GAP * robot.width_m) and not self._has_way(_WIDEST * robot.width_m):
+            if self._has_way(_GAP * robot.width_m) and not self._has_way(
+                _MAX_WIDTH * robot.width_m
+            ):
                 return
 
     def grid(self, cell_m: float) -> CostGrid:
@@ -196,7 +198,7 @@ class Field:
 def _boxes(rng: np.random.Generator, robot: Robot, reach_m: float) -> NDArray[np.float64]:
     boxes = []
     for line in (1.9, 3.0, 4.1):
-        gap_m = rng.uniform(_GAP, _WIDEST) * robot.width_m
+        gap_m = rng.uniform(_GAP, _MAX_WIDTH) * robot.width_m
         y = rng.uniform(1.2, _WIDTH_M - 1.2)
         x = line + rng.uniform(-0.15, 0.15)
         below, above = y - gap_m / 2, _WIDTH_M - y - gap_m / 2
@@ -235,7 +237,7 @@ class Run:
         """Return how it ended."""
         self.executive.begin()
         next_plan_s = 0.0
-        while self.time_s < _MOST_S:
+        while self.time_s < _MAX_S:
             if self.executive.wants_plan and self.time_s >= next_plan_s:
                 next_plan_s = self.time_s + 1.0
                 x, y, yaw = self.pose

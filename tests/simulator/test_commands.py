@@ -6,7 +6,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import GazelleError
-from gazelle.graph.subscription import MOST_WAITING, Backlog
+from gazelle.graph.subscription import MAX_WAITING, Backlog
 from gazelle.simulator.commands import CommandQueue
 
 
@@ -183,11 +183,11 @@ def test_of_the_messages_that_wait_for_a_busy_world_the_oldest_go_first() -> Non
     queue, told, done = CommandQueue(_never), [], []
     backlog = Backlog(queue.post, done.append, lambda: told.append("told"))
     queue.own()
-    poster = threading.Thread(target=lambda: [backlog.put(n) for n in range(MOST_WAITING + 50)])
+    poster = threading.Thread(target=lambda: [backlog.put(n) for n in range(MAX_WAITING + 50)])
     poster.start()
     poster.join(stretched())
     queue.apply()
-    assert done == list(range(50, MOST_WAITING + 50))
+    assert done == list(range(50, MAX_WAITING + 50))
     assert told == ["told"]
     backlog.put("next")
     queue.disown()

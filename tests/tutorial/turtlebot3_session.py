@@ -25,9 +25,9 @@ PlanePose = tuple[float, float, float]
 # Higher contacts are no wheels or casters on the ground.
 _GROUND_M = 0.03
 # The controller's rate in move_base_params.yaml, and how late it may be on a busy machine.
-_CONTROLLER_HZ, _LEAST_SHARE = 10.0, 0.8
-_WATCH_S, _SLOWEST, _LONGEST_S = 2.0, 0.3, 600.0
-_LEAST_SLOWING, _QUICKENING = 0.6, 1.4
+_CONTROLLER_HZ, _MIN_SHARE = 10.0, 0.8
+_WATCH_S, _MIN_SPEED, _MAX_DURATION_S = 2.0, 0.3, 600.0
+_MIN_SLOWING, _QUICKENING = 0.6, 1.4
 _POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 
 
@@ -175,7 +175,7 @@ class Session:
         goal = self.send(pose)
         began_s = self.now_s
         while not goal.is_done:
-            assert self.now_s - began_s < _LONGEST_S, self.world.text
+            assert self.now_s - began_s < _MAX_DURATION_S, self.world.text
             self._watch(goal)
         return goal
 
@@ -187,8 +187,8 @@ class Session:
         if goal.is_done or not share:
             return
         # A controller that fails sends nothing for a while, which a late one does too.
-        change = max(share, _LEAST_SLOWING) if share < _LEAST_SHARE else _QUICKENING
-        factor = min(max(self._factor * change, _SLOWEST), self._wanted_factor)
+        change = max(share, _MIN_SLOWING) if share < _MIN_SHARE else _QUICKENING
+        factor = min(max(self._factor * change, _MIN_SPEED), self._wanted_factor)
         if factor != self._factor:
             self._set_factor(factor)
 

@@ -22,7 +22,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-LARGEST_BYTES = 8_000_000
+MAX_BYTES = 8_000_000
 """Files above this are not laid out: videos, bags, textures."""
 
 
@@ -165,7 +165,7 @@ def lay_out(repository: Path, source: Source, folder: Path) -> tuple[int, list[s
     assert reader.stdin is not None and reader.stdout is not None
     for blob in _blobs(repository, source):
         # "BAD" is what git says of a blob that the snapshot has the name of only.
-        if not blob.size.isdigit() or int(blob.size) > LARGEST_BYTES:
+        if not blob.size.isdigit() or int(blob.size) > MAX_BYTES:
             missing.append(blob.path)
             continue
         reader.stdin.write(f"{blob.name}\n".encode())

@@ -10,7 +10,7 @@ from gazelle.bag.records import BagError
 
 __all__ = ["AppendedFile"]
 
-_MOST_BUFFERS = 512
+_MAX_BUFFERS = 512
 _PIECE_BYTES = 1 << 20
 
 
@@ -55,7 +55,7 @@ class AppendedFile:
         try:
             self._restore_if_removed()
             while waiting:
-                count = os.writev(self._file, waiting[:_MOST_BUFFERS])
+                count = os.writev(self._file, waiting[:_MAX_BUFFERS])
                 self.size += count
                 waiting = _rest(waiting, count)
         except OSError as error:

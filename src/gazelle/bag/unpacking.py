@@ -17,10 +17,10 @@ from gazelle.documents import HOW_TO_RAISE, scaled
 
 __all__ = ["unpack_file", "unpacked"]
 
-_MOST_BYTES = 512 << 20
+_MAX_BYTES = 512 << 20
 _PIECE = 1 << 20
 # Pictures of one colour shrink to a thousandth; what shrinks further is no recording.
-_MOST_TIMES = 1000
+_MAX_TIMES = 1000
 
 
 def unpacked(data: bytes, compression: str, size: int | None = None) -> bytes:
@@ -35,7 +35,7 @@ def unpacked(data: bytes, compression: str, size: int | None = None) -> bytes:
         BagError: it is damaged, or holds another number of bytes, or more than are unpacked
             (512 MiB).
     """
-    most = scaled(_MOST_BYTES)
+    most = scaled(_MAX_BYTES)
     name = f"a {'piece' if size is None else 'chunk'} of {compression}"
     if size is not None and size > most:
         raise _too_large(name, f"is said to hold {size} bytes", most)
@@ -67,13 +67,13 @@ def unpack_file(source: Path, target: Path) -> None:
     """
     library = zstandard.library()
     try:
-        left = scaled(max(_MOST_BYTES, _MOST_TIMES * source.stat().st_size))
+        left = scaled(max(_MAX_BYTES, _MAX_TIMES * source.stat().st_size))
         with library.open(source, "rb") as packed, target.open("wb") as file:
             while piece := packed.read(_PIECE):
                 left -= len(piece)
                 if left < 0:
                     raise BagError(
-                        f"{source}: the file holds more than {_MOST_TIMES} times its own size, "
+                        f"{source}: the file holds more than {_MAX_TIMES} times its own size, "
                         f"which no recording does; {HOW_TO_RAISE}"
                     )
                 file.write(piece)

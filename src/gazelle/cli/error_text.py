@@ -4,7 +4,7 @@ from __future__ import annotations
 
 __all__ = ["error_text"]
 
-_LONGEST_LINE = 1000
+_MAX_LINE = 1000
 # What is wrong stands at the start of a line or at its end, behind what is quoted.
 _HEAD = 400
 _TAIL = 100
@@ -16,7 +16,7 @@ def error_text(error: object) -> str:
 
 
 def _shortened(line: str) -> str:
-    if len(line) <= _LONGEST_LINE:
+    if len(line) <= _MAX_LINE:
         return line
     left_out = len(line) - _HEAD - _TAIL
     return f"{line[:_HEAD]} … ({left_out} characters) … {line[-_TAIL:]}"

@@ -20,7 +20,7 @@ _COUNT = re.compile(r" \(and \d+ more in this file\)")
 
 _VARYING = re.compile(r"'[^'\n]*'|<[^<>\n]*>|(?<![\w.])-?\d[\w.+-]*")
 
-_FEWEST = 3
+_MIN_COUNT = 3
 
 _SHOWN = 8
 
@@ -42,7 +42,7 @@ def grouped(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         groups.setdefault((item.code, item.severity, _kind(item)), []).append(item)
     merged: list[Diagnostic] = []
     for group in groups.values():
-        merged += group if len(group) < _FEWEST else [_merged(group)]
+        merged += group if len(group) < _MIN_COUNT else [_merged(group)]
     return tuple(merged)
 
 

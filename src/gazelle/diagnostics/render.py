@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 __all__ = ["render", "render_text"]
 
 _COLOURS = {Severity.INFO: "cyan", Severity.WARNING: "yellow", Severity.ERROR: "red"}
-_WIDEST = 160
+_MAX_WIDTH = 160
 _BEFORE = 80
-_LONGEST = 2000
+_MAX_LENGTH = 2000
 _MORE = "…"
 
 
@@ -91,20 +91,20 @@ def _append_source(text: Text, span: SourceSpan, sources: Mapping[str, str], col
 
 def _window(line: str, column: int) -> tuple[str, int]:
     """Return what of a line is shown, and the column in that: files of one line can be long."""
-    start = max(0, column - _BEFORE) if len(line) > _WIDEST else 0
-    shown = line[start : start + _WIDEST]
+    start = max(0, column - _BEFORE) if len(line) > _MAX_WIDTH else 0
+    shown = line[start : start + _MAX_WIDTH]
     # What a file holds must not steer the terminal.
     shown = "".join(one if one.isprintable() else "·" for one in shown)
     left = _MORE if start else ""
-    right = _MORE if start + _WIDEST < len(line) else ""
+    right = _MORE if start + _MAX_WIDTH < len(line) else ""
     return f"{left}{shown}{right}", column - start + len(left) if column else 0
 
 
 def _short(text: str) -> str:
     """Return a text without its middle where it quotes something endless."""
-    if len(text) <= _LONGEST:
+    if len(text) <= _MAX_LENGTH:
         return text
-    half = _LONGEST // 2
+    half = _MAX_LENGTH // 2
     return f"{text[:half]} {_MORE} ({len(text)} characters) {_MORE} {text[-half:]}"
 
 

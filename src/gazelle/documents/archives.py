@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ArchiveError", "read_arrays"]
 
-_MOST_BYTES = 1 << 30
+_MAX_BYTES = 1 << 30
 
 
 class ArchiveError(ValueError):
@@ -47,9 +47,9 @@ def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
 def _check_size(packed: zipfile.ZipFile) -> None:
     """Refuse what says that it is too large; what lies about it ends at the size it says."""
     size = sum(one.file_size for one in packed.infolist())
-    if size > scaled(_MOST_BYTES):
+    if size > scaled(_MAX_BYTES):
         raise ArchiveError(
-            f"it holds {size} bytes, at most {scaled(_MOST_BYTES)} are read; {HOW_TO_RAISE}"
+            f"it holds {size} bytes, at most {scaled(_MAX_BYTES)} are read; {HOW_TO_RAISE}"
         )
 
 

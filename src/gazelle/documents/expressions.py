@@ -21,15 +21,15 @@ __all__ = ["HUGE_NUMBER", "Budget", "compile_limited", "names_in_code"]
 
 HUGE_NUMBER = r"\d{7,}"
 
-_MOST_STEPS = 2_000_000
+_MAX_STEPS = 2_000_000
 
-_MOST_ITEMS = 2_000_000
+_MAX_ITEMS = 2_000_000
 
-_MOST_CHARACTERS = 10_000_000
+_MAX_CHARACTERS = 10_000_000
 
-_MOST_BITS = 100_000
+_MAX_BITS = 100_000
 
-_MOST_FACTORS = 10_000
+_MAX_FACTORS = 10_000
 
 _COUNTING = (math.factorial, math.comb, math.perm)
 
@@ -47,7 +47,7 @@ class Budget:
 
     def __init__(self) -> None:
         self._steps = 0
-        self._most_steps = scaled(_MOST_STEPS)
+        self._most_steps = scaled(_MAX_STEPS)
         self._measured: dict[int, Any] = {}
         self.names: dict[str, Callable[..., Any]] = {
             "_limited_call": self._call,
@@ -67,11 +67,11 @@ class Budget:
             LimitError: it is too large, or holds so often the same that its text would be.
         """
         if isinstance(value, str):
-            _check_size(len(value), _MOST_CHARACTERS, "a text of {} characters")
+            _check_size(len(value), _MAX_CHARACTERS, "a text of {} characters")
         elif isinstance(value, _CONTAINERS) and value:
             known = self._measured.get(id(value))
             if known is None or known[0] is not value or known[1] != len(value):
-                _check_size(_expanded_size(value, {}), _MOST_ITEMS, "a list of {} items")
+                _check_size(_expanded_size(value, {}), _MAX_ITEMS, "a list of {} items")
                 # Kept, so that no other value gets its id.
                 self._measured[id(value)] = (value, len(value))
         elif isinstance(value, int):
@@ -130,7 +130,7 @@ class Budget:
         self._spend(1)
         for value in arguments:
             if isinstance(value, range):
-                _check_size(len(value), _MOST_ITEMS, "a range of {} numbers")
+                _check_size(len(value), _MAX_ITEMS, "a range of {} numbers")
                 self._spend(len(value))
         owner = getattr(function, "__self__", None)
         if isinstance(owner, str | bytes | int) and not isinstance(owner, bool):
@@ -145,7 +145,7 @@ class Budget:
             _check_bits(4 * abs(arguments[1]))
         elif function in _COUNTING:
             numbers = [abs(value) for value in arguments if isinstance(value, int)]
-            _check_size(max(numbers, default=0), _MOST_FACTORS, "a product of {} factors")
+            _check_size(max(numbers, default=0), _MAX_FACTORS, "a product of {} factors")
         return function(*arguments, **named)
 
     def _check_method(
@@ -154,7 +154,7 @@ class Budget:
         if name in _PADDING:
             for value in (*arguments, *named.values()):
                 if isinstance(value, int):
-                    _check_size(value, _MOST_CHARACTERS, "a text of {} characters")
+                    _check_size(value, _MAX_CHARACTERS, "a text of {} characters")
         elif name in {"format", "format_map"}:
             values = (*arguments, *named.values())
             _check_template(str(owner), values if ":{" in str(owner) else ())
@@ -163,10 +163,10 @@ class Budget:
         elif name == "replace" and len(arguments) > 1:
             old, new = arguments[:2]
             size = len(owner) + owner.count(old) * len(new)
-            _check_size(size, _MOST_CHARACTERS, "a text of {} characters")
+            _check_size(size, _MAX_CHARACTERS, "a text of {} characters")
         elif name == "join" and isinstance(arguments[0], list | tuple):
             size = sum(len(item) + len(owner) for item in arguments[0] if isinstance(item, Sized))
-            _check_size(size, _MOST_CHARACTERS, "a text of {} characters")
+            _check_size(size, _MAX_CHARACTERS, "a text of {} characters")
 
 
 def _expanded_size(value: Any, known: dict[int, int]) -> int:
@@ -186,17 +186,17 @@ def _expanded_size(value: Any, known: dict[int, int]) -> int:
 def _check_template(template: str, numbers: Iterable[Any]) -> None:
     widths = [int(text) for text in re.findall(HUGE_NUMBER, template)]
     widths += [abs(value) for value in numbers if isinstance(value, int)]
-    _check_size(max(widths, default=0), _MOST_CHARACTERS, "a text of {} characters")
+    _check_size(max(widths, default=0), _MAX_CHARACTERS, "a text of {} characters")
 
 
 def _check_length(value: Any, size: int) -> None:
     is_text = isinstance(value, str | bytes)
     what = "a text of {} characters" if is_text else "a list of {} items"
-    _check_size(size, _MOST_CHARACTERS if is_text else _MOST_ITEMS, what)
+    _check_size(size, _MAX_CHARACTERS if is_text else _MAX_ITEMS, what)
 
 
 def _check_bits(bits: int) -> None:
-    _check_size(bits, _MOST_BITS, "a whole number of {} binary digits")
+    _check_size(bits, _MAX_BITS, "a whole number of {} binary digits")
 
 
 def _check_size(size: int, most: int, what: str) -> None:

@@ -27,7 +27,7 @@ __all__ = [
 
 
 # Python's glob goes into itself at each "/".
-_DEEPEST_PATTERN = 100
+_MAX_PATTERN_DEPTH = 100
 
 
 def exists(path: str | os.PathLike[str]) -> bool:
@@ -50,7 +50,7 @@ def names_matching(pattern: str, folder: str | os.PathLike[str]) -> list[str]:
 
     The names are relative to the folder. What no path can be finds nothing.
     """
-    if "\0" in pattern or pattern.count("/") + pattern.count(os.sep) > _DEEPEST_PATTERN:
+    if "\0" in pattern or pattern.count("/") + pattern.count(os.sep) > _MAX_PATTERN_DEPTH:
         return []
     return sorted(glob(pattern, root_dir=folder, recursive=True))  # noqa: PTH207
 

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["PictureError", "opened_picture"]
 
-_MOST_BYTES = 256 << 20
-_MOST_PIXELS = 1 << 26
+_MAX_BYTES = 256 << 20
+_MAX_PIXELS = 1 << 26
 
 
 class PictureError(ValueError):
@@ -25,7 +25,7 @@ class PictureError(ValueError):
 
 @contextmanager
 def opened_picture(
-    source: Path | bytes, *, most_pixels: int | None = _MOST_PIXELS
+    source: Path | bytes, *, most_pixels: int | None = _MAX_PIXELS
 ) -> Iterator[Image]:
     """Open a picture, for a block in which its pixels are read.
 
@@ -39,7 +39,7 @@ def opened_picture(
     """
     from PIL import Image, UnidentifiedImageError
 
-    data = source if isinstance(source, bytes) else read_limited(source, _MOST_BYTES)
+    data = source if isinstance(source, bytes) else read_limited(source, _MAX_BYTES)
     try:
         with Image.open(io.BytesIO(data)) as image:
             _check_size(image, most_pixels)

@@ -41,8 +41,8 @@ from gazelle.engine.tree import KinematicTree
 __all__ = ["ExplicitPair", "apply_pair_springs", "set_up_contacts"]
 
 _UNREACHABLE_M = 1e6
-_MOST_PAIRS = 20000
-_MOST_PLAIN_PAIRS = 400
+_MAX_PAIRS = 20000
+_MAX_PLAIN_PAIRS = 400
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,14 +176,14 @@ def _explicit_pairs(
         else:
             plain.append(pair)
     rest: list[_Candidate] = []
-    if sum(len(pair.first) * len(pair.second) for pair in plain) <= 4 * _MOST_PLAIN_PAIRS:
+    if sum(len(pair.first) * len(pair.second) for pair in plain) <= 4 * _MAX_PLAIN_PAIRS:
         rest = [item for pair in plain for item in _members(builder, kinds, pair)]
-    if len(on_ground) + len(rest) > _MOST_PLAIN_PAIRS:
+    if len(on_ground) + len(rest) > _MAX_PLAIN_PAIRS:
         rest = []
     geoms = builder.geoms
     return tuple(
         _add_pair(builder.spec, geoms[a], geoms[b], surface, number)
-        for number, (a, b, surface) in enumerate((special + on_ground + rest)[:_MOST_PAIRS])
+        for number, (a, b, surface) in enumerate((special + on_ground + rest)[:_MAX_PAIRS])
     )
 
 

@@ -20,7 +20,7 @@ from gazelle.geometry import Pose
 __all__ = ["Culprit", "find_culprit", "finite", "place", "require_finite", "require_finite_pose"]
 
 
-_FARTHEST = 1e12
+_MAX_DISTANCE = 1e12
 
 
 def finite(value: float, what: str) -> float:
@@ -40,8 +40,10 @@ def place(value: float, what: str) -> float:
     Raises:
         EngineError: it is infinite, none, or beyond all bounds.
     """
-    if abs(finite(value, what)) > _FARTHEST:
-        raise EngineError(f"{what} was given {value:g}: nothing is farther away than {_FARTHEST:g}")
+    if abs(finite(value, what)) > _MAX_DISTANCE:
+        raise EngineError(
+            f"{what} was given {value:g}: nothing is farther away than {_MAX_DISTANCE:g}"
+        )
     return float(value)
 
 

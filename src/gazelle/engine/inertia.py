@@ -18,10 +18,10 @@ MASSLESS_LEAF_KG = 1e-3
 MASSLESS_LEAF_INERTIA_KG_M2 = 1e-6
 """Moment of inertia that goes with it: a gram with a radius of gyration of about 3 cm."""
 
-_SMALLEST_RATIO = 1e-6
+_MIN_RATIO = 1e-6
 _MARGIN = 1e-9
 # MuJoCo takes principal moments below 1e-14 for none.
-_LEAST_KG_M2 = 1e-13
+_MIN_KG_M2 = 1e-13
 
 
 class BodyInertia(NamedTuple):
@@ -57,7 +57,7 @@ def body_inertia(link: Link, name: str, diagnostics: Diagnostics) -> BodyInertia
     tensor = rotation @ _matrix(inertial) @ rotation.T
     moments = np.linalg.eigvalsh(tensor)
     if not _is_legal(moments):
-        mean = max(float(np.abs(moments).mean()), 1e-9 * inertial.mass_kg, _LEAST_KG_M2)
+        mean = max(float(np.abs(moments).mean()), 1e-9 * inertial.mass_kg, _MIN_KG_M2)
         diagnostics.report(
             "engine.illegal-inertia",
             f"link '{name}' has an inertia no body can have (principal moments"
@@ -69,7 +69,7 @@ def body_inertia(link: Link, name: str, diagnostics: Diagnostics) -> BodyInertia
     else:
         # A thin disc's moments add up exactly, and MuJoCo refuses what rounding makes of that.
         excess = float(moments[2] * (1 + _MARGIN) - moments[0] - moments[1])
-        lack = _LEAST_KG_M2 - float(moments[0])
+        lack = _MIN_KG_M2 - float(moments[0])
         tensor = tensor + np.eye(3) * max(excess, lack, 0.0)
     return BodyInertia(inertial.mass_kg, inertial.T_link_com.position_m, tensor)
 
@@ -81,6 +81,6 @@ def _matrix(inertial: Inertial) -> NDArray[np.float64]:
 
 def _is_legal(moments: NDArray[np.floating[Any]]) -> bool:
     low, middle, high = (float(value) for value in moments)
-    if not np.isfinite(moments).all() or low <= 0 or low < _SMALLEST_RATIO * high * 1e-3:
+    if not np.isfinite(moments).all() or low <= 0 or low < _MIN_RATIO * high * 1e-3:
         return False
-    return low + middle >= high * (1 - _SMALLEST_RATIO)
+    return low + middle >= high * (1 - _MIN_RATIO)

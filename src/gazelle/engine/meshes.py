@@ -17,7 +17,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.documents import read_limited
 from gazelle.engine.outline import ear_clipped
 from gazelle.engine.round_shapes import RoundShape, fitted_round_shape
-from gazelle.engine.surface_pieces import LEAST_VOLUME_M3, connected_parts, surface_pieces
+from gazelle.engine.surface_pieces import MIN_VOLUME_M3, connected_parts, surface_pieces
 from gazelle.folders import cache_folder
 from gazelle.geometry import (
     Mesh,
@@ -32,7 +32,7 @@ from gazelle.geometry import (
     mesh_volume_m3,
 )
 from gazelle.geometry.array_cache import keep_arrays, kept_arrays
-from gazelle.geometry.loading import MOST_MESH_BYTES
+from gazelle.geometry.loading import MAX_MESH_BYTES
 
 __all__ = [
     "Decomposition",
@@ -54,7 +54,7 @@ Array = NDArray[np.float64]
 CONVEX_SHARE = 0.9
 """A moving mesh that fills this share of its hull collides as its hull."""
 
-_LEAST_THICKNESS_RATIO = 2e-7
+_MIN_THICKNESS_RATIO = 2e-7
 # To be raised with every change of what the pieces of a mesh are.
 _KEPT_VERSION = 2
 _OF_SEVERAL_FILES = frozenset({".gltf"})
@@ -202,7 +202,7 @@ def kept_file(key: MeshKey) -> Path | None:
     if key.path.suffix.lower() in _OF_SEVERAL_FILES or not key.path.is_file():
         return None
     try:
-        data = read_limited(key.path, MOST_MESH_BYTES)
+        data = read_limited(key.path, MAX_MESH_BYTES)
     except OSError:
         return None  # who reads the mesh is told
     words = (_KEPT_VERSION, *key[2:6], find_spec("coacd") is not None)
@@ -288,7 +288,7 @@ def _piece(hull: MeshPart) -> Piece:
 
 def _is_solid(hull: MeshPart) -> bool:
     """Tell whether a hull has a volume: CAD drawings have shreds, which MuJoCo refuses."""
-    return mesh_volume_m3(Mesh((hull,))) > LEAST_VOLUME_M3
+    return mesh_volume_m3(Mesh((hull,))) > MIN_VOLUME_M3
 
 
 def _has_thickness(points_m: Array) -> bool:
@@ -298,7 +298,7 @@ def _has_thickness(points_m: Array) -> bool:
     """
     points = points_m.astype(np.float32).astype(np.float64)
     spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-    return bool(spread[-1] > _LEAST_THICKNESS_RATIO * spread[0])
+    return bool(spread[-1] > _MIN_THICKNESS_RATIO * spread[0])
 
 
 def _component_pieces(mesh: Mesh, scenery: bool) -> tuple[list[Piece], str]:

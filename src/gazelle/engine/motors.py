@@ -35,7 +35,7 @@ UNLIMITED_EFFORT = 1e9
 TIGHT = 0.9999
 """Impedance of a clutch that hardly slips, the largest there is."""
 
-_SMALLEST_FLYWHEEL = 1e5
+_MIN_FLYWHEEL = 1e5
 _FLYWHEEL_RATIO = 1e6
 
 
@@ -70,7 +70,7 @@ def add_motor(spec: Any, joint: str, step_s: float) -> None:
         name=rotor_joint(joint),
         type=mujoco.mjtJoint.mjJNT_HINGE,
         axis=[0.0, 0.0, 1.0],
-        armature=_SMALLEST_FLYWHEEL,
+        armature=_MIN_FLYWHEEL,
     )
     clutch = spec.add_tendon(name=tendon(joint))
     clutch.wrap_joint(joint, 1.0)
@@ -81,7 +81,7 @@ def add_motor(spec: Any, joint: str, step_s: float) -> None:
 
 def flywheel_inertia(joint_inertia: float) -> float:
     """Return a flywheel's inertia: so large that a load cannot slow it."""
-    return max(_SMALLEST_FLYWHEEL, _FLYWHEEL_RATIO * joint_inertia)
+    return max(_MIN_FLYWHEEL, _FLYWHEEL_RATIO * joint_inertia)
 
 
 def clutch_impedance(slope: float, inverse_inertia: float, step_s: float) -> float:

@@ -25,7 +25,7 @@ from gazelle.geometry.array_cache import keeps_arrays
 
 __all__ = ["split_ahead"]
 
-_FEWEST = 4
+_MIN_COUNT = 4
 _TELL_EVERY_S = 3.0
 _DONE = b"done\n"
 
@@ -38,7 +38,7 @@ def split_ahead(shapes: Iterable[tuple[MeshShape, bool]]) -> None:
     """
     missing = _missing(shapes)
     count = min(_processors(), len(missing))
-    if len(missing) < _FEWEST or count < 2 or not keeps_arrays(pieces_folder()):
+    if len(missing) < _MIN_COUNT or count < 2 or not keeps_arrays(pieces_folder()):
         return
     announce(
         f"making convex pieces of {len(missing)} meshes in {count} processes, which takes some "
@@ -64,7 +64,7 @@ def _missing(shapes: Iterable[tuple[MeshShape, bool]]) -> list[MeshKey]:
             continue  # told when the mesh is looked at
         if key.splitting:
             keys.setdefault(key)
-    if len(keys) < _FEWEST:
+    if len(keys) < _MIN_COUNT:
         return []
     files = {key: kept_file(key) for key in keys}
     return [key for key, file in files.items() if file is not None and not file.exists()]

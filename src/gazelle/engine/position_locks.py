@@ -23,7 +23,7 @@ __all__ = ["LockBank", "add_lock"]
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-_FASTEST = 20.0
+_MAX_SPEED = 20.0
 """Targets that would need a higher speed, rad/s or m/s, are taken up at once, as Gazebo does."""
 
 _IMPEDANCE = 0.9999
@@ -109,7 +109,7 @@ class LockBank:
         found = [model.equality(lock(name)).id for name in self.installed]
         self._equalities = np.array(found, dtype=np.intp)
         self._dofs = model.jnt_dofadr[joints].astype(np.intp)
-        self._fastest = _FASTEST * step_s
+        self._fastest = _MAX_SPEED * step_s
         self.hold(model, data)
         self._column[:] = self._reference
         self._write_active()

@@ -18,8 +18,8 @@ __all__ = ["RoundShape", "fitted_round_shape"]
 
 Array = NDArray[np.float64]
 _TOLERANCE = 2e-3
-_FEWEST_CORNERS = 16
-_FEWEST_SPHERE_POINTS = 60
+_MIN_CORNERS = 16
+_MIN_SPHERE_POINTS = 60
 _SPHERE_SHARE = 0.93
 
 
@@ -49,7 +49,7 @@ def fitted_round_shape(points_m: Array, volume_m3: float) -> RoundShape | None:
 
 
 def _sphere(points: Array, volume: float) -> RoundShape | None:
-    if len(points) < _FEWEST_SPHERE_POINTS:
+    if len(points) < _MIN_SPHERE_POINTS:
         return None
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     distances = np.linalg.norm(points - center, axis=1)
@@ -89,11 +89,11 @@ def _cylinder(points: Array, axis: Array) -> RoundShape | None:
 
 def _is_round(rim: Array) -> bool:
     """Whether corners lie all around without a large gap."""
-    if len(rim) < _FEWEST_CORNERS:
+    if len(rim) < _MIN_CORNERS:
         return False
     angles = np.sort(np.arctan2(rim[:, 1], rim[:, 0]))
     gaps = np.diff(np.append(angles, angles[0] + 2 * math.pi))
-    return bool(gaps.max() <= 2 * math.pi / _FEWEST_CORNERS * 1.01)
+    return bool(gaps.max() <= 2 * math.pi / _MIN_CORNERS * 1.01)
 
 
 def _frame_of(axis: Array) -> Array:

@@ -33,7 +33,7 @@ _INTO_STOP, _WITH_STOPS = 0.005, 0.1
 """So far, rad or m, an effort may carry a joint into its stop within a step, and at all if it has
 stops."""
 _CODE = "engine.quarter-turn"
-_LEAST_WEIGHT, _ROUNDING = 1e-12, 1e-9
+_MIN_WEIGHT, _ROUNDING = 1e-12, 1e-9
 _HINGE = int(mujoco.mjtJoint.mjJNT_HINGE)
 _SLIDE = int(mujoco.mjtJoint.mjJNT_SLIDE)
 
@@ -78,7 +78,7 @@ class SpeedLimits:
         self._limits = np.array(limits, dtype=float)
         stops = model.jnt_limited[places].astype(bool)
         self._range = np.where(stops[:, None], model.jnt_range[places], [-math.inf, math.inf])
-        self._weights = np.maximum(model.dof_invweight0[self._dofs], _LEAST_WEIGHT)
+        self._weights = np.maximum(model.dof_invweight0[self._dofs], _MIN_WEIGHT)
         # Stops are felt once they are passed.
         within = np.where(stops, _WITH_STOPS / step_s, math.inf)
         self._fastest = np.minimum(np.array(fastest, dtype=float), within)

@@ -8,16 +8,16 @@ from numpy.typing import NDArray
 from gazelle.geometry import Mesh
 from gazelle.geometry.mesh import part_from_soup
 
-__all__ = ["LEAST_VOLUME_M3", "connected_parts", "surface_pieces"]
+__all__ = ["MIN_VOLUME_M3", "connected_parts", "surface_pieces"]
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.int32]
 
-LEAST_VOLUME_M3 = 1e-13
+MIN_VOLUME_M3 = 1e-13
 """Solids below it are left out, cubes of 50 µm: MuJoCo refuses hulls without volume."""
 
 _THICKNESS_RATIO = 0.01
-_MOST_THICKNESS_M = 0.02
+_MAX_THICKNESS_M = 0.02
 _SAME_PLANE = 1e-4
 _FULL_SHARE = 0.999
 
@@ -63,8 +63,8 @@ def surface_pieces(vertices_m: Array, faces: Faces) -> tuple[Array, ...]:
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     doubled = np.linalg.norm(normals, axis=1)
     size = float(np.ptp(vertices_m, axis=0).max())
-    thickness = min(_THICKNESS_RATIO * size, _MOST_THICKNESS_M)
-    kept = doubled * thickness / 2 > LEAST_VOLUME_M3
+    thickness = min(_THICKNESS_RATIO * size, _MAX_THICKNESS_M)
+    kept = doubled * thickness / 2 > MIN_VOLUME_M3
     if not kept.any():
         return ()
     corners, normals = corners[kept], normals[kept] / doubled[kept, None]

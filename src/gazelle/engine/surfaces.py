@@ -45,13 +45,13 @@ BOUNCE_STEPS = 24.0
 OVERLAP_M = 0.001
 """The overlap that is parted with ``max_vel``; others are parted in proportion."""
 
-FASTEST_PARTING_M_S = 10.0
+MAX_PARTING_M_S = 10.0
 """From this limit on it is none: the spring and damper act alone."""
 
 DEFAULT_MAX_VEL_M_S = 0.01
 """SDF's limit, which acts where a stiffness is given without one."""
 
-MOST_IMPEDANCE = 0.9999
+MAX_IMPEDANCE = 0.9999
 """Impedance of a slowly parting contact at most (MuJoCo's own bound)."""
 
 FRICTION_RATE = 0.05
@@ -148,7 +148,7 @@ def contact_spring(pair: PairSurface, inverse_mass: float, step_s: float) -> Con
     """
     if pair.restitution > 0:
         return _bouncing(pair.restitution, step_s)
-    if pair.max_vel_m_s < FASTEST_PARTING_M_S:
+    if pair.max_vel_m_s < MAX_PARTING_M_S:
         gentle = pair.max_vel_m_s / (step_s * OVERLAP_M)
         return _pushed_apart(gentle, pair.kp * inverse_mass, step_s)
     if step_s * step_s * pair.kp * inverse_mass > RESOLVED:
@@ -189,7 +189,7 @@ def _pushed_apart(gentle: float, stiffness: float, step_s: float) -> ContactSpri
         step_s: length of a step.
     """
     gentle = min(gentle, stiffness)
-    impedance = min(1.0 / (1.0 + gentle / stiffness), MOST_IMPEDANCE)
+    impedance = min(1.0 / (1.0 + gentle / stiffness), MAX_IMPEDANCE)
     return ContactSpring(
         (-gentle * impedance, -impedance / step_s),
         _friction_rate(impedance, step_s),

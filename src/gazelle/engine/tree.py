@@ -12,8 +12,8 @@ from gazelle.errors import NotFoundError
 __all__ = ["WORLD", "KinematicTree", "TreeLink", "kinematic_tree"]
 
 WORLD = "world"
-_LONGEST_CHAIN = 500
-_DEEPEST = 1000
+_MAX_CHAIN = 500
+_MAX_DEPTH = 1000
 """MuJoCo's own bound on bodies below each other is a little higher."""
 
 
@@ -94,18 +94,18 @@ def _root(name: str, roots: dict[str, str]) -> str:
 
 def _check_depth(model: Model, links: tuple[TreeLink, ...]) -> None:
     """Refuse what takes hours: each joint of a chain is computed with all above it."""
-    most = scaled(_LONGEST_CHAIN)
+    most = scaled(_MAX_CHAIN)
     depths: dict[str | None, tuple[int, int]] = {None: (0, 0)}
     for entry in links:
         joint = entry.joint
         links_above, moving = depths[entry.parent]
         moving += joint is not None and joint.type is not JointType.FIXED
         depths[entry.link.name] = (links_above + 1, moving)
-        if joint is None or (moving <= most and links_above < _DEEPEST):
+        if joint is None or (moving <= most and links_above < _MAX_DEPTH):
             continue
         what, fix = f"{most} moving joints", f"\n  fix: {HOW_TO_RAISE}"
         if moving <= most:
-            what, fix = f"{_DEEPEST} links", "; MuJoCo builds none deeper"
+            what, fix = f"{_MAX_DEPTH} links", "; MuJoCo builds none deeper"
         place = f" ({joint.span})" if joint.span else ""
         raise LimitError(
             f"model '{model.name}' has a chain of more than {what}, up to joint '{joint.name}'"

@@ -37,7 +37,7 @@ from gazelle.engine.tree import TreeLink
 
 __all__ = [
     "CENTRING_STEPS",
-    "MOST_WHEEL_MU",
+    "MAX_WHEEL_MU",
     "Slip",
     "TyreBank",
     "add_tyre",
@@ -48,7 +48,7 @@ __all__ = [
 
 
 # Between rubber and dry concrete there is 1; some cars' tyres reach 2.
-MOST_WHEEL_MU = 2.0
+MAX_WHEEL_MU = 2.0
 
 # Coefficients further apart mean a wheel that glides one way, as an omni wheel does.
 _ONE_SIZE = 0.25
@@ -63,7 +63,7 @@ def with_wheel_grip(
     twists it against μ N b / 2, which for the μ = 200 of many robot files is more than its motors
     have. In Gazebo Classic 11 (ODE) such a robot turns all the same, for every μ from 0.7 to 200 as
     if its wheels rolled on their outer ends (measured: 0.757 rad/s with 60 kg on wheels of 5 cm,
-    0.445 m apart, at 0.1875 m/s). Here a wheel's coefficients count up to `MOST_WHEEL_MU`, and it
+    0.445 m apart, at 0.1875 m/s). Here a wheel's coefficients count up to `MAX_WHEEL_MU`, and it
     turns as if they rolled on their middles. A wheel is a cylinder or mesh on a joint that turns
     without limits and carries no other joint.
 
@@ -73,8 +73,8 @@ def with_wheel_grip(
     surface = collision.surface
     if not _is_wheel(model, link, collision):
         return collision
-    mu1 = surface.mu1 and min(surface.mu1, MOST_WHEEL_MU)
-    mu2 = surface.mu2 and min(surface.mu2, MOST_WHEEL_MU)
+    mu1 = surface.mu1 and min(surface.mu1, MAX_WHEEL_MU)
+    mu2 = surface.mu2 and min(surface.mu2, MAX_WHEEL_MU)
     if mu1 and mu2 and mu1 != mu2 and min(mu1, mu2) >= _ONE_SIZE * max(mu1, mu2):
         mu1 = mu2 = min(mu1, mu2)
         diagnostics.report(
@@ -109,7 +109,7 @@ CENTRING_STEPS = 10
 
 """Tyres are put back after at most so many steps."""
 
-_LEAST_SLIP = 1e-8
+_MIN_SLIP = 1e-8
 
 """Stands for none, m/s per N: a wheel under 100 N creeps a micrometre a second."""
 
@@ -234,7 +234,7 @@ class TyreBank:
         if not self._changed:
             return
         values = np.array(list(self.slips.values()), dtype=np.float64)
-        lateral, longitudinal = np.maximum(values[:, :2], _LEAST_SLIP).T
+        lateral, longitudinal = np.maximum(values[:, :2], _MIN_SLIP).T
         for dofs, damping in (
             (self._slides, 1.0 / lateral),
             (self._spins, values[:, 2] ** 2 / longitudinal),

@@ -25,7 +25,7 @@ from gazelle.geometry.shading import group_points
 
 __all__ = ["read_dae"]
 
-_MOST_NODES = 20_000
+_MAX_NODES = 20_000
 
 Matrix = NDArray[np.float64]
 
@@ -79,7 +79,7 @@ class _Reader:
         self._file = file
         self._materials: dict[int, MeshMaterial] = {}
         self._notes: dict[MeshNote, None] = {}
-        self._nodes_left = _MOST_NODES
+        self._nodes_left = _MAX_NODES
 
     def parts(self, matrix: Matrix) -> Iterator[MeshPart]:
         scene = self._document.scene
@@ -103,7 +103,7 @@ class _Reader:
 
         self._nodes_left -= 1
         if self._nodes_left < 0:
-            raise MeshError(self._file, f"the scene has more than {_MOST_NODES} nodes")
+            raise MeshError(self._file, f"the scene has more than {_MAX_NODES} nodes")
         if isinstance(node, GeometryNode):
             yield from self._geometry(node.geometry, node.materials, matrix, name)
         elif isinstance(node, ControllerNode):

@@ -33,9 +33,9 @@ _BINARY_CHUNK = 0x004E4942
 _COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
-_DEEPEST_NODE = 100
-_MOST_NODES = 20_000
-_MOST_ZEROS = 1_000_000
+_MAX_NODE_DEPTH = 100
+_MAX_NODES = 20_000
+_MAX_ZEROS = 1_000_000
 
 Matrix = NDArray[np.float64]
 
@@ -64,7 +64,7 @@ class _Reader:
         self._json: dict[str, Any] = json.loads(text)
         self._notes: dict[MeshNote, None] = {}
         self._buffers: dict[int, bytes] = {}
-        self._nodes_left = _MOST_NODES
+        self._nodes_left = _MAX_NODES
         needed = self._json.get("extensionsRequired", [])
         plain = {"KHR_materials_unlit", "KHR_texture_transform", "KHR_materials_specular"}
         unknown = [name for name in needed if name not in plain]
@@ -86,11 +86,11 @@ class _Reader:
         return [index for index in range(len(nodes)) if index not in children]
 
     def _node(self, index: int, matrix: Matrix, depth: int) -> Iterator[MeshPart]:
-        if depth > _DEEPEST_NODE:
+        if depth > _MAX_NODE_DEPTH:
             raise MeshError(self._file, "the nodes are nested in a cycle")
         self._nodes_left -= 1
         if self._nodes_left < 0:
-            raise MeshError(self._file, f"the scene has more than {_MOST_NODES} nodes")
+            raise MeshError(self._file, f"the scene has more than {_MAX_NODES} nodes")
         node = self._json["nodes"][index]
         inner = matrix @ _transform(node)
         if "mesh" in node:
@@ -141,7 +141,7 @@ class _Reader:
             values = self._view(accessor["bufferView"], offset, dtype, (count, width))
         else:
             # Zeros for the places that a sparse accessor does not name cost no bytes of the file.
-            if count > _MOST_ZEROS:
+            if count > _MAX_ZEROS:
                 raise MeshError(self._file, f"{count} values are claimed that no buffer holds")
             values = np.zeros((count, width), dtype)
         if "sparse" in accessor:

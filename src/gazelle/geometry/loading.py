@@ -18,7 +18,7 @@ from gazelle.geometry.mesh import Mesh, MeshError
 from gazelle.geometry.obj import read_obj
 from gazelle.geometry.stl import read_stl
 
-__all__ = ["MESH_SUFFIXES", "MOST_MESH_BYTES", "load_mesh", "load_mesh_reported"]
+__all__ = ["MAX_MESH_BYTES", "MESH_SUFFIXES", "load_mesh", "load_mesh_reported"]
 
 _READERS: dict[str, Callable[[bytes, Path], Mesh]] = {
     ".dae": read_dae,
@@ -32,7 +32,7 @@ MESH_SUFFIXES = tuple(sorted(_READERS))
 """File name endings of the formats that can be loaded, in lower case."""
 
 
-MOST_MESH_BYTES = 1 << 30
+MAX_MESH_BYTES = 1 << 30
 """Larger files of meshes are not read."""
 
 
@@ -70,7 +70,7 @@ def load_mesh(path: str | os.PathLike[str], *, smooth: bool = True) -> Mesh:
             known = _loaded.get(key) or _loaded.get(key._replace(is_smooth=True))
         if known is not None:
             return known
-        data = read_limited(file, MOST_MESH_BYTES)
+        data = read_limited(file, MAX_MESH_BYTES)
     except OSError as error:
         raise MeshError(file, f"cannot be read: {error.strerror or error}") from error
     mesh = _read(data, file, smooth)

@@ -25,7 +25,7 @@ Vector3 = tuple[float, float, float]
 Inertia6 = tuple[float, float, float, float, float, float]
 
 _SLACK = 1e-6
-_SMALLEST_RATIO = 1e-3
+_MIN_RATIO = 1e-3
 _FLOOR_KG_M2 = 1e-9
 
 
@@ -150,7 +150,7 @@ def legalised_inertia(inertia: Inertia6) -> Inertia6:
         return inertia
     matrix = np.nan_to_num(inertia_matrix(inertia), nan=0.0, posinf=0.0, neginf=0.0)
     moments, axes = np.linalg.eigh(matrix)
-    least = max(_SMALLEST_RATIO * float(np.abs(moments).max()), _FLOOR_KG_M2)
+    least = max(_MIN_RATIO * float(np.abs(moments).max()), _FLOOR_KG_M2)
     moments = np.maximum(moments, least)
     order = np.argsort(moments)
     missing = moments[order[2]] - moments[order[0]] - moments[order[1]]

@@ -21,7 +21,7 @@ CREASE_ANGLE_RAD = math.radians(35.0)
 """Faces that meet at a smaller angle are shaded as one curved surface."""
 
 _WELD_SHARE = 1e-7
-_MOST_NEIGHBOURS = 256
+_MAX_NEIGHBOURS = 256
 _NORMAL_STEPS = 1 << 14
 
 
@@ -89,7 +89,7 @@ def smooth_corners(
     vertex, weight, direction = vertex_of_corner[order], weighted[order], unit[order]
     total = weight.copy()
     first = np.arange(len(order))
-    for shift in range(1, _MOST_NEIGHBOURS):
+    for shift in range(1, _MAX_NEIGHBOURS):
         first = first[first < len(order) - shift]
         first = first[vertex[first] == vertex[first + shift]]
         if not len(first):

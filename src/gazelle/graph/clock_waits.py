@@ -6,8 +6,8 @@ import time
 
 __all__ = ["Waits"]
 
-_SHORTEST_S = 0.0005
-_LONGEST_S = 0.1
+_MIN_DURATION_S = 0.0005
+_MAX_DURATION_S = 0.1
 # What is so far off is met by halves, for time may come to run faster meanwhile.
 _NEAR_S = 0.04
 # Time that stands still comes on soon, or with word of it: publishers give that after 50 ms, and
@@ -16,7 +16,7 @@ _STILL_LOOKS = 28
 _STILL_S = (0.0005, 0.001, 0.002, 0.004)
 _LONG_STILL_S = 0.05
 _WINDOW_S = 0.1
-_FASTEST = 100.0
+_MAX_SPEED = 100.0
 # A simulator takes some steps at a time. Who sleeps for less than those misses them on a page.
 _SHORT_NS = 2_500_000
 _MANY = 200
@@ -50,8 +50,8 @@ class Waits:
         """Return how many seconds to wait before looking, with so much simulated time left."""
         left_s = left_ns * 1e-9 / max(self._rates)
         if left_s > _NEAR_S:
-            left_s = min(left_s / 2, _LONGEST_S)
-        return max(left_s, _SHORTEST_S)
+            left_s = min(left_s / 2, _MAX_DURATION_S)
+        return max(left_s, _MIN_DURATION_S)
 
     def still(self, looks: int) -> float:
         """Return how many seconds to wait while time stands still.
@@ -70,5 +70,5 @@ class Waits:
         if since_s < _WINDOW_S:
             return
         rate = (now_ns - self._mark_ns) * 1e-9 / since_s
-        self._rates = (self._rates[1], min(max(rate, 1.0), _FASTEST))
+        self._rates = (self._rates[1], min(max(rate, 1.0), _MAX_SPEED))
         self._mark_ns, self._mark_s = now_ns, now_s

@@ -22,7 +22,7 @@ __all__ = ["DEFAULT_PORT", "client_config", "domain_of", "hub_config", "peer_con
 
 DEFAULT_PORT = 7447
 _DEFAULT_MASTER_PORT = 11311
-_HIGHEST_DOMAIN = 232
+_MAX_DOMAIN = 232
 _BLOCKED_LINK_CLOSES_US = 5_000_000
 
 
@@ -33,9 +33,9 @@ def domain_of(environ: Mapping[str, str]) -> int:
         GraphError: it is not a number from 0 to 232.
     """
     text = environ.get("ROS_DOMAIN_ID", "").strip() or "0"
-    if not text.isdigit() or int(text) > _HIGHEST_DOMAIN:
+    if not text.isdigit() or int(text) > _MAX_DOMAIN:
         raise GraphError(
-            f"ROS_DOMAIN_ID is '{text}', not a number from 0 to {_HIGHEST_DOMAIN}\n"
+            f"ROS_DOMAIN_ID is '{text}', not a number from 0 to {_MAX_DOMAIN}\n"
             "  fix: export ROS_DOMAIN_ID=0, or unset it"
         )
     return int(text)

@@ -33,7 +33,7 @@ __all__ = [
 
 _SHOWN = 60
 
-_LONGEST = 4096
+_MAX_LENGTH = 4096
 
 Kinds = Mapping[str, type | tuple[type, ...]]
 
@@ -85,7 +85,7 @@ def _read(payload: Any, kinds: Kinds) -> dict[str, Any]:
         value = found.get(name)
         if name in found and (not isinstance(value, kind) or isinstance(value, bool)):
             raise GraphError(f"'{name}' of a request cannot be {_shown(value)}")
-        if isinstance(value, str) and len(value) > _LONGEST:
+        if isinstance(value, str) and len(value) > _MAX_LENGTH:
             raise GraphError(f"'{name}' of a request is {len(value)} characters long")
     return found
 

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 __all__ = ["Discovery"]
 
 _ASK_S = 2.0
-_MOST_REPLIES = 1 << 20
+_MAX_REPLIES = 1 << 20
 # A node's parts come one after the other; on a machine with much to do they take their time.
 _QUIET_S = 1.0
-_LONGEST_S = 10.0
+_MAX_DURATION_S = 10.0
 # Between two questions about what came again after it had gone; so many must lack it.
 _DOUBT_S = 1.0
 _MISSED_LIMIT = 3
@@ -86,7 +86,7 @@ class Discovery:
         found: dict[str, Entity] = {}
         # What this session knows is answered before get() returns: a channel of zenoh's usual
         # 256 places would fill up and nobody could ever empty it.
-        channel: Any = zenoh.handlers.FifoChannel(_MOST_REPLIES)
+        channel: Any = zenoh.handlers.FifoChannel(_MAX_REPLIES)
         try:
             replies = self._session.liveliness().get(self._selector, channel, timeout=_ASK_S)
         except zenoh.ZError as error:
@@ -145,7 +145,7 @@ class Discovery:
             condition: looked at after every change; when it holds, that is the answer.
             quiet_s: nothing has come or gone for so long; ten seconds are waited at most.
         """
-        deadline = time.monotonic() + _LONGEST_S
+        deadline = time.monotonic() + _MAX_DURATION_S
         with self._changed:
             while not condition(self._entities.values()):
                 now = time.monotonic()

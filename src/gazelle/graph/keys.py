@@ -46,7 +46,7 @@ _KEEP_ALL = "2"
 _MANUAL = "3"
 _S_TO_NS = 1_000_000_000
 _INFINITE_NS = 2**63 - 1
-_MOST_DIGITS = 20
+_MAX_DIGITS = 20
 
 
 class Kind(enum.StrEnum):
@@ -126,7 +126,7 @@ def _duration_ns(text: str) -> int:
 
 def _number(text: str) -> int | None:
     """Read a whole number of at most 64 bits; what else Python calls digits is none."""
-    is_one = text.isascii() and text.isdigit() and len(text) <= _MOST_DIGITS
+    is_one = text.isascii() and text.isdigit() and len(text) <= _MAX_DIGITS
     return int(text) if is_one else None
 
 

@@ -40,7 +40,7 @@ _HAS_SOCKET_FILES = hasattr(socket, "AF_UNIX") and hasattr(os, "getuid")
 _LINK = "unixsock-stream/"
 _PEER = "peer-"
 # The system's bound on macOS; the transport adds ".lock" for a file beside the socket.
-_LONGEST_PATH = 103 - len(".lock")
+_MAX_PATH = 103 - len(".lock")
 _SEPARATORS = {"?", "#"}
 _PATIENCE_S = 1.0
 
@@ -213,7 +213,7 @@ def _keep_private(path: Path) -> None:
 def _socket(folder: Path, name: str) -> Path:
     path = folder / name
     problem = ""
-    if (excess := len(os.fsencode(path)) - _LONGEST_PATH) > 0:
+    if (excess := len(os.fsencode(path)) - _MAX_PATH) > 0:
         problem = f"too long for a socket's name, by {excess} bytes"
     elif found := _SEPARATORS & set(str(path)):
         problem = f"no name of a socket: the transport reads {' and '.join(sorted(found))} itself"

@@ -16,7 +16,7 @@ from gazelle.parameters.trees import leaves_at, values_only
 __all__ = ["ParameterTree", "from_json", "to_json"]
 
 _MARK = "$"
-_DEEPEST = 100
+_MAX_DEPTH = 100
 
 
 class ParameterTree:
@@ -150,8 +150,8 @@ def _encode(value: Any) -> Any:
 
 def _decode(value: Any, depth: int = 0) -> Any:
     """Undo `_encode`; what is deeper than anybody can use is refused before it is too deep."""
-    if depth > _DEEPEST:
-        raise ValueError(f"it is more than {_DEEPEST} levels deep")
+    if depth > _MAX_DEPTH:
+        raise ValueError(f"it is more than {_MAX_DEPTH} levels deep")
     if isinstance(value, list):
         return [_decode(item, depth + 1) for item in value]
     if not isinstance(value, dict):
@@ -171,8 +171,8 @@ def _decode(value: Any, depth: int = 0) -> Any:
 
 def _tidy(value: Any, name: str, depth: int = 0) -> Any:
     """Return a private copy in the types parameters can have, numpy scalars and tuples included."""
-    if depth > _DEEPEST:
-        raise GraphError(f"parameter '{name[:60]}…' is more than {_DEEPEST} levels deep")
+    if depth > _MAX_DEPTH:
+        raise GraphError(f"parameter '{name[:60]}…' is more than {_MAX_DEPTH} levels deep")
     if isinstance(value, bool | int | float | str | bytes | dt.date):
         return value
     if isinstance(value, Mapping):

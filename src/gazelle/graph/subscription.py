@@ -18,10 +18,10 @@ from gazelle.process_exit import called_by_library
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph
 
-__all__ = ["MOST_WAITING", "Backlog", "Delivery", "MessageInfo", "RawMessage", "Subscription"]
+__all__ = ["MAX_WAITING", "Backlog", "Delivery", "MessageInfo", "RawMessage", "Subscription"]
 
 
-MOST_WAITING = 1000
+MAX_WAITING = 1000
 
 """Messages of one topic that wait at most."""
 
@@ -30,7 +30,7 @@ class Backlog:
     """Bounds how much of a topic waits in a queue that has room for everything.
 
     A world may take seconds for a step, a user's callback may not end, and messages come all the
-    while: no more of them wait than `MOST_WAITING`, the oldest go first. What else waits in the
+    while: no more of them wait than `MAX_WAITING`, the oldest go first. What else waits in the
     queue keeps its place.
     """
 
@@ -56,7 +56,7 @@ class Backlog:
     def put(self, message: Any) -> None:
         """Have a message acted on soon; from any thread, does not wait."""
         with self._lock:
-            is_full = len(self._waiting) >= MOST_WAITING
+            is_full = len(self._waiting) >= MAX_WAITING
             if is_full:
                 self._waiting.popleft()
             self._waiting.append(message)
@@ -75,7 +75,7 @@ class Backlog:
         self._act(message)
 
 
-_MOST_WAITING_BYTES = 64 << 20
+_MAX_WAITING_BYTES = 64 << 20
 
 # Of the mailbox: a message of this process and its attachment, or a sample of another.
 _Item = tuple[Any, Attachment | None, Any]
@@ -176,7 +176,7 @@ class Subscription:
         self._refused: set[str] = set()
         self._types: dict[str, str] = {}
         self._closed = is_mute
-        bound = Bound(_MOST_WAITING_BYTES, _weight, _packed, self._tell_full)
+        bound = Bound(_MAX_WAITING_BYTES, _weight, _packed, self._tell_full)
         name = f"sub {self.topic}"
         self._mailbox = Mailbox(self._handle, size=delivery.queue_size, name=name, bound=bound)
         self._take = self._handle if delivery.inline else self._mailbox.put
@@ -316,7 +316,7 @@ class Subscription:
     def _tell_full(self) -> None:
         self._on_warning(
             f"the callback of {self.topic} is slower than its messages: "
-            f"{_MOST_WAITING_BYTES >> 20} MiB of them wait, and the oldest are dropped from now on"
+            f"{_MAX_WAITING_BYTES >> 20} MiB of them wait, and the oldest are dropped from now on"
             "\n  fix: give the subscriber a queue_size, or do less in the callback"
         )
 

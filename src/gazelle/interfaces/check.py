@@ -14,7 +14,7 @@ from gazelle.interfaces.forms import Form
 __all__ = ["check_fields", "find_problem"]
 
 _BITS = {"b": 8, "B": 8, "h": 16, "H": 16, "i": 32, "I": 32, "q": 64, "Q": 64}
-_LARGEST_FLOAT32 = (2 - 2**-23) * 2.0**127
+_MAX_FLOAT32 = (2 - 2**-23) * 2.0**127
 _PARTS = {"time": ("secs", "nsecs"), "duration": ("secs", "nsecs")}
 
 
@@ -91,7 +91,7 @@ def _number_problem(letter: str, base: str, value: Any, name: str) -> str | None
     if letter in "fd":
         if not isinstance(value, numbers.Real):
             return _wrong(name, f"a number ({base})", value)
-        if letter == "f" and abs(float(value)) > _LARGEST_FLOAT32:
+        if letter == "f" and abs(float(value)) > _MAX_FLOAT32:
             finite = math.isfinite(float(value))
             return f"field '{name}' is {value!r}, too large for {base}" if finite else None
         return None

@@ -34,7 +34,7 @@ __all__ = ["TypeStore", "default_types", "types_of"]
 
 _T = TypeVar("_T")
 # What others name is remembered too: there is no end of names.
-_MOST = 16_384
+_MAX = 16_384
 _RENAMED = {"roslib/msg/Header": "std_msgs/msg/Header", "roslib/msg/Log": "rosgraph_msgs/msg/Log"}
 
 
@@ -115,7 +115,7 @@ class TypeStore:
     def remembered(self, key: Hashable, make: Callable[[], _T]) -> _T:
         """Return what `make` gives, made once for as long as definitions stay what they are."""
         revision, memory = self._memory
-        if revision != self._library.revision or len(memory) >= _MOST:
+        if revision != self._library.revision or len(memory) >= _MAX:
             memory = {}
             self._memory = (self._library.revision, memory)
         found: _T | None = memory.get(key)

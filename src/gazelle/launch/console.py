@@ -16,7 +16,7 @@ from gazelle.process_exit import drop_output, when_nobody_reads
 __all__ = ["Console", "dump_text", "summary"]
 
 _BOLD, _RED, _YELLOW, _RESET = "\x1b[1m", "\x1b[31m", "\x1b[33m", "\x1b[0m"
-_LONGEST_VALUE = 20
+_MAX_VALUE = 20
 
 
 class Console:
@@ -85,8 +85,8 @@ def summary(config: LaunchConfig, params: Mapping[str, Any]) -> str:
 
 def _short(value: Any) -> str:
     text = str(value)
-    if len(text) > _LONGEST_VALUE:
-        text = text[: _LONGEST_VALUE - 3] + "..."
+    if len(text) > _MAX_VALUE:
+        text = text[: _MAX_VALUE - 3] + "..."
     return text.replace("\n", " ")
 
 

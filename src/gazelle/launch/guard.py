@@ -20,7 +20,7 @@ __all__ = ["Guard", "end_groups", "guard"]
 
 _PATIENCE_S = 2.0
 _POLL_S = 0.05
-_LONGEST_S = 4.0
+_MAX_DURATION_S = 4.0
 
 
 class Guard:
@@ -53,7 +53,7 @@ class Guard:
         with contextlib.suppress(BrokenPipeError):
             self.popen.stdin.close()
         try:
-            self.popen.wait(_LONGEST_S)
+            self.popen.wait(_MAX_DURATION_S)
         except subprocess.TimeoutExpired:
             # Whoever holds the other end of the pipe keeps it from hearing of the end.
             self.popen.kill()

@@ -19,7 +19,7 @@ __all__ = ["line_of", "run"]
 
 _FILE_BYTES = 100_000_000
 _FILES = 10
-_MOST_CHARACTERS = 1 << 20
+_MAX_CHARACTERS = 1 << 20
 _LOOK_S = 0.5
 
 
@@ -76,8 +76,8 @@ def line_of(message: Any) -> str:
     level = Level(message.level).name if message.level in set(Level) else str(message.level)
     head = f"{stamp.secs}.{stamp.nsecs:09d} {level} {message.name}"
     text = message.msg
-    if len(text) > _MOST_CHARACTERS:
-        text = f"{text[:_MOST_CHARACTERS]}… ({len(text)} characters in all)"
+    if len(text) > _MAX_CHARACTERS:
+        text = f"{text[:_MAX_CHARACTERS]}… ({len(text)} characters in all)"
     return f"{head} {place} {topics} {text}"
 
 

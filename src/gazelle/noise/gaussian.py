@@ -11,7 +11,7 @@ from gazelle.noise.record import Noise
 
 __all__ = ["GaussianNoise", "NoNoise", "PictureNoise"]
 
-_SMALLEST_PRECISION = 1e-6
+_MIN_PRECISION = 1e-6
 
 
 class NoNoise:
@@ -52,7 +52,7 @@ class GaussianNoise:
         self.noise = noise
         self.bias = _drawn_bias(noise, random)
         self._random = random
-        rounds = quantised and noise.precision > _SMALLEST_PRECISION
+        rounds = quantised and noise.precision > _MIN_PRECISION
         self._step = noise.precision if rounds else 0.0
 
     def apply(

@@ -7,7 +7,7 @@ from typing import Any
 __all__ = ["flag_of", "number_of", "shortened"]
 
 # Nav2's files list some fifty libraries in one parameter.
-_LONGEST = 60
+_MAX_LENGTH = 60
 
 
 def number_of(value: Any) -> float | None:
@@ -32,7 +32,7 @@ def flag_of(value: Any) -> bool | None:
 def shortened(value: Any) -> str:
     """Return a value in words; of a long one its beginning and how much there is."""
     text = repr(value)
-    if len(text) <= _LONGEST:
+    if len(text) <= _MAX_LENGTH:
         return text
     count = f" of {len(value)}" if isinstance(value, list | tuple) else ""
-    return f"{text[:_LONGEST]}…{count}"
+    return f"{text[:_MAX_LENGTH]}…{count}"

@@ -8,9 +8,9 @@ from typing import Literal
 
 from gazelle.description.model import CameraSpec
 
-__all__ = ["WIDEST_RAD", "Convention", "Intrinsics", "camera_intrinsics"]
+__all__ = ["MAX_ANGLE_RAD", "Convention", "Intrinsics", "camera_intrinsics"]
 
-WIDEST_RAD = math.radians(179.9)
+MAX_ANGLE_RAD = math.radians(179.9)
 """The widest view of a pinhole; wide-angle lenses beyond it are drawn like this."""
 
 Convention = Literal["rendering", "camera_info"]
@@ -52,5 +52,5 @@ def camera_intrinsics(spec: CameraSpec, *, convention: Convention = "rendering")
         if convention == "rendering":
             cx, cy = cx - 0.5, cy - 0.5
         return Intrinsics(fx, fy, cx, cy, width, height, skew)
-    focal = width / (2.0 * math.tan(min(spec.horizontal_fov_rad, WIDEST_RAD) / 2.0))
+    focal = width / (2.0 * math.tan(min(spec.horizontal_fov_rad, MAX_ANGLE_RAD) / 2.0))
     return Intrinsics(focal, focal, width / 2.0 + shift, height / 2.0 + shift, width, height)

@@ -24,8 +24,8 @@ __all__ = ["SHOWN", "Picture", "take_picture"]
 SHOWN = ("visuals", *OVERLAYS)
 """What `take_picture` can show."""
 
-LARGEST_PX = 8192
-_SMALLEST_PX = 16
+MAX_PX = 8192
+_MIN_PX = 16
 _SAMPLES = 2
 """Rendered pixels per pixel of the picture, each way."""
 
@@ -202,10 +202,10 @@ def _grid(views: Sequence[str], size_px: tuple[int, int]) -> list[tuple[str, int
     columns = math.ceil(math.sqrt(len(views)))
     rows = math.ceil(len(views) / columns)
     width, height = size_px[0] // columns, size_px[1] // rows
-    if min(width, height) < _SMALLEST_PX or max(size_px) > LARGEST_PX:
+    if min(width, height) < _MIN_PX or max(size_px) > MAX_PX:
         raise ValueError(
             f"{size_px[0]}x{size_px[1]} pixels do not do for {len(views)} view(s): each needs "
-            f"{_SMALLEST_PX} at least, and no side may exceed {LARGEST_PX}"
+            f"{_MIN_PX} at least, and no side may exceed {MAX_PX}"
         )
     spec = camera_spec(width, height)
     return [

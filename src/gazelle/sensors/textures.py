@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["LEVELS", "TextureAtlas"]
 
 LEVELS = 13
-_LARGEST_PX = 1 << (LEVELS - 1)
+_MAX_PX = 1 << (LEVELS - 1)
 
 
 class TextureAtlas:
@@ -80,7 +80,7 @@ class TextureAtlas:
 def _power_of_two(image: Image) -> Image:
     from PIL.Image import Resampling
 
-    sides = [min(_LARGEST_PX, 1 << (side - 1).bit_length()) for side in image.size]
+    sides = [min(_MAX_PX, 1 << (side - 1).bit_length()) for side in image.size]
     size = (sides[0], sides[1])
     return image if image.size == size else image.resize(size, Resampling.BICUBIC)
 

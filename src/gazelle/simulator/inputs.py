@@ -44,7 +44,7 @@ class Limit:
 
 _FLOATS = frozenset({"float32", "float64"})
 _RECENT_NS = 1_000_000_000
-_MOST = 4
+_MAX = 4
 # By type and field; everything inside of a field has its limit.
 _LIMITS = {
     ("geometry_msgs/Pose", "position"): Limit.POSITION_M,
@@ -97,7 +97,7 @@ class Inputs:
     def recent(self, now_ns: int) -> tuple[Arrival, ...]:
         """Return what came within the last simulated second, the latest first, a few at most."""
         found = [one for one in self._arrivals.values() if now_ns - one.time_ns <= _RECENT_NS]
-        return tuple(sorted(found, key=lambda one: -one.time_ns)[:_MOST])
+        return tuple(sorted(found, key=lambda one: -one.time_ns)[:_MAX])
 
 
 def refusal(response: Any, text: str) -> Any:

@@ -22,11 +22,11 @@ from gazelle.studio.workers import in_thread
 
 __all__ = ["Connection"]
 
-_MOST_CALLS = 256
-_MOST_CHANNELS = 500
-_HIGHEST_CHANNEL = 65_535
+_MAX_CALLS = 256
+_MAX_CHANNELS = 500
+_MAX_CHANNEL = 65_535
 _PAUSE_BYTES = 64 << 20
-_MOST_WAITING_BYTES = 256 << 20
+_MAX_WAITING_BYTES = 256 << 20
 _LONG_TEXT = 64 << 10
 _CLOSE_MISUSE = 1008
 
@@ -102,7 +102,7 @@ class Connection:
     def _put(self, data: str | bytes, on_sent: Callable[[], None] | None) -> None:
         self._out.append((data, on_sent))
         self._out_bytes += len(data)
-        if self._out_bytes > _MOST_WAITING_BYTES:
+        if self._out_bytes > _MAX_WAITING_BYTES:
             self._socket.transport.abort()
         elif self._out_bytes > _PAUSE_BYTES:
             self._emptied.clear()
@@ -158,8 +158,8 @@ class Connection:
 
     def _on_call(self, value: dict[str, Any]) -> None:
         key = {"id": _plain(value.get("id"))}
-        if len(self._calls) >= _MOST_CALLS:
-            error = StudioError(f"more than {_MOST_CALLS} calls have no answer yet")
+        if len(self._calls) >= _MAX_CALLS:
+            error = StudioError(f"more than {_MAX_CALLS} calls have no answer yet")
             self._fail("error", key, error)
             return
         work = self._call(key, value.get("method"), value.get("params"))
@@ -195,12 +195,12 @@ class Connection:
 
     def _why_not(self, number: Any) -> StudioError | None:
         is_whole = isinstance(number, int) and not isinstance(number, bool)
-        if not is_whole or not 1 <= number <= _HIGHEST_CHANNEL:
-            return StudioError(f"'ch' is a whole number from 1 to {_HIGHEST_CHANNEL}")
+        if not is_whole or not 1 <= number <= _MAX_CHANNEL:
+            return StudioError(f"'ch' is a whole number from 1 to {_MAX_CHANNEL}")
         if number in self._used:
             return StudioError(f"channel {number} was used before on this connection")
-        if len(self._channels) >= _MOST_CHANNELS:
-            return StudioError(f"more than {_MOST_CHANNELS} streams are open")
+        if len(self._channels) >= _MAX_CHANNELS:
+            return StudioError(f"more than {_MAX_CHANNELS} streams are open")
         return None
 
     async def _open(self, one: _Open, params: Any) -> None:

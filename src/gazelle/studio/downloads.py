@@ -16,13 +16,13 @@ from gazelle.studio.params import Params
 
 __all__ = ["Downloads", "download", "save_file"]
 
-_MOST_BYTES = 256 << 20
-_LONGEST_NAME = 200
+_MAX_BYTES = 256 << 20
+_MAX_NAME = 200
 
 
 def save_file(downloads: Downloads, params: Params) -> str:
     """``file.save``: the path to fetch it from."""
-    name = params.text("name").rpartition("/")[2][:_LONGEST_NAME] or "file"
+    name = params.text("name").rpartition("/")[2][:_MAX_NAME] or "file"
     if "base64" in params:
         try:
             data = base64.b64decode(params.text("base64"), validate=True)
@@ -51,7 +51,7 @@ class Downloads:
         token = secrets.token_urlsafe(16)
         with self._lock:
             self._waiting[token] = (name, data)
-            while sum(len(one) for _, one in self._waiting.values()) > _MOST_BYTES:
+            while sum(len(one) for _, one in self._waiting.values()) > _MAX_BYTES:
                 self._waiting.popitem(last=False)
         return f"/file/{token}"
 

@@ -23,7 +23,7 @@ _PAGE = Path(__file__).parent / "page"
 _METHODS = ("GET", "HEAD")
 _FOR_EVER = "public, max-age=31536000, immutable"
 _ASK_AGAIN = "no-cache"
-_LEAST_TO_PACK_BYTES = 1024
+_MIN_TO_PACK_BYTES = 1024
 _PACKED_TYPES = ("text/", "application/javascript", "application/json", "image/svg", "model/")
 _TYPES = {".js": "text/javascript", ".mjs": "text/javascript", ".wasm": "application/wasm"}
 
@@ -121,7 +121,7 @@ def _sent(answer: Answer, request: Request, headers: dict[str, str]) -> Response
 def _takes_packed(answer: Answer, request: Request) -> bool:
     return (
         answer.packed
-        and len(answer.body) >= _LEAST_TO_PACK_BYTES
+        and len(answer.body) >= _MIN_TO_PACK_BYTES
         and answer.content_type.startswith(_PACKED_TYPES)
         and "gzip" in request.headers.get("Accept-Encoding", "")
     )

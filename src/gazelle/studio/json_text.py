@@ -11,9 +11,9 @@ import numpy as np
 from gazelle.interfaces import Message, TVal
 from gazelle.interfaces.definition import attribute_name
 
-__all__ = ["LONGEST_ARRAY", "finite_number", "json_text", "message_value"]
+__all__ = ["MAX_ARRAY", "finite_number", "json_text", "message_value"]
 
-LONGEST_ARRAY = 200
+MAX_ARRAY = 200
 """Items of an array that an echo shows."""
 
 
@@ -36,7 +36,7 @@ def finite_number(value: Any) -> float | None:
     return number if math.isfinite(number) else None
 
 
-def message_value(message: Any, longest: int | None = LONGEST_ARRAY) -> Any:
+def message_value(message: Any, longest: int | None = MAX_ARRAY) -> Any:
     """Return a message as nested objects.
 
     Args:

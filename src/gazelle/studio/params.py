@@ -14,10 +14,10 @@ from gazelle.studio.json_text import finite_number
 __all__ = ["Params"]
 
 _MISSING: Any = object()
-_LONGEST = 60
+_MAX_LENGTH = 60
 # Whatever it is: lists may be nested so deeply that `repr` finds no end.
 _REPR = reprlib.Repr()
-_REPR.maxstring = _REPR.maxother = _REPR.maxlong = _LONGEST + 1
+_REPR.maxstring = _REPR.maxother = _REPR.maxlong = _MAX_LENGTH + 1
 
 
 class Params:
@@ -130,4 +130,4 @@ class Params:
 
 def _shown(value: Any) -> str:
     text = _REPR.repr(value)
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}…"
+    return text if len(text) <= _MAX_LENGTH else f"{text[: _MAX_LENGTH - 3]}…"

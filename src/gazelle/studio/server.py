@@ -27,7 +27,7 @@ __all__ = ["DEFAULT_PORT", "Server"]
 
 DEFAULT_PORT = 8090
 _PORTS_TRIED = 20
-_LONGEST_MESSAGE_BYTES = 32 << 20
+_MAX_MESSAGE_BYTES = 32 << 20
 _WRITE_LIMIT_BYTES = 1 << 20
 _STARTING_S = 10.0
 # A busy machine may take long to read a mesh; a browser's spare connections wait as long.
@@ -129,7 +129,7 @@ class Server:
                     port,
                     process_request=self._answer,
                     compression=None,
-                    max_size=_LONGEST_MESSAGE_BYTES,
+                    max_size=_MAX_MESSAGE_BYTES,
                     write_limit=_WRITE_LIMIT_BYTES,
                     server_header=None,
                     open_timeout=_ANSWER_S,

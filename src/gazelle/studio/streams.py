@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from gazelle.studio.params import Params
     from gazelle.studio.workers import Workers
 
-__all__ = ["MOST_BEHIND_BYTES", "Channel", "Frame", "OpenStream", "Outlet", "StreamKind"]
+__all__ = ["MAX_BEHIND_BYTES", "Channel", "Frame", "OpenStream", "Outlet", "StreamKind"]
 
-MOST_BEHIND_BYTES = 8 << 20
+MAX_BEHIND_BYTES = 8 << 20
 """What may wait for the page on one batch channel."""
 
 _CREDITS = 2
@@ -255,9 +255,9 @@ class Channel:
             if self._closed:
                 return
             self._behind_bytes += size
-            too_far = self._behind_bytes > MOST_BEHIND_BYTES and self._behind_bytes > size
+            too_far = self._behind_bytes > MAX_BEHIND_BYTES and self._behind_bytes > size
         if too_far:
-            limit = MOST_BEHIND_BYTES >> 20
+            limit = MAX_BEHIND_BYTES >> 20
             self.end(GazelleError(f"the page is more than {limit} MiB behind on this stream"))
             return
         self._out(data, lambda: self._sent(size))

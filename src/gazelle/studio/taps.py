@@ -45,7 +45,7 @@ class Sample(NamedTuple):
 
 
 Listener = Callable[[Sample], None]
-_MOST_ARRIVALS = 5000
+_MAX_ARRIVALS = 5000
 _HEADER = "std_msgs/msg/Header"
 _STAMP = (struct.Struct("<iI"), struct.Struct(">iI"))
 _STAMP_PLACE = 4
@@ -65,7 +65,7 @@ class _Tap:
         self.subscription: Subscription | None = None
         self.last: Sample | None = None
         self.count = 0
-        self.arrivals: deque[Arrival] = deque(maxlen=_MOST_ARRIVALS)
+        self.arrivals: deque[Arrival] = deque(maxlen=_MAX_ARRIVALS)
         self.has_header = False
 
 

@@ -24,7 +24,7 @@ __all__ = ["gazelle_graph", "gazelle_launch", "gazelle_simulation"]
 pytest_plugins = ("gazelle.testing.launch_test_plugin",)
 
 _MARKER = "gazelle"
-_MOST_LINES = 200
+_MAX_LINES = 200
 _LAUNCHES = "gazelle.testing.launch"
 
 
@@ -55,9 +55,9 @@ def pytest_runtest_makereport(
     if report.failed and launches is not None:
         for one in launches.running():
             lines = one.output.splitlines()
-            left_out = len(lines) - _MOST_LINES
+            left_out = len(lines) - _MAX_LINES
             head = [f"… {left_out} lines before"] if left_out > 0 else []
-            report.sections.append((one.title, "\n".join([*head, *lines[-_MOST_LINES:]])))
+            report.sections.append((one.title, "\n".join([*head, *lines[-_MAX_LINES:]])))
     return report
 
 

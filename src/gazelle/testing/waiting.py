@@ -14,7 +14,7 @@ __all__ = ["Waiting", "existing"]
 T = TypeVar("T")
 # What changes without notice (a clock of another process, say) is looked at this often.
 _LOOK_S = 0.1
-_MOST_NAMES = 12
+_MAX_NAMES = 12
 
 
 class Waiting:
@@ -76,5 +76,5 @@ def existing(kind: str, name: str, names: Iterable[str]) -> str:
     near = did_you_mean(name, known)
     if near:
         return near
-    shown = ", ".join(known[:_MOST_NAMES]) + (" …" if len(known) > _MOST_NAMES else "")
+    shown = ", ".join(known[:_MAX_NAMES]) + (" …" if len(known) > _MAX_NAMES else "")
     return f"{kind} there: {shown or 'none'}"

@@ -16,7 +16,7 @@ __all__ = ["FoundPackage", "crawl_prefix", "crawl_source", "manifest_in"]
 _IGNORE_MARKERS = frozenset({"AMENT_IGNORE", "CATKIN_IGNORE", "COLCON_IGNORE", "rospack_nosubdirs"})
 _MANIFESTS = ("package.xml", "manifest.xml")
 _PRUNED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__", "venv"})
-_DEEPEST = 10
+_MAX_DEPTH = 10
 
 
 class FoundPackage(NamedTuple):
@@ -44,7 +44,7 @@ def manifest_in(folder: Path) -> Path | None:
     return None
 
 
-def crawl_source(root: Path, *, deepest: int = _DEEPEST) -> Iterator[FoundPackage]:
+def crawl_source(root: Path, *, deepest: int = _MAX_DEPTH) -> Iterator[FoundPackage]:
     """Yield the packages of a source tree in order of path.
 
     A package's own subfolders are not searched, as in catkin and colcon. Folders with

@@ -24,7 +24,7 @@ __all__ = [
 MANIFEST_BYTES = 4 << 20
 """Size of the largest manifest that is read, in bytes."""
 
-_DEEPEST = 100
+_MAX_DEPTH = 100
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 _DEPENDS = frozenset(
@@ -167,8 +167,8 @@ class _Collector:
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         if not self._stack:
             self.root, self.root_attributes = name, attributes
-        if len(self._stack) >= _DEEPEST:
-            raise ManifestError(f"<{name}> is nested deeper than {_DEEPEST} elements")
+        if len(self._stack) >= _MAX_DEPTH:
+            raise ManifestError(f"<{name}> is nested deeper than {_MAX_DEPTH} elements")
         self._stack.append((name, attributes, []))
 
     def _end(self, name: str) -> None:

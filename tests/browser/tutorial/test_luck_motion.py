@@ -24,7 +24,7 @@ _STARTING_S = 180.0
 # What a machine needs that has other things to do; nothing here is measured in wall time.
 _PATIENCE_S = 180.0
 _LOOK = "gazelle.look({kind: 'Orbit', focal: [0, 0, 0.3], distance: 1.6, yaw: -0.9, pitch: 0.4})"
-_MOST_POINTS = 40
+_MAX_POINTS = 40
 
 
 class Arm:
@@ -178,7 +178,7 @@ def _past_an_obstacle(arm: Arm) -> None:
 
 
 def _thinned(rows: list[list[float]]) -> list[list[float]]:
-    return rows[:: math.ceil(len(rows) / _MOST_POINTS)]
+    return rows[:: math.ceil(len(rows) / _MAX_POINTS)]
 
 
 def _impossible_goals(arm: Arm) -> None:

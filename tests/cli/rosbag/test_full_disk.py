@@ -18,7 +18,7 @@ resource = pytest.importorskip("resource", reason="the system limits no file siz
 pytestmark = pytest.mark.skipif(
     not hasattr(resource, "prlimit"), reason="the system lets nobody limit other processes"
 )
-_MOST_BYTES = 200_000
+_MAX_BYTES = 200_000
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_a_recorder_on_a_full_disk_ends_with_the_reason_and_a_readable_bag(
         written = lambda: sum(one.stat().st_size for one in file.parent.glob(f"{file.name}*"))  # noqa: E731
         eventually(lambda: written() > 100_000)
         _, hard = resource.prlimit(run.popen.pid, resource.RLIMIT_FSIZE)
-        resource.prlimit(run.popen.pid, resource.RLIMIT_FSIZE, (_MOST_BYTES, hard))
+        resource.prlimit(run.popen.pid, resource.RLIMIT_FSIZE, (_MAX_BYTES, hard))
 
         def has_ended() -> bool:
             out.publish(kind(data="x" * 10_000))

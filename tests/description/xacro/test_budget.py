@@ -114,9 +114,9 @@ def test_time_and_size_of_the_expansion_have_limits(
     budget = "gazelle.description.xacro.budget"
     body = '<xacro:macro name="m"><a b="12345"/></xacro:macro>' + "<xacro:m/>" * 50
     for name, text in (
-        ("_MOST_SECONDS", "more than 0 s of computing"),
-        ("_MOST_TEXTS", "more than 10 attributes and texts"),
-        ("_MOST_CHARACTERS", "attributes and texts of more than 10 characters"),
+        ("_MAX_SECONDS", "more than 0 s of computing"),
+        ("_MAX_TEXTS", "more than 10 attributes and texts"),
+        ("_MAX_CHARACTERS", "attributes and texts of more than 10 characters"),
     ):
         with monkeypatch.context() as patch:
             patch.setattr(f"{budget}.{name}", 0 if "SECONDS" in name else 10)

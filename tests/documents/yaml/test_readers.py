@@ -56,7 +56,7 @@ from gazelle.studio.params import Params
 from gazelle.studio.settings.rviz_files import open_rviz
 from gazelle.workspace import Workspace
 
-_MOST_SECONDS = 20.0
+_MAX_SECONDS = 20.0
 # What launch and launch_ros raise for mistakes of the user, as the originals do.
 _OF_LAUNCH = (OSError, RuntimeError, TypeError, ValueError, YamlError, InvalidLaunchFileError)
 _LARGE = frozenset({"too long"})  # nobody's parameters
@@ -298,7 +298,7 @@ def _said(reader: _Reader, path: Path) -> str:
         said = str(error) or type(error).__name__
     else:
         said = "\n".join(map(str, found)) if isinstance(found, Diagnostics) else ""
-    assert time.thread_time() - begin < _MOST_SECONDS
+    assert time.thread_time() - begin < _MAX_SECONDS
     return said
 
 

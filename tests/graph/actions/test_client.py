@@ -99,7 +99,7 @@ def test_sleeping_feedback_callback_keeps_the_newest_and_the_result(
     served: Served, client: ActionClient, eventually: Any, ros_version: Any,
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
-    monkeypatch.setattr(subscription, "MOST_WAITING", 10)
+    monkeypatch.setattr(subscription, "MAX_WAITING", 10)
     served.offer(ros_version)
     assert client.wait_for_server(stretched(10))
     begun, goes_on = threading.Event(), threading.Event()

@@ -7,7 +7,7 @@ import pytest
 from tests.patience import eventually, stretched
 
 from gazelle.graph.actions.client_events import News
-from gazelle.graph.subscription import MOST_WAITING
+from gazelle.graph.subscription import MAX_WAITING
 
 
 class _Node:
@@ -36,12 +36,12 @@ def test_newest_of_a_topic_wait_and_what_is_told_once_is_not_dropped(node: Any) 
     take(0)
     assert begun.wait(stretched())
     news.put(lambda: seen.append("accepted"))
-    for number in range(1, MOST_WAITING + 50):
+    for number in range(1, MAX_WAITING + 50):
         take(number)
     news.put(lambda: seen.append("result"))
     goes_on.set()
     eventually(lambda: seen[-1:] == ["result"])
-    assert seen == [0, "accepted", *range(50, MOST_WAITING + 50), "result"]
+    assert seen == [0, "accepted", *range(50, MAX_WAITING + 50), "result"]
     assert node.told == [
         (
             "warn",

@@ -15,7 +15,7 @@ from gazelle.interfaces.stamps import seconds_of
 __all__ = ["columns_of", "reader_of", "row_of"]
 
 TIME = "time_s"
-_LONGEST_ARRAY = 64
+_MAX_ARRAY = 64
 
 
 def reader_of(connection: Connection, types: TypeStore) -> Callable[[bytes], Any]:
@@ -55,7 +55,7 @@ def _flatten(name: str, value: Any, row: dict[str, Any]) -> None:
     elif isinstance(value, str | bool | int | float | np.generic):
         row[name] = value.item() if isinstance(value, np.generic) else value
     elif isinstance(value, bytes | bytearray | memoryview | list | tuple | np.ndarray):
-        if len(value) > _LONGEST_ARRAY or isinstance(value, bytes | bytearray | memoryview):
+        if len(value) > _MAX_ARRAY or isinstance(value, bytes | bytearray | memoryview):
             row[f"{name}.length"] = len(value)
             return
         for place, item in enumerate(value):

@@ -21,7 +21,7 @@ from gazelle.interfaces.stamps import set_stamp
 
 __all__ = ["PlayOptions", "Player"]
 
-_LONGEST_WAIT_S = 0.05
+_MAX_WAIT_S = 0.05
 _SWITCH_S = 0.0002
 _LAST_PART_NS = 1_000_000
 _CLOCK = "rosgraph_msgs/msg/Clock"
@@ -185,7 +185,7 @@ class Player:
                     self.tick()
                     return True
                 self._show(self, "PAUSED", timeline.stamp_ns())
-                controls.wait(_LONGEST_WAIT_S)
+                controls.wait(_MAX_WAIT_S)
                 continue
             wait_ns = timeline.wait_ns(stamp_ns)
             if wait_ns <= 0:
@@ -199,7 +199,7 @@ class Player:
             wait_ns = min(wait_ns, max(self.timeline.wait_ns(self._clock_ns), 0))
         # Waits on a condition are late by up to a millisecond on a busy machine; short ones less.
         rest_ns = wait_ns - _LAST_PART_NS if wait_ns > 2 * _LAST_PART_NS else wait_ns
-        self._controls.wait(min(rest_ns / 1e9, _LONGEST_WAIT_S))
+        self._controls.wait(min(rest_ns / 1e9, _MAX_WAIT_S))
 
     def _publish(self, one: Outgoing) -> None:
         publisher = self._publishers.get((one.place, one.connection.id))

@@ -14,7 +14,7 @@ __all__ += ["unpack_stamp"]
 MAGIC = b"#ROSBAG V2.0\n"
 _LENGTH = struct.Struct("<I")
 _STAMP = struct.Struct("<II")
-_LONGEST_HEADER = 1 << 24
+_MAX_HEADER = 1 << 24
 
 
 class Op(enum.IntEnum):
@@ -85,7 +85,7 @@ def read_place(file: BinaryIO, start: int, end: int) -> Place | None:
     (header_size,) = _LENGTH.unpack(_exactly(file, 4) or b"\0\0\0\0")
     if start + 8 + header_size > end:
         return None
-    if header_size > _LONGEST_HEADER:
+    if header_size > _MAX_HEADER:
         raise BagError(f"a record's header claims {header_size} bytes")
     header, length = _exactly(file, header_size), _exactly(file, 4)
     if header is None or length is None:

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from gazelle.errors import GraphError
 
 __all__ = [
-    "MOST_FRAME_BYTES",
+    "MAX_FRAME_BYTES",
     "FrameError",
     "read_exactly",
     "read_frame",
@@ -21,8 +21,8 @@ __all__ = [
     "write_header",
 ]
 
-MOST_FRAME_BYTES = 1 << 29
-_MOST_HEADER_BYTES = 1 << 20
+MAX_FRAME_BYTES = 1 << 29
+_MAX_HEADER_BYTES = 1 << 20
 _FIRST_BYTES = 16 << 20
 _LENGTH = struct.Struct("<I")
 
@@ -45,7 +45,7 @@ def read_header(stream: socket.socket) -> dict[str, str]:
         FrameError: it is not one, or longer than a mebibyte.
         ConnectionError: the stream ended.
     """
-    body = bytes(read_frame(stream, _MOST_HEADER_BYTES))
+    body = bytes(read_frame(stream, _MAX_HEADER_BYTES))
     fields: dict[str, str] = {}
     place = 0
     while place < len(body):
@@ -60,7 +60,7 @@ def read_header(stream: socket.socket) -> dict[str, str]:
     return fields
 
 
-def read_frame(stream: socket.socket, most: int = MOST_FRAME_BYTES) -> bytearray:
+def read_frame(stream: socket.socket, most: int = MAX_FRAME_BYTES) -> bytearray:
     """Return the next frame without its length.
 
     Raises:

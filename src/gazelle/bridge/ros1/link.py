@@ -12,9 +12,9 @@ from gazelle.bridge.ros1.types import Frame
 
 __all__ = ["FrameQueue", "Link"]
 
-_MOST_FRAMES = 1000
-_MOST_BYTES = 1 << 24
-_FEWEST_FRAMES = 2
+_MAX_FRAMES = 1000
+_MAX_BYTES = 1 << 24
+_MIN_FRAMES = 2
 
 
 class FrameQueue:
@@ -24,7 +24,7 @@ class FrameQueue:
         dropped: how many were.
     """
 
-    def __init__(self, most_frames: int = _MOST_FRAMES, most_bytes: int = _MOST_BYTES) -> None:
+    def __init__(self, most_frames: int = _MAX_FRAMES, most_bytes: int = _MAX_BYTES) -> None:
         """Start empty; two frames may wait however big they are."""
         self._frames: deque[Frame] = deque()
         self._bytes = 0
@@ -63,7 +63,7 @@ class FrameQueue:
 
     def _too_much(self) -> bool:
         count = len(self._frames)
-        if count <= _FEWEST_FRAMES:
+        if count <= _MIN_FRAMES:
             return False
         return count > self._most_frames or self._bytes > self._most_bytes
 

@@ -19,7 +19,7 @@ __all__ = ["Inlet", "PublisherOf"]
 
 _CONNECT_S = 5.0
 _FIRST_PAUSE_S = 0.2
-_LONGEST_PAUSE_S = 5.0
+_MAX_PAUSE_S = 5.0
 _TCPROS = "TCPROS"
 
 
@@ -117,7 +117,7 @@ class _Source:
             self.node = ""
             pause_s = _FIRST_PAUSE_S if self.received > before else pause_s
             self._ended.wait(pause_s)
-            pause_s = min(2 * pause_s, _LONGEST_PAUSE_S)
+            pause_s = min(2 * pause_s, _MAX_PAUSE_S)
 
     def _take(self) -> None:
         inlet = self._inlet

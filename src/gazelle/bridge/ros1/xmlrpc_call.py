@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 from gazelle.errors import GraphError
 
 __all__ = [
-    "MOST_BODY_BYTES",
+    "MAX_BODY_BYTES",
     "RemoteError",
     "RemoteRefusedError",
     "call",
@@ -18,7 +18,7 @@ __all__ = [
     "read_answer",
 ]
 
-MOST_BODY_BYTES = 1 << 26
+MAX_BODY_BYTES = 1 << 26
 _TIMEOUT_S = 5.0
 _SUCCESS = 1
 
@@ -103,11 +103,11 @@ def _post(uri: str, body: bytes, timeout_s: float) -> bytes:
     try:
         connection.request("POST", parts.path or "/", body, {"Content-Type": "text/xml"})
         answer = connection.getresponse()
-        data = answer.read(MOST_BODY_BYTES + 1)
+        data = answer.read(MAX_BODY_BYTES + 1)
     finally:
         connection.close()
-    if len(data) > MOST_BODY_BYTES:
-        raise ValueError(f"more than {MOST_BODY_BYTES} bytes")
+    if len(data) > MAX_BODY_BYTES:
+        raise ValueError(f"more than {MAX_BODY_BYTES} bytes")
     if answer.status != http.client.OK:
         raise ValueError(f"HTTP {answer.status} {answer.reason}")
     return data

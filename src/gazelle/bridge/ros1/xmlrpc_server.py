@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from inspect import signature
 from typing import Any, NamedTuple
 
-from gazelle.bridge.ros1.xmlrpc_call import MOST_BODY_BYTES, decoded
+from gazelle.bridge.ros1.xmlrpc_call import MAX_BODY_BYTES, decoded
 
 __all__ = ["Methods", "Notice", "serve_calls"]
 
@@ -18,9 +18,9 @@ Methods = Mapping[str, Callable[..., Any]]
 Notice = Callable[[str], None]
 
 _IDLE_S = 60.0
-_LONGEST_REASON = 200
+_MAX_REASON = 200
 _ERROR = -1
-_MOST_DIGITS = 20
+_MAX_DIGITS = 20
 _TEXT = ("str", str)
 _MULTICALL = "system.multicall"
 
@@ -62,10 +62,10 @@ class _Calls(http.server.BaseHTTPRequestHandler):
         host = self.headers.get("Host", "").rpartition(":")[0].lower()
         if host not in self._terms.hosts or "Origin" in self.headers:
             self._refuse(403, f"'{host}' is not a name of this server")
-        elif not (size.isascii() and size.isdigit() and len(size) < _MOST_DIGITS):
+        elif not (size.isascii() and size.isdigit() and len(size) < _MAX_DIGITS):
             self._refuse(411, "Content-Length is needed")
-        elif int(size) > MOST_BODY_BYTES:
-            self._refuse(413, f"more than {MOST_BODY_BYTES} bytes")
+        elif int(size) > MAX_BODY_BYTES:
+            self._refuse(413, f"more than {MAX_BODY_BYTES} bytes")
         else:
             self._answer(self.rfile.read(int(size)))
 
@@ -76,7 +76,7 @@ class _Calls(http.server.BaseHTTPRequestHandler):
         self.close_connection = True
         # A status line is of plain letters; what was sent may hold any, and ends of lines.
         plain = "".join(one if one.isascii() and one.isprintable() else "?" for one in text)
-        self.send_error(status, plain[:_LONGEST_REASON])
+        self.send_error(status, plain[:_MAX_REASON])
 
     def _answer(self, body: bytes) -> None:
         try:

@@ -20,7 +20,7 @@ __all__ = ["Bridge"]
 
 _POLL_S = 5.0
 _FIRST_PAUSE_S = 0.5
-_LONGEST_PAUSE_S = 10.0
+_MAX_PAUSE_S = 10.0
 
 
 class Bridge:
@@ -91,7 +91,7 @@ class Bridge:
                 side = open_side([self._interpreter], self._environ)
             except GraphError as error:
                 self._notice(str(error))
-                pause_s = min(2 * pause_s, _LONGEST_PAUSE_S)
+                pause_s = min(2 * pause_s, _MAX_PAUSE_S)
                 continue
             self._session = Session(
                 self._graph, self._node, side, self._notice, self._settling.touch, ghosts

@@ -15,7 +15,7 @@ __all__ = ["Profile", "load_profile", "make_workspace", "save_profile"]
 
 _MARKER = ".catkin_tools"
 _CONFIG = "profiles/default/config.yaml"
-_MOST_BYTES = 1 << 20
+_MAX_BYTES = 1 << 20
 _SPACES = {"source_space": "src", "build_space": "build", "devel_space": "devel",
            "install_space": "install"}  # fmt: skip
 
@@ -64,7 +64,7 @@ def load_profile(folder: Path, *, may_make: bool = False) -> Profile:
         )
     file = root / _MARKER / _CONFIG
     try:
-        values = load_yaml(read_limited(file, _MOST_BYTES)) if file.is_file() else {}
+        values = load_yaml(read_limited(file, _MAX_BYTES)) if file.is_file() else {}
     except (OSError, ValueError, YamlError) as error:
         raise BuildError(f"cannot read '{file}': {error}; remove it to start anew") from error
     return Profile(root, values if isinstance(values, dict) else {})

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Tables", "print_report", "verdict"]
 
-_WIDEST = 120
+_MAX_WIDTH = 120
 _NARROWEST = 60
 # What is about a whole package; the others are about one launch, robot or world each.
 _OF_PACKAGES = frozenset({"generations", "names"})
@@ -59,7 +59,7 @@ def print_report(
 
     out = stream or sys.stdout
     console = Console(file=out, highlight=False, soft_wrap=False)
-    console.width = max(_NARROWEST, min(_WIDEST, console.width))
+    console.width = max(_NARROWEST, min(_MAX_WIDTH, console.width))
     sources = dict(report.sources)
     _print_notices([item for item in report.findings if least <= item.severity], console)
     for file, items in _by_file(report.findings, max(least, Severity.WARNING)).items():

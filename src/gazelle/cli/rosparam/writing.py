@@ -22,7 +22,7 @@ __all__ = ["delete", "load", "set_value"]
 _NAMESPACE_KEY = "_ns"
 _NEXT_DOCUMENT = re.compile(r"^---(?=\s|$)", re.MULTILINE)
 _NUMBER = re.compile(r"-[0-9.]")
-_LARGEST = 2**63 - 1
+_MAX_SIZE = 2**63 - 1
 
 
 def set_value(words: list[str]) -> int:
@@ -117,8 +117,8 @@ def _set(graph: Graph, name: str, value: Any, *, verbose: bool) -> None:
                 )
             _set(graph, join(name, key), inner, verbose=verbose)
         return
-    if isinstance(value, int) and abs(value) > _LARGEST:
-        raise ToolError(f"Overflow: parameters are whole numbers up to {_LARGEST}, not {value}")
+    if isinstance(value, int) and abs(value) > _MAX_SIZE:
+        raise ToolError(f"Overflow: parameters are whole numbers up to {_MAX_SIZE}, not {value}")
     if value is None:
         raise ToolError(f"Parameter [{name}] cannot be null: parameters always have a value")
     try:

@@ -16,7 +16,7 @@ from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_pa
 __all__ = ["DelayMeter", "run"]
 
 _PERIOD_S = 1.0
-_LARGEST_WINDOW = 50_000
+_MAX_WINDOW = 50_000
 
 
 class DelayMeter:
@@ -24,7 +24,7 @@ class DelayMeter:
 
     def __init__(self, window: int = -1) -> None:
         """Look at `window` messages; at very many when it is negative."""
-        size = _LARGEST_WINDOW if window < 0 else max(window, 2)
+        size = _MAX_WINDOW if window < 0 else max(window, 2)
         self._delays: deque[float] = deque(maxlen=size - 1)
         self._last_s = 0.0
         self._told_s = 0.0

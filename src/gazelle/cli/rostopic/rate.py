@@ -20,7 +20,7 @@ from gazelle.cli.tool import add_flag, global_name, joined, option_parser
 __all__ = ["Rate", "RateMeter", "rate_report", "rate_table", "run"]
 
 _PERIOD_S = 1.0
-_LARGEST_WINDOW = 50_000
+_MAX_WINDOW = 50_000
 _HEADER = ("topic", "rate", "min_delta", "max_delta", "std_dev", "window")
 
 
@@ -57,7 +57,7 @@ class RateMeter:
             else:
                 self._deltas.append(now_s - self._last_s)
             self._last_s = now_s
-            if len(self._deltas) > _LARGEST_WINDOW - 1:
+            if len(self._deltas) > _MAX_WINDOW - 1:
                 self._deltas.popleft()
 
     def read(self) -> Rate | None:

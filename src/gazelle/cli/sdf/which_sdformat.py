@@ -43,7 +43,7 @@ _NEW_OPTIONS = frozenset(
      "--snap-tolerance", "--inertial-stats", "--versions", "--force-version"}
 )  # fmt: skip
 _CLASSIC_OPTIONS = frozenset({"-c", "--convert", "-o", "--doc", "-v", "--version", "--verbose"})
-_LARGEST = 1_000_000
+_MAX_SIZE = 1_000_000
 
 
 def sdformat_release(words: Iterable[str], environ: Mapping[str, str]) -> Release:
@@ -92,7 +92,7 @@ def _speaks_of_gz(path: Path) -> bool:
 
 def _start_of(path: Path) -> str:
     with path.open("rb") as file:
-        return file.read(_LARGEST).decode("utf-8", "replace")
+        return file.read(_MAX_SIZE).decode("utf-8", "replace")
 
 
 def _knows_gz(workspace: Workspace) -> bool:

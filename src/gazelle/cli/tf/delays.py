@@ -9,7 +9,7 @@ from typing import Any
 __all__ = ["Delays", "FrameDelays", "NetDelay"]
 
 _LOWPASS = 0.01
-_SHORTEST_S = 1e-8
+_MIN_DURATION_S = 1e-8
 
 
 @dataclass(slots=True)
@@ -39,7 +39,7 @@ class Delays:
     @property
     def rate_hz(self) -> float:
         """Count over the time from the first to the last; 1e8 for a single one, as tf says."""
-        return self.count / max(self.last_s - self.first_s, _SHORTEST_S)
+        return self.count / max(self.last_s - self.first_s, _MIN_DURATION_S)
 
 
 @dataclass(slots=True)

@@ -14,7 +14,7 @@ from gazelle.compat.rospy.rostime import get_time
 
 __all__ = ["ROSTopicBandwidth", "ROSTopicDelay", "ROSTopicHz"]
 
-_MOST = 50000
+_MAX = 50000
 _BANDWIDTH_MOST = 100
 
 
@@ -46,7 +46,7 @@ class ROSTopicHz:
         self.lock = threading.Lock()
         self.filter_expr = filter_expr
         self.use_wtime = use_wtime
-        self.window_size = _MOST if window_size < 0 else window_size
+        self.window_size = _MAX if window_size < 0 else window_size
         self._series: dict[str | None, _Series] = {}
 
     def callback_hz(self, m: Any, topic: str | None = None) -> None:
@@ -115,7 +115,7 @@ class ROSTopicDelay:
 
     def __init__(self, window_size: int) -> None:
         self.lock = threading.Lock()
-        self.window_size = _MOST if window_size < 0 else window_size
+        self.window_size = _MAX if window_size < 0 else window_size
         self._delays: deque[float] = deque(maxlen=max(1, self.window_size))
         self._is_new = False
 

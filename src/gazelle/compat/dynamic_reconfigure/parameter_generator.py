@@ -20,8 +20,8 @@ __all__ = [
 str_t, bool_t, int_t, double_t = "str", "bool", "int", "double"
 
 _TYPES: dict[str, type[Any]] = {str_t: str, bool_t: bool, int_t: int, double_t: float}
-_LOWEST = {str_t: "", bool_t: False, int_t: -0x80000000, double_t: -math.inf}
-_HIGHEST = {str_t: "", bool_t: True, int_t: 0x7FFFFFFF, double_t: math.inf}
+_MIN = {str_t: "", bool_t: False, int_t: -0x80000000, double_t: -math.inf}
+_MAX = {str_t: "", bool_t: True, int_t: 0x7FFFFFFF, double_t: math.inf}
 _NAME = re.compile(r"[a-zA-Z][a-zA-Z0-9_]*")
 
 
@@ -77,8 +77,8 @@ class _Group:
                 "default": _checked(name, paramtype, "default", default, zero),
                 "level": level,
                 "description": description,
-                "min": _checked(name, paramtype, "min", min, _LOWEST[paramtype]),
-                "max": _checked(name, paramtype, "max", max, _HIGHEST[paramtype]),
+                "min": _checked(name, paramtype, "min", min, _MIN[paramtype]),
+                "max": _checked(name, paramtype, "max", max, _MAX[paramtype]),
                 "edit_method": edit_method,
             }
         )

@@ -11,7 +11,7 @@ from gazelle.interfaces.stamps import ns_of, set_stamp
 __all__ = ["Duration", "DurationType", "Infinite"]
 
 S_TO_NS = 1_000_000_000
-_MOST_NS = 2**63
+_MAX_NS = 2**63
 
 
 @total_ordering
@@ -20,7 +20,7 @@ class Duration:
 
     def __init__(self, *, seconds: float = 0, nanoseconds: float = 0) -> None:
         total = int(seconds * S_TO_NS) + int(nanoseconds)
-        if not -_MOST_NS <= total < _MOST_NS:
+        if not -_MAX_NS <= total < _MAX_NS:
             raise OverflowError("Total nanoseconds value is too large to store in C duration.")
         self._nanoseconds = total
 
@@ -79,5 +79,5 @@ class Duration:
         return Duration(nanoseconds=-self._nanoseconds)
 
 
-Infinite = Duration(nanoseconds=_MOST_NS - 1)
+Infinite = Duration(nanoseconds=_MAX_NS - 1)
 DurationType = Duration

@@ -14,7 +14,7 @@ from gazelle.parameters.reader import ParameterReader
 __all__ = ["TABLE", "read_steering_limits", "read_traction_limits"]
 
 # The original's bound where only the lower one is given.
-_MOST = 1000.0
+_MAX = 1000.0
 
 
 def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
@@ -128,7 +128,7 @@ def _read(parameters: ParameterReader, name: str) -> tuple[float, float] | None:
     if math.isnan(lowest) and math.isnan(highest):
         return None
     lowest = 0.0 if math.isnan(lowest) else lowest
-    highest = _MOST if math.isnan(highest) else highest
+    highest = _MAX if math.isnan(highest) else highest
     if lowest < 0 or highest < 0 or lowest > highest:
         text = f"controller '{parameters.name}': limits of {name} are {lowest:g} and {highest:g};"
         text += " they bound a magnitude in both directions, so 0 ≤ min ≤ max"

@@ -22,7 +22,7 @@ __all__ = ["find_installed_controller", "find_python_controller"]
 
 _SKIPPED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__"})
 _METHODS = frozenset({"init", "starting", "update", "stopping"})
-_LARGEST_BYTES = 1_000_000
+_MAX_BYTES = 1_000_000
 
 
 class _Found(NamedTuple):
@@ -98,7 +98,7 @@ def _python_files(folder: Path) -> Iterator[Path]:
 def _line_of_class(path: Path, name: str) -> int:
     """Return the line of a controller class of this name at the top of a file, 0 for none."""
     try:
-        if path.stat().st_size > _LARGEST_BYTES:
+        if path.stat().st_size > _MAX_BYTES:
             return 0
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):

@@ -43,7 +43,7 @@ SUPERSEDED_CODES = frozenset(
 )
 """What the readers say of the same mistakes; a report shows one of the two."""
 
-_LARGEST_MASS_RATIO = 1000.0
+_MAX_MASS_RATIO = 1000.0
 
 
 class InertiaFinding(NamedTuple):
@@ -80,14 +80,14 @@ def check_mass_ratios(joints: Iterable[JointRecord]) -> Diagnostics:
     diagnostics = Diagnostics()
     for joint in joints:
         light, heavy = sorted((joint.parent_mass_kg, joint.child_mass_kg))
-        if heavy > _LARGEST_MASS_RATIO * light:
+        if heavy > _MAX_MASS_RATIO * light:
             message = (
                 f"joint '{joint.name}' joins '{joint.parent}' of {joint.parent_mass_kg:.4g} kg and "
                 f"'{joint.child}' of {joint.child_mass_kg:.4g} kg: 1 to {heavy / light:,.0f}"
             )
             thin = joint.child if joint.child_mass_kg == light else joint.parent
             fix = (
-                f"give '{thin}' at least {heavy / _LARGEST_MASS_RATIO:.4g} kg with the inertia "
+                f"give '{thin}' at least {heavy / _MAX_MASS_RATIO:.4g} kg with the inertia "
                 "to match, or make the joint fixed"
             )
             diagnostics.report("inertia.mass-ratio", message, joint.span, fix=fix)

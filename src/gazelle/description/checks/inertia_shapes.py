@@ -140,7 +140,7 @@ def _scaled(mesh: Mesh, scale: tuple[float, float, float]) -> Mesh:
 
 
 # Beyond it double precision loses millimetres and qhull its way.
-_FARTHEST_M = 1e9
+_MAX_DISTANCE_M = 1e9
 
 
 class Outline(NamedTuple):
@@ -200,5 +200,5 @@ class Outlines:
         pose = link.T_model_link @ T_link_shape
         if len(points):
             placed = np.asarray(pose.transform(points))
-            if np.abs(placed).max() < _FARTHEST_M:  # false for what is no number, too
+            if np.abs(placed).max() < _MAX_DISTANCE_M:  # false for what is no number, too
                 yield Outline(link, collision, placed)

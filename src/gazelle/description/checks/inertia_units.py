@@ -26,9 +26,9 @@ DENSITY_RANGE_KG_M3 = (20.0, 20_000.0)
 """From foam to gold."""
 
 # Of the equivalent box to the bounding box: all mass at the ends of an edge.
-_LARGEST_RATIO = math.sqrt(3.0)
+_MAX_RATIO = math.sqrt(3.0)
 
-_SMALLEST_RATIO = 0.2
+_MIN_RATIO = 0.2
 _SLACK_M = 0.002
 _USUAL_DENSITY = 1000.0
 _USUAL_RATIO = 0.9
@@ -80,14 +80,14 @@ def box_fit(body: MassProperties, points_m: NDArray[np.float64]) -> Fit:
     edges, axes = equivalent_box_m(body)
     x, y, z = np.ptp(points_m @ axes, axis=0).tolist()
     bounds = (x, y, z)
-    small = max(edges) < _SMALLEST_RATIO * max(bounds)
+    small = max(edges) < _MIN_RATIO * max(bounds)
     turned = not _exceeds(sorted(edges), sorted(bounds))
     return Fit(edges, bounds, _exceeds(edges, bounds), small, turned)
 
 
 def _exceeds(edges: Iterable[float], bounds: Iterable[float]) -> bool:
     pairs = zip(edges, bounds, strict=True)
-    return any(edge > _LARGEST_RATIO * bound * 1.02 + _SLACK_M for edge, bound in pairs)
+    return any(edge > _MAX_RATIO * bound * 1.02 + _SLACK_M for edge, bound in pairs)
 
 
 def is_inside(point_m: Iterable[float], points_m: NDArray[np.float64]) -> bool:

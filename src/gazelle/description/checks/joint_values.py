@@ -11,7 +11,7 @@ __all__ = ["check_joints"]
 
 _TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 # The PR2's joints need up to three times their effort for their top speed.
-_LARGEST_SHARE = 5.0
+_MAX_SHARE = 5.0
 
 
 def check_joints(model: Model, diagnostics: Diagnostics) -> None:
@@ -53,7 +53,7 @@ def _check_resistance(joint: Joint, axis: JointAxis, diagnostics: Diagnostics) -
         return
     if not 0.0 < axis.velocity < math.inf:
         return
-    if axis.damping * axis.velocity > _LARGEST_SHARE * effort:
+    if axis.damping * axis.velocity > _MAX_SHARE * effort:
         speed = "rad/s" if joint.type in _TURNING else "m/s"
         text = (
             f"joint '{joint.name}' has a damping of {axis.damping:g} {unit}·s/{speed[:-2]}: its "

@@ -13,7 +13,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 
 __all__ = ["check_sizes"]
 
-_LARGEST_RATIO = 8.0
+_MAX_RATIO = 8.0
 _HUGE_RATIO = 100.0
 _HUGE_M = 10.0
 _TINY_M = 0.002
@@ -85,7 +85,7 @@ def _compare(link: Link, collision: Box, visual: Box, diagnostics: Diagnostics) 
     if min(sizes) < _DUMMY_M and not any(isinstance(one.shape, MeshShape) for one in shapes):
         return  # a box of a millimetre is there because Gazebo wants one
     place = link.collisions[0].span or link.span
-    if max(sizes) > _LARGEST_RATIO * min(sizes) and max(sizes) > 0.05:
+    if max(sizes) > _MAX_RATIO * min(sizes) and max(sizes) > 0.05:
         which = "larger" if sizes[0] > sizes[1] else "smaller"
         ratio = max(sizes) / max(min(sizes), 1e-9)
         text = (

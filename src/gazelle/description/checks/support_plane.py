@@ -21,7 +21,7 @@ __all__ = ["Stance", "check_stance", "stance_of"]
 
 # Hulls of round shapes are polygons; their lowest corner may miss the lowest point.
 _TOUCHING_M = 0.0015
-_LEAST_GRIP = 0.2
+_MIN_GRIP = 0.2
 _DEFAULT_MU = 1.0
 
 Array = NDArray[np.float64]
@@ -134,7 +134,7 @@ def _check_drag(dragging: list[Outline], model: Model, diagnostics: Diagnostics)
         surface = item.collision.surface
         grips = [mu for mu in (surface.mu1, surface.mu2) if mu is not None]
         mu = max(grips) if grips else _DEFAULT_MU
-        if mu <= _LEAST_GRIP:
+        if mu <= _MIN_GRIP:
             continue
         said = f"a friction of {mu:g}" if grips else "Gazebo's friction of 1 (none is given)"
         text = (

@@ -11,9 +11,9 @@ from gazelle.diagnostics import Diagnostics
 __all__ = ["check_surfaces"]
 
 _G_M_S2 = 9.8
-_DEEPEST_M = 0.001
-_LEAST_ERP = 0.01
-_LARGEST_MIN_DEPTH_M = 0.01
+_MAX_M_DEPTH = 0.001
+_MIN_ERP = 0.01
+_MAX_MIN_DEPTH_M = 0.01
 _POINTS = 4
 # Higher shapes bear no weight, whatever the joints do that carry wheels and feet.
 _STANDING_M = 0.05
@@ -56,7 +56,7 @@ def _check_stiffness(
     place = surface.span or collision.span or link.span
     if kp is not None and kp > 0.0 and math.isfinite(mass_kg):
         depth = mass_kg * _G_M_S2 / (_POINTS * kp)
-        if depth > _DEEPEST_M:
+        if depth > _MAX_M_DEPTH:
             text = (
                 f"link '{link.name}' has a contact stiffness kp of {kp:g} N/m: with the model's "
                 f"{mass_kg:.4g} kg on {_POINTS} such contacts it sinks in by {depth * 1e3:.3g} mm"
@@ -66,7 +66,7 @@ def _check_stiffness(
             diagnostics.report("robot.soft-contact", text, place, fix=fix)
     if kd is not None and kd > 0.0:
         stiff = step_s * (1e12 if kp is None or kp <= 0.0 else kp)
-        if stiff / (stiff + kd) < _LEAST_ERP:
+        if stiff / (stiff + kd) < _MIN_ERP:
             text = (
                 f"link '{link.name}' has a contact damping kd of {kd:g} N·s/m beside kp "
                 f"{kp or 1e12:g} N/m: in a step of {step_s * 1e3:g} ms ODE corrects only "
@@ -79,7 +79,7 @@ def _check_stiffness(
 def _check_correction(link: Link, collision: Collision, diagnostics: Diagnostics) -> None:
     surface = collision.surface
     place = surface.span or collision.span or link.span
-    if surface.min_depth_m is not None and surface.min_depth_m > _LARGEST_MIN_DEPTH_M:
+    if surface.min_depth_m is not None and surface.min_depth_m > _MAX_MIN_DEPTH_M:
         text = (
             f"link '{link.name}' has a minDepth of {surface.min_depth_m:g} m: it sinks in that "
             "deep before any contact pushes it out"

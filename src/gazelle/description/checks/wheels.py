@@ -108,7 +108,7 @@ def check_wheel_shapes(model: Model, diagnostics: Diagnostics) -> None:
         diagnostics.report("robot.wheel-box", text, place, fix=f"use <cylinder {sizes}/>")
 
 
-_LARGEST_TILT_DEG = 10.0
+_MAX_TILT_DEG = 10.0
 
 _LEFT = re.compile(r"left|(?<![a-z])l(?![a-z])", re.IGNORECASE)
 
@@ -155,7 +155,7 @@ def _check_shape(joint: Joint, link: Link, diagnostics: Diagnostics) -> None:
         axis = axis_in_model(joint)
         cosine = min(1.0, abs(float(axis @ shape_axis)))
         tilt = math.degrees(math.acos(cosine))
-        if tilt > _LARGEST_TILT_DEG:
+        if tilt > _MAX_TILT_DEG:
             if abs(shape_axis[2]) > math.sqrt(0.5) and abs(axis[2]) > math.sqrt(0.5):
                 continue
             text = (

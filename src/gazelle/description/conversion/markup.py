@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 
-_MOST = 40
+_MAX = 40
 
 
 def head_comments(source: str, found: Diagnostics) -> list[str]:
@@ -40,9 +40,9 @@ def head_comments(source: str, found: Diagnostics) -> list[str]:
     lost = [item.message for item in found if item.severity >= Severity.WARNING]
     changed = [item.message for item in found if item.severity < Severity.WARNING]
     for title, messages in (("Not in this file:", lost), ("Said differently:", changed)):
-        shown = [f"- {message}" for message in messages[:_MOST]]
-        if len(messages) > _MOST:
-            shown.append(f"- and {len(messages) - _MOST} more")
+        shown = [f"- {message}" for message in messages[:_MAX]]
+        if len(messages) > _MAX:
+            shown.append(f"- and {len(messages) - _MAX} more")
         if shown:
             comments.append("\n".join([title, *shown]))
     return comments

@@ -38,7 +38,7 @@ __all__ = ["to_sdf"]
 
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _NO_LIMIT = 1e16
-_LEAST_KG, _LEAST_KG_M2 = 1e-6, 1e-9
+_MIN_KG, _MIN_KG_M2 = 1e-6, 1e-9
 _ALL_VISIBLE = 0xFFFFFFFF
 
 
@@ -164,11 +164,11 @@ class _ModelWriter:
             return
         if inertial is None or inertial.mass_kg <= 0:
             inertial = Inertial(
-                _LEAST_KG, inertia_kg_m2=(_LEAST_KG_M2, 0, 0, _LEAST_KG_M2, 0, _LEAST_KG_M2)
+                _MIN_KG, inertia_kg_m2=(_MIN_KG_M2, 0, 0, _MIN_KG_M2, 0, _MIN_KG_M2)
             )
             message = (
                 f"link '{link.name}' has no mass, which SDF does not allow; it is given "
-                f"{_LEAST_KG:g} kg"
+                f"{_MIN_KG:g} kg"
             )
             self.diagnostics.report("convert.approximated", message, link.span)
         part = item.add("inertial")

@@ -19,7 +19,7 @@ from gazelle.documents.files import is_file, is_folder
 
 __all__ = ["material_from_scripts"]
 
-_DEEPEST_BASE = 8
+_MAX_BASE_DEPTH = 8
 
 
 def material_from_scripts(
@@ -136,7 +136,7 @@ def _compiled(
 def _with_bases(materials: dict[str, OgreMaterial], name: str) -> list[OgreMaterial]:
     """Return the material and those it starts from; a circle ends where it closes."""
     chain = [materials[name]]
-    while chain[-1].base in materials and len(chain) < _DEEPEST_BASE:
+    while chain[-1].base in materials and len(chain) < _MAX_BASE_DEPTH:
         chain.append(materials[chain[-1].base])
     return chain
 

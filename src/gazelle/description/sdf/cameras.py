@@ -15,7 +15,7 @@ from gazelle.description.xml import Tag, floats_from
 __all__ = ["read_camera", "read_multicamera"]
 
 _DEFAULTS = CameraSpec()
-_SMALLEST_FOV_RAD = 0.01
+_MIN_FOV_RAD = 0.01
 
 
 def read_camera(tag: Tag | None, kind: str, context: ReadContext) -> CameraSpec:
@@ -77,7 +77,7 @@ def _horizontal_fov(tag: Tag, kind: str, context: ReadContext) -> float:
     """Return the angle, which is at most π (2π for wide-angle lenses)."""
     value = child_float(tag, "horizontal_fov", _DEFAULTS.horizontal_fov_rad, context)
     most = 2 * math.pi if kind == "wideangle" else math.radians(179.9)
-    kept = min(max(value, _SMALLEST_FOV_RAD), most)
+    kept = min(max(value, _MIN_FOV_RAD), most)
     if kept != value:
         found = tag.find("horizontal_fov") or tag
         message = f"<horizontal_fov> is {value:g} rad; {kept:g} rad is used"

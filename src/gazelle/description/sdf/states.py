@@ -11,7 +11,7 @@ from gazelle.description.xml import Tag
 
 __all__ = ["with_state"]
 
-_LARGEST_SHIFT_M = 1e-4
+_MAX_SHIFT_M = 1e-4
 
 
 def with_state(world: World, tag: Tag, context: ReadContext) -> World:
@@ -68,6 +68,6 @@ def _placed_link(link: Link, model: Model, tag: Tag | None, context: ReadContext
         return link
     T_model_link = model.T_world_model.inverse() @ pose_of(tag, context)
     shift = link.T_model_link.matrix() - T_model_link.matrix()
-    if float(abs(shift).max()) < _LARGEST_SHIFT_M:
+    if float(abs(shift).max()) < _MAX_SHIFT_M:
         return link
     return replace(link, T_model_link=T_model_link)

@@ -66,9 +66,9 @@ def _key(tag: Tag) -> int:
 
 _VERSION = 2
 
-_MOST_FILES = 64
+_MAX_FILES = 64
 
-_MOST_BYTES = 32_000_000
+_MAX_BYTES = 32_000_000
 
 
 def save_map(source_map: SourceMap) -> None:
@@ -163,7 +163,7 @@ def _drop_oldest(folder: Path) -> None:
     total = 0
     for index, (_, size, path) in enumerate(sorted(found, reverse=True)):
         total += size
-        if index >= _MOST_FILES or (total > _MOST_BYTES and index):
+        if index >= _MAX_FILES or (total > _MAX_BYTES and index):
             path.unlink(missing_ok=True)
 
 
@@ -191,7 +191,7 @@ def placed(root: Tag) -> Tag:
     return root if found is None else with_places(root, found.places)
 
 
-_MOST_ELEMENTS = 200_000
+_MAX_ELEMENTS = 200_000
 
 
 def remember(expanded: Expanded) -> None:
@@ -200,7 +200,7 @@ def remember(expanded: Expanded) -> None:
     Args:
         expanded: what xacro made.
     """
-    if len(expanded.places) > _MOST_ELEMENTS:
+    if len(expanded.places) > _MAX_ELEMENTS:
         return
     root = parse_xml(expanded.text, expanded.file, Diagnostics())
     if root is not None:

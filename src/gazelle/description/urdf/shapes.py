@@ -25,7 +25,7 @@ from gazelle.diagnostics import did_you_mean
 __all__ = ["read_geometry"]
 
 _ONES = (1.0, 1.0, 1.0)
-_LARGEST_M = 1e9
+_MAX_M = 1e9
 
 
 def read_geometry(owner: Tag, link: str, context: ReadContext) -> Shape | None:
@@ -114,9 +114,9 @@ def _usable(
 ) -> tuple[float, ...] | None:
     """Return the sizes with those of 0 as thin as in Gazebo; None, reported, for others."""
     used = thickened(sizes)
-    if used == sizes and all(0.0 < size < _LARGEST_M for size in sizes):
+    if used == sizes and all(0.0 < size < _MAX_M for size in sizes):
         return sizes
-    is_bad = not all(0.0 < size < _LARGEST_M for size in used)
+    is_bad = not all(0.0 < size < _MAX_M for size in used)
     if is_bad:
         limits = (
             "not positive; left out" if min(used) <= 0.0 else "too large to be metres; left out"

@@ -12,7 +12,7 @@ __all__ = ["EndlessTreeError", "graphviz_text", "tree_text"]
 
 # A link with two parents is printed under both, with all below it: a few dozen such links in a
 # row are more lines than there are atoms. Every step of indentation counts, 4 bytes each.
-_MOST_STEPS = 20_000_000
+_MAX_STEPS = 20_000_000
 
 
 class EndlessTreeError(ValueError):
@@ -82,7 +82,7 @@ def _below(robot: Robot) -> Iterator[_Place]:
         if place.depth > len(robot.joint_above):
             text = f"the joints around link '{place.link}' form a loop"
             raise EndlessTreeError(f"{text}; the one of ROS would crash here")
-        if steps > _MOST_STEPS:
+        if steps > _MAX_STEPS:
             text = "the tree is too deep, or its links have too many parents"
             raise EndlessTreeError(f"{text}; the one of ROS would print gigabytes, or crash")
         yield place

@@ -14,7 +14,7 @@ from gazelle.documents.yaml import ProblemKind, YamlError, read_yaml
 
 __all__ = ["ExpansionLimitError", "Spending"]
 
-_MOST_SECONDS = 10
+_MAX_SECONDS = 10
 _LONG_YAML = 1 << 20
 _DEEP_YAML = 32
 _BRACKETS = re.compile(r"[][{}]")
@@ -23,10 +23,10 @@ _DEEP_LINE = re.compile(r"^(?: {32}|[ ]*(?:[-?] +){16})", re.MULTILINE)
 # Until its release 6.0.4, PyYAML follows merges of merges one by one.
 _MERGE = "<<"
 _SLOW = {ProblemKind.TOO_LONG, ProblemKind.TOO_DEEP, ProblemKind.TOO_MUCH}
-_MOST_CALLS = 5_000
-_MOST_COPIES = 20_000
-_MOST_TEXTS = 200_000
-_MOST_CHARACTERS = 64 << 20
+_MAX_CALLS = 5_000
+_MAX_COPIES = 20_000
+_MAX_TEXTS = 200_000
+_MAX_CHARACTERS = 64 << 20
 
 
 class ExpansionLimitError(LimitError):
@@ -43,21 +43,21 @@ class Spending:
     def __init__(self) -> None:
         self.expressions = Budget()
         self._calls = self._texts = self._characters = self._copies = 0
-        self._most_copies = scaled(_MOST_COPIES)
-        self._end_s = time.thread_time() + scaled(_MOST_SECONDS)
-        self._most_texts = scaled(_MOST_TEXTS)
-        self._most_characters = scaled(_MOST_CHARACTERS)
+        self._most_copies = scaled(_MAX_COPIES)
+        self._end_s = time.thread_time() + scaled(_MAX_SECONDS)
+        self._most_texts = scaled(_MAX_TEXTS)
+        self._most_characters = scaled(_MAX_CHARACTERS)
 
     def counted(self, function: Callable[..., Any]) -> Callable[..., Any]:
         """Count the calls of the library's function for macro calls or for includes."""
 
         def call(element: Any, *rest: Any) -> Any:
             self._calls += 1
-            if self._calls > scaled(_MOST_CALLS):
-                limit = scaled(_MOST_CALLS)
+            if self._calls > scaled(_MAX_CALLS):
+                limit = scaled(_MAX_CALLS)
                 raise ExpansionLimitError(f"more than {limit} macro calls and includes")
             if time.thread_time() > self._end_s:
-                limit = scaled(_MOST_SECONDS)
+                limit = scaled(_MAX_SECONDS)
                 raise ExpansionLimitError(f"more than {limit} s of computing")
             return function(element, *rest)
 

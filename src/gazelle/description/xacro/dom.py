@@ -15,7 +15,7 @@ __all__ = ["EntityRefusedError", "Tracker", "node_in", "place_of"]
 
 _KEY = "gazelle:place"
 # A stack of hundreds of calls says no more than its innermost part.
-_DEEPEST = 12
+_MAX_DEPTH = 12
 
 
 class EntityRefusedError(Exception):
@@ -81,7 +81,7 @@ class Tracker:
         # calls itself again and again says so once.
         repeated = self._via[:1] == (place,)
         self._paths.append(self._via)
-        self._via = self._via if repeated else (place, *self._via[: _DEEPEST - 1])
+        self._via = self._via if repeated else (place, *self._via[: _MAX_DEPTH - 1])
 
     def leave(self) -> None:
         """Note that the innermost include or macro call has been worked on."""

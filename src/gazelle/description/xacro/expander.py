@@ -31,7 +31,7 @@ from gazelle.workspace import Workspace
 
 __all__ = ["Expanded", "expand_xacro"]
 
-_MOST_ERRORS = 20
+_MAX_ERRORS = 20
 _SEARCH_S = 2.0
 _TRACEBACK_FROM = 2
 
@@ -164,7 +164,7 @@ def _report_all(task: _Task, first: tuple[Failure, Finding], diagnostics: Diagno
     repairs = Repairs()
     end_s = time.monotonic() + _SEARCH_S
     found: tuple[Failure, Finding] | None = first
-    for _ in range(_MOST_ERRORS):
+    for _ in range(_MAX_ERRORS):
         if found is None:
             return
         failure, finding = found

@@ -14,7 +14,7 @@ from gazelle.diagnostics import SourceSpan
 
 __all__ = ["Failure", "failure_of"]
 
-_DEEPEST = 12
+_MAX_DEPTH = 12
 
 
 @dataclass
@@ -91,7 +91,7 @@ def failure_of(error: Exception, library: ModuleType, session: Session, file: st
         file: the input file.
     """
     files = tuple(str(name) for name in library.filestack or [file])
-    stack = tuple((library.macrostack or [])[-_DEEPEST:])
+    stack = tuple((library.macrostack or [])[-_MAX_DEPTH:])
     failure = Failure(error, tuple(causes_of(error)), session, files, stack)
     for frame in _frames(error, str(library.__file__)):
         _look_at(frame, failure)

@@ -12,7 +12,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 __all__ = ["Definition", "definitions_in", "files_beside", "parameters_of"]
 
 _PREFIX = "xacro:"
-_MOST_FILES = 60
+_MAX_FILES = 60
 
 
 class Definition(NamedTuple):
@@ -71,4 +71,4 @@ def files_beside(file: str, known: Iterable[str]) -> list[str]:
     seen = {Path(name).resolve() for name in known}
     folder = Path(file).resolve().parent
     near = sorted(folder.glob("*.xacro")) + sorted(folder.glob("*/*.xacro"))
-    return [str(path) for path in near[:_MOST_FILES] if path not in seen]
+    return [str(path) for path in near[:_MAX_FILES] if path not in seen]

@@ -13,10 +13,10 @@ from gazelle.documents import TEXT_BYTES, FileLimitError, LimitError, read_limit
 
 __all__ = ["parse_xml", "read_data", "read_xml", "too_much_in"]
 
-_MOST_ELEMENTS = 500_000
-_MOST_ATTRIBUTES = 1000
+_MAX_ELEMENTS = 500_000
+_MAX_ATTRIBUTES = 1000
 # Readers go down element by element; Python itself allows a thousand calls.
-_DEEPEST = 100
+_MAX_DEPTH = 100
 
 _FORGIVEN = "this is no XML: '--' in a comment, a bare '&' or something before <?xml …?>"
 _COMMENT = re.compile(rb"<!--(.*?)-->", re.DOTALL)
@@ -104,7 +104,7 @@ def too_much_in(data: bytes) -> str:
     """
     if len(data) > scaled(TEXT_BYTES):
         return f"the document has {len(data)} bytes, the limit is {scaled(TEXT_BYTES)}"
-    most = scaled(_MOST_ELEMENTS)
+    most = scaled(_MAX_ELEMENTS)
     # In UTF-16 end tags look different; there the elements are counted one by one.
     if data.count(b"<") > most and b"\0" not in data[:16]:
         count = data.count(b"<") - sum(data.count(word) for word in (b"</", b"<!", b"<?"))
@@ -178,8 +178,8 @@ class _Builder:
         self._stack: list[_Open] = []
         self._parser: Any = None
         self._line_shift = 0
-        self._left = scaled(_MOST_ELEMENTS)
-        self._most_attributes = scaled(_MOST_ATTRIBUTES)
+        self._left = scaled(_MAX_ELEMENTS)
+        self._most_attributes = scaled(_MAX_ATTRIBUTES)
 
     def parse(self, text: bytes, encoding: str | None) -> None:
         self._parser = self._new_parser(encoding)
@@ -211,15 +211,15 @@ class _Builder:
         stack = self._stack
         span = self._span(len(name) + 1)
         self._left -= 1
-        if self._left < 0 or len(stack) >= _DEEPEST or len(attributes) > self._most_attributes:
+        if self._left < 0 or len(stack) >= _MAX_DEPTH or len(attributes) > self._most_attributes:
             raise self._too_much(name, attributes, span)
         stack.append(_Open(name, attributes, span))
 
     def _too_much(self, name: str, attributes: dict[str, str], span: SourceSpan) -> _TooMuchError:
-        if len(self._stack) >= _DEEPEST:
-            return _TooMuchError(f"<{name}> is nested deeper than {_DEEPEST} elements", span)
+        if len(self._stack) >= _MAX_DEPTH:
+            return _TooMuchError(f"<{name}> is nested deeper than {_MAX_DEPTH} elements", span)
         if self._left < 0:
-            text = f"the document has more than {scaled(_MOST_ELEMENTS)} elements"
+            text = f"the document has more than {scaled(_MAX_ELEMENTS)} elements"
         else:
             text = f"<{name}> has {len(attributes)} attributes, the limit is "
             text += str(self._most_attributes)

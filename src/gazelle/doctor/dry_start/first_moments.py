@@ -12,7 +12,7 @@ from gazelle.simulator.world_server import WorldServer
 __all__ = ["FirstMoments"]
 
 _SECONDS = 0.25
-_MOST_STEPS = 500
+_MAX_STEPS = 500
 
 
 class FirstMoments:
@@ -44,7 +44,7 @@ class FirstMoments:
         node.heard = own
         step_s = server.engine.step_ns * 1e-9
         try:
-            server.step(min(_MOST_STEPS, math.ceil(_SECONDS / step_s)))
+            server.step(min(_MAX_STEPS, math.ceil(_SECONDS / step_s)))
         except SimulationDivergedError as error:
             self.diverged = str(error)
 

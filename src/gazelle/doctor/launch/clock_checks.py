@@ -13,7 +13,7 @@ __all__ = ["check_clock"]
 
 _NAME = "/use_sim_time"
 _WORD = "use_sim_time"
-_LEAST_LIKENESS = 0.76
+_MIN_LIKENESS = 0.76
 
 
 def check_clock(
@@ -62,7 +62,7 @@ def _is_misspelled(name: str) -> bool:
     """Tell whether a name is a slip for the clock's: ``use_map_topic`` is another thing."""
     words = name.casefold().replace("_", "")
     likeness = SequenceMatcher(None, words, _WORD.replace("_", "")).ratio()
-    return name.startswith("use") and likeness >= _LEAST_LIKENESS
+    return name.startswith("use") and likeness >= _MIN_LIKENESS
 
 
 def _check_value(launched: Launched, owners: list[LaunchedNode], diagnostics: Diagnostics) -> None:

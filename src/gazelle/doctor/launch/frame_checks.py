@@ -15,7 +15,7 @@ from gazelle.doctor.report import Section
 __all__ = ["check_frames", "frames_section"]
 
 _FRAME_KEYS = ("frameName", "frame_name", "frameId", "frame_id")
-_LARGEST_TABLE = 60
+_MAX_TABLE = 60
 _RATE_OF_2011 = "/pr2_controller_manager/joint_state_publish_rate"
 
 
@@ -47,9 +47,9 @@ def frames_section(frames: Frames, subject: str) -> Section:
         (f"{'  ' * depth}{edge.parent} → {edge.child}", edge.how, edge.by)
         for depth, edge in _in_depth(frames.edges)
     ]
-    hidden = len(rows) - _LARGEST_TABLE
+    hidden = len(rows) - _MAX_TABLE
     if hidden > 0:
-        rows = [*rows[:_LARGEST_TABLE], (f"… and {hidden} more", "", "")]
+        rows = [*rows[:_MAX_TABLE], (f"… and {hidden} more", "", "")]
     return Section("frames", "tf frames", ("frame", "how", "by"), tuple(rows), subject)
 
 

@@ -16,8 +16,8 @@ from gazelle.workspace import Workspace
 
 __all__ = ["Followed", "follow"]
 
-_DEEPEST = 8
-_MOST_FILES = 60
+_MAX_DEPTH = 8
+_MAX_FILES = 60
 
 
 @dataclass(slots=True)
@@ -77,7 +77,7 @@ class _Follower:
     ) -> Followed | None:
         """Read one file and those below it."""
         self._count += 1
-        if path in above or len(above) >= _DEEPEST or self._count > _MOST_FILES:
+        if path in above or len(above) >= _MAX_DEPTH or self._count > _MAX_FILES:
             return None
         file = self._file(path, given)
         if file is None:

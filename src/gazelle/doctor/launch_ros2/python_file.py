@@ -23,7 +23,7 @@ from gazelle.workspace.static_python import UNKNOWN, Call, Evaluator, parse_pyth
 
 __all__ = ["read_python_file"]
 
-_DEEPEST = 12
+_MAX_DEPTH = 12
 _ENTRY = "generate_launch_description"
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
 _FOLDER_CALLS = frozenset(
@@ -293,7 +293,7 @@ def _given(call: Call) -> list[Any]:
 
 def _inside(value: Any, depth: int = 0) -> Iterator[Call]:
     """Yield the calls in a value, those in the arguments of calls too."""
-    if depth > _DEEPEST:
+    if depth > _MAX_DEPTH:
         return
     if isinstance(value, Call):
         yield value

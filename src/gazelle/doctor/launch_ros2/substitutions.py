@@ -13,7 +13,7 @@ from gazelle.workspace.static_python import Call
 
 __all__ = ["Substitutions"]
 
-_DEEPEST = 20
+_MAX_DEPTH = 20
 
 
 class Substitutions:
@@ -53,7 +53,7 @@ class Substitutions:
 
     def text(self, value: Any, depth: int = 0) -> str | None:
         """Return the text of a value, a list of values or a substitution; None when not known."""
-        if depth > _DEEPEST:
+        if depth > _MAX_DEPTH:
             return None
         if isinstance(value, str):
             return value

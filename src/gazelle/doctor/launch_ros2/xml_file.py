@@ -34,7 +34,7 @@ from gazelle.workspace import Workspace
 __all__ = ["read_xml_file", "read_yaml_file"]
 
 _INNER = re.compile(r"\$\(([\w-]+)((?:\s+(?:[^()$]|\$(?!\())*)?)\)")
-_MOST_ROUNDS = 50
+_MAX_ROUNDS = 50
 
 
 def read_xml_file(
@@ -189,7 +189,7 @@ class _Reader:
     def _text(self, tag: Tag, key: str) -> str | None:
         """Return an attribute with its substitutions replaced; None when one is not known."""
         text: str | None = tag.attributes.get(key)
-        for _ in range(_MOST_ROUNDS):
+        for _ in range(_MAX_ROUNDS):
             found = _INNER.search(text) if text is not None else None
             if text is None or found is None:
                 break

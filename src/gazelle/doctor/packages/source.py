@@ -18,8 +18,8 @@ from gazelle.workspace.building.setup_file import SetupFile, read_setup
 __all__ = ["SourcePackage"]
 
 _PRUNED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__", "venv"})
-_MOST_FILES = 20_000
-_LONGEST_TEXT = 2_000_000
+_MAX_FILES = 20_000
+_MAX_TEXT = 2_000_000
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class SourcePackage:
         """Return a file's text, empty when it is too long or not there."""
         path = self.folder / relative
         try:
-            if path.stat().st_size > _LONGEST_TEXT:
+            if path.stat().st_size > _MAX_TEXT:
                 return ""
             return path.read_text(encoding="utf-8", errors="replace")
         except OSError:
@@ -120,7 +120,7 @@ def _files(folder: Path) -> Iterator[str]:
         folders[:] = [name for name in folders if name not in _PRUNED and name[0] != "."]
         for name in names:
             count += 1
-            if count > _MOST_FILES:
+            if count > _MAX_FILES:
                 return
             if not name.startswith("."):
                 yield Path(root, name).relative_to(folder).as_posix()

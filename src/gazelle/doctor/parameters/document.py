@@ -24,7 +24,7 @@ from gazelle.documents.yaml import (
 
 __all__ = ["Document", "plain", "read_document", "scalars"]
 
-_LONGEST = 5_000_000
+_MAX_LENGTH = 5_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ class Document:
 def read_document(path: Path, diagnostics: Diagnostics) -> Document | None:
     """Read a file; None (and an error reported) when it is no YAML, None for lists and texts."""
     try:
-        if path.stat().st_size > _LONGEST:
+        if path.stat().st_size > _MAX_LENGTH:
             return None
         documents = read_yaml_documents(read_text_limited(path), str(path))
     except (OSError, UnicodeDecodeError) as error:

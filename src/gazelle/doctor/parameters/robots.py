@@ -20,11 +20,11 @@ from gazelle.workspace import Package, Workspace
 
 __all__ = ["expanded_text", "robots_for", "whole_robots"]
 
-_MOST_FILES = 24
+_MAX_FILES = 24
 _HEAD = 20_000
 _ENDINGS = (".urdf", ".urdf.xacro", ".xacro", ".urdf.xml")
 # Half of the names may be wrong and it still is the robot that was meant.
-_LEAST_IN_COMMON = 0.5
+_MIN_IN_COMMON = 0.5
 
 
 def robots_for(
@@ -42,14 +42,14 @@ def robots_for(
         workspace: finds the other packages.
     """
     found: dict[tuple[float, bool], list[Model]] = {}
-    for path, mappings in islice(_candidates(package, workspace), _MOST_FILES):
+    for path, mappings in islice(_candidates(package, workspace), _MAX_FILES):
         for model in _models(path, tuple(mappings.items()), workspace):
             joints = {joint.name for joint in model.joints}
             share = len(joints & set(names)) / len(names) if names else 0.0
             has = bool(model.ros2_controls if ros_version == 2 else model.transmissions)
             found.setdefault((share, has), []).append(model)
     best = max(found, default=(0.0, False))
-    return tuple(found[best]) if best[0] >= _LEAST_IN_COMMON else ()
+    return tuple(found[best]) if best[0] >= _MIN_IN_COMMON else ()
 
 
 def whole_robots(source: SourcePackage, workspace: Workspace) -> Iterator[tuple[Path, str]]:

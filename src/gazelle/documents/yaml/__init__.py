@@ -17,7 +17,7 @@ from gazelle.documents.yaml.document import (
     read_yaml_file,
     value_of,
 )
-from gazelle.documents.yaml.loader import MOST_CHARACTERS
+from gazelle.documents.yaml.loader import MAX_CHARACTERS
 from gazelle.documents.yaml.nodes import (
     YamlEntry,
     YamlMapping,
@@ -45,8 +45,8 @@ from gazelle.documents.yaml.writing import (
 )
 
 __all__ = [
+    "MAX_CHARACTERS",
     "MESSAGE_STYLE",
-    "MOST_CHARACTERS",
     "PYTHON_STYLE",
     "RCL",
     "ROSPARAM",

@@ -10,20 +10,20 @@ import yaml
 from gazelle.documents.files import HOW_TO_RAISE, LimitError, scaled
 
 __all__ = [
-    "MOST_CHARACTERS",
+    "MAX_CHARACTERS",
     "LimitedLoader",
     "YamlDepthError",
     "YamlLengthError",
     "YamlLimitError",
 ]
 
-MOST_CHARACTERS = 8 << 20
+MAX_CHARACTERS = 8 << 20
 """Length of the longest YAML text that is read."""
 
-_MOST_NODES = 1_000_000
-_DEEPEST = 64
+_MAX_NODES = 1_000_000
+_MAX_DEPTH = 64
 # Python prints no whole number that has more decimal digits.
-_MOST_DIGITS = sys.int_info.default_max_str_digits
+_MAX_DIGITS = sys.int_info.default_max_str_digits
 _BITS_OF_A_DIGIT = 3.32
 # What PyYAML's constructors, and those of ROS's angles, let through.
 _UNREADABLE: tuple[type[Exception], ...]
@@ -48,11 +48,11 @@ class LimitedLoader(yaml.SafeLoader):
 
     def __init__(self, stream: str | bytes) -> None:
         """Check the length of a text; see ``yaml.SafeLoader``."""
-        if len(stream) > scaled(MOST_CHARACTERS):
-            text = _above(f"{len(stream)} characters", scaled(MOST_CHARACTERS))
+        if len(stream) > scaled(MAX_CHARACTERS):
+            text = _above(f"{len(stream)} characters", scaled(MAX_CHARACTERS))
             raise YamlLengthError(None, None, text)
         self._depth = 0
-        self._most_nodes = scaled(_MOST_NODES)
+        self._most_nodes = scaled(_MAX_NODES)
         self._nodes = 0
         self._nodes_of_documents = 0
         super().__init__(stream)
@@ -68,7 +68,7 @@ class LimitedLoader(yaml.SafeLoader):
 
     def fetch_flow_collection_start(self, TokenClass: Any) -> None:
         """Scan ``[`` or ``{`` unless it is nested too deep: PyYAML looks far ahead, slowly."""
-        if self.flow_level >= _DEEPEST:
+        if self.flow_level >= _MAX_DEPTH:
             raise _too_deep(self.get_mark())
         super().fetch_flow_collection_start(TokenClass)
 
@@ -76,7 +76,7 @@ class LimitedLoader(yaml.SafeLoader):
         """Compose a node unless it is nested too deep, or one too many."""
         self._depth += 1
         self._nodes += 1
-        if self._depth > _DEEPEST:
+        if self._depth > _MAX_DEPTH:
             place = self.peek_event().start_mark  # type: ignore[no-untyped-call]
             raise _too_deep(place)
         if self._nodes > self._most_nodes:
@@ -108,10 +108,10 @@ class LimitedLoader(yaml.SafeLoader):
     def construct_yaml_int(self, node: yaml.ScalarNode) -> int:
         """Construct a whole number that can be printed again."""
         # One of base 60 takes the square of its length.
-        if len(node.value) > 2 * _MOST_DIGITS and ":" in node.value:
+        if len(node.value) > 2 * _MAX_DIGITS and ":" in node.value:
             raise ValueError(f"a whole number of {len(node.value)} characters")
         found: int = super().construct_yaml_int(node)
-        if found.bit_length() > _MOST_DIGITS * _BITS_OF_A_DIGIT:
+        if found.bit_length() > _MAX_DIGITS * _BITS_OF_A_DIGIT:
             raise ValueError(f"a whole number of {found.bit_length()} binary digits")
         return found
 
@@ -138,7 +138,7 @@ def _size(node: Any, known: dict[int, int], around: tuple[int, ...]) -> int:
 
 def _too_deep(place: Any) -> YamlDepthError:
     return YamlDepthError(
-        None, None, f"lists and mappings are nested deeper than {_DEEPEST}", place
+        None, None, f"lists and mappings are nested deeper than {_MAX_DEPTH}", place
     )
 
 

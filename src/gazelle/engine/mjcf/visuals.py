@@ -49,7 +49,7 @@ COLLISION_GROUP = 3
 """Group of geoms that touch and are not drawn; MuJoCo's viewer hides it at first."""
 
 _VISUAL_GROUP = 2
-_FEWEST_CORNERS = 4
+_MIN_CORNERS = 4
 _Look = tuple[Rgba, float, float, str]
 
 
@@ -124,7 +124,7 @@ class Looks:
         if key not in self._parts:
             found = []
             for part in _triangles(shape):
-                if len(part.vertices_m) >= _FEWEST_CORNERS and _has_area(part):
+                if len(part.vertices_m) >= _MIN_CORNERS and _has_area(part):
                     mesh = self._mesh(part, shape, name)
                     found.append((mesh, self._material(visual, part.material)))
             self._parts[key] = tuple(found)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.delivery import Mailbox
-from gazelle.graph.subscription import MOST_WAITING, Backlog
+from gazelle.graph.subscription import MAX_WAITING, Backlog
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node
@@ -49,7 +49,7 @@ class News:
         def overflowed() -> None:
             self._node.log(
                 "warn",
-                f"a callback of the action {self._name} is slower than {name}: {MOST_WAITING} "
+                f"a callback of the action {self._name} is slower than {name}: {MAX_WAITING} "
                 "messages wait, and the oldest are dropped from now on",
             )
 

@@ -11,8 +11,8 @@ __all__ = ["DynamicGroup", "DynamicParameter", "EnumConstant", "Value", "enum_ed
 Value = bool | int | float | str
 
 _INT_LIMIT = 0x80000000
-_LOWEST: dict[str, Value] = {"bool": False, "int": -_INT_LIMIT, "double": -math.inf, "str": ""}
-_HIGHEST: dict[str, Value] = {"bool": True, "int": _INT_LIMIT - 1, "double": math.inf, "str": ""}
+_MIN: dict[str, Value] = {"bool": False, "int": -_INT_LIMIT, "double": -math.inf, "str": ""}
+_MAX: dict[str, Value] = {"bool": True, "int": _INT_LIMIT - 1, "double": math.inf, "str": ""}
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,12 +37,12 @@ class DynamicParameter:
     @property
     def minimum(self) -> Value:
         """The lower limit as descriptions tell it; the type's own where there is none."""
-        return self._typed(_LOWEST[self.type] if self.lowest is None else self.lowest)
+        return self._typed(_MIN[self.type] if self.lowest is None else self.lowest)
 
     @property
     def maximum(self) -> Value:
         """The upper limit as descriptions tell it; the type's own where there is none."""
-        return self._typed(_HIGHEST[self.type] if self.highest is None else self.highest)
+        return self._typed(_MAX[self.type] if self.highest is None else self.highest)
 
     def accepts(self, value: object) -> bool:
         """Tell whether a value is of this type; whole numbers are doubles too, NaN is none."""

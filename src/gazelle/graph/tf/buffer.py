@@ -25,7 +25,7 @@ from gazelle.graph.tf.history import History, Sample, StaticHistory
 __all__ = ["FrameInfo", "StampedPose", "TransformBuffer"]
 
 DEFAULT_CACHE_NS = 10_000_000_000
-_DEEPEST = 1000
+_MAX_DEPTH = 1000
 _NORM_TOLERANCE = 10e-3
 
 
@@ -276,7 +276,7 @@ class TransformBuffer:
         T_frame_source: dict[str, Pose] = {}
         failure: ExtrapolationError | None = None
         frame, pose = source, IDENTITY_POSE
-        for _ in range(_DEEPEST):
+        for _ in range(_MAX_DEPTH):
             T_frame_source[frame] = pose
             history = self._frames.get(frame)
             if history is None or frame == target:
@@ -288,7 +288,7 @@ class TransformBuffer:
                 break
             frame, pose = sample.parent, sample.pose @ pose
         frame, pose = target, IDENTITY_POSE
-        for _ in range(_DEEPEST):
+        for _ in range(_MAX_DEPTH):
             if frame in T_frame_source:
                 return pose.inverse() @ T_frame_source[frame]
             history = self._frames.get(frame)
@@ -329,7 +329,7 @@ class TransformBuffer:
         return found
 
     def _check_depth(self, depth: int) -> None:
-        if depth > _DEEPEST:
+        if depth > _MAX_DEPTH:
             listing = "".join(
                 f"Frame {name} exists with parent {history.latest.parent}.\n"
                 for name, history in self._frames.items()

@@ -19,7 +19,7 @@ from gazelle.workspace import Workspace
 
 __all__ = ["Reading", "TagError"]
 
-_MOST_INCLUDES = 2000
+_MAX_INCLUDES = 2000
 
 
 class TagError(Exception):
@@ -65,7 +65,7 @@ class Reading:
             TagError: files that include others twice and more make too many of it.
         """
         self.includes += 1
-        if self.includes > (most := scaled(_MOST_INCLUDES)):
+        if self.includes > (most := scaled(_MAX_INCLUDES)):
             raise TagError("limits.expansion", f"more than {most} files are included")
 
     def substitution(self, scope: Scope) -> Substitution:

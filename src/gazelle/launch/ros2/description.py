@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["LaunchDescription", "argument_lines"]
 
-_DEEPEST = 50
+_MAX_DEPTH = 50
 
 
 class LaunchDescription(LaunchDescriptionEntity):
@@ -141,7 +141,7 @@ def _declared(
         inner = includes
         if isinstance(entity, IncludeLaunchDescription):
             inner = [*(includes or ()), entity]
-            if len(inner) > _DEEPEST:
+            if len(inner) > _MAX_DEPTH:
                 chain = inner[-1].launch_description_source.location
                 raise RecursionError(f"launch files include each other without end: {chain}")
         if isinstance(entity, DeclareLaunchArgument):

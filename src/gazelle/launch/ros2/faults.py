@@ -17,7 +17,7 @@ from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
 __all__ = ["diagnose", "not_started", "with_diagnostic"]
 
 _ATTRIBUTE = "_gazelle_diagnostic"
-_LONGEST_LETTERS = 3
+_MAX_LETTERS = 3
 
 
 def with_diagnostic(
@@ -60,7 +60,7 @@ def not_started(
     elif " " in program.strip() and shutil.which(program.split()[0]):
         message = f"'{program}' is no program: cmd is a list of words, and this is one word"
         fix = f"cmd={program.split()!r}, or shell=True"
-    elif len(cmd) > _LONGEST_LETTERS and all(len(word) == 1 for word in cmd):
+    elif len(cmd) > _MAX_LETTERS and all(len(word) == 1 for word in cmd):
         message = f"'{''.join(cmd)}' was given as one text, which is taken letter by letter"
         fix = f"cmd={''.join(cmd).split()!r}"
     elif isinstance(error, FileNotFoundError):

@@ -22,7 +22,7 @@ __all__ = ["read_archive"]
 
 _NEEDED = ("t", "scans", "odo")
 _RANGE_MAX_M = 20.0
-_LEAST_M = 0.05
+_MIN_M = 0.05
 
 
 def read_archive(path: Path, diagnostics: Diagnostics) -> Iterator[LogRecord]:
@@ -68,5 +68,5 @@ def _records(columns: dict[str, Any]) -> Iterator[LogRecord]:
         seen = np.where(ranges >= most, np.inf, ranges).astype(np.float32)
         stamp_ns = round(float(time_s) * 1e9)
         lidar = (mount[0], mount[1], mount[2])
-        scan = Scan(stamp_ns, start, step, seen, _LEAST_M, most, lidar)
+        scan = Scan(stamp_ns, start, step, seen, _MIN_M, most, lidar)
         yield LogRecord(scan, np.asarray(pose, dtype=float))

@@ -26,7 +26,7 @@ __all__ = ["read_carmen"]
 _NOTHING_M = 80.0
 """SICK lidars say about 81.9 m where they meet nothing."""
 
-_LEAST_M = 0.05
+_MIN_M = 0.05
 
 
 def read_carmen(path: Path, diagnostics: Diagnostics) -> Iterator[LogRecord]:
@@ -94,7 +94,7 @@ def _record(
     # What is at the limit met nothing.
     ranges = np.where(ranges >= 0.99 * most, np.inf, ranges).astype(np.float32)
     mount = tuple(float(value) for value in between(robot, lidar))
-    scan = Scan(stamp_ns, start, step, ranges, _LEAST_M, most, (mount[0], mount[1], mount[2]))
+    scan = Scan(stamp_ns, start, step, ranges, _MIN_M, most, (mount[0], mount[1], mount[2]))
     return LogRecord(scan, robot)
 
 

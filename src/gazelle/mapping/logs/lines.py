@@ -14,8 +14,8 @@ from gazelle.documents import HOW_TO_RAISE, FileLimitError, scaled
 __all__ = ["lines_of", "opened"]
 
 _MAGIC = b"\x1f\x8b"
-_MOST_BYTES = 4 << 30
-_LONGEST_LINE = 4 << 20
+_MAX_BYTES = 4 << 30
+_MAX_LINE = 4 << 20
 
 
 @contextmanager
@@ -40,13 +40,13 @@ def lines_of(path: Path) -> Iterator[str]:
     Raises:
         OSError: it cannot be read, is damaged, or longer than is read.
     """
-    left = scaled(_MOST_BYTES)
+    left = scaled(_MAX_BYTES)
     with opened(path) as file:
-        while line := file.readline(_LONGEST_LINE):
+        while line := file.readline(_MAX_LINE):
             left -= len(line)
-            if left < 0 or len(line) == _LONGEST_LINE:
-                what = f"a line is longer than {_LONGEST_LINE} bytes"
+            if left < 0 or len(line) == _MAX_LINE:
+                what = f"a line is longer than {_MAX_LINE} bytes"
                 if left < 0:
-                    what = f"it is longer than {scaled(_MOST_BYTES)} bytes"
+                    what = f"it is longer than {scaled(_MAX_BYTES)} bytes"
                 raise FileLimitError(0, what, str(path), f"; {HOW_TO_RAISE}" if left < 0 else "")
             yield line.decode(errors="replace")

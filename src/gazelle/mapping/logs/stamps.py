@@ -8,7 +8,7 @@ import numpy as np
 
 __all__ = ["duration_s", "stamp_problem"]
 
-_LONGEST_PAUSE_NS = 86_400 * 1_000_000_000
+_MAX_PAUSE_NS = 86_400 * 1_000_000_000
 
 
 def stamp_problem(stamps_ns: Sequence[int]) -> str:
@@ -19,7 +19,7 @@ def stamp_problem(stamps_ns: Sequence[int]) -> str:
     steps = np.diff(stamps)
     if not steps.any():
         return f"all {len(stamps)} scans have the same stamp, {stamps[0] * 1e-9:.9g} s"
-    odd = np.flatnonzero((steps < 0) | (steps > _LONGEST_PAUSE_NS))
+    odd = np.flatnonzero((steps < 0) | (steps > _MAX_PAUSE_NS))
     if not len(odd):
         return ""
     first = int(odd[0])

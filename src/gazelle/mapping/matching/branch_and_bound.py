@@ -16,7 +16,7 @@ from gazelle.mapping.poses import Poses
 __all__ = ["WideMatch", "WideSearch", "best_of_sectors"]
 
 # Sides of the largest blocks, in powers of two.
-_DEEPEST = 6
+_MAX_DEPTH = 6
 
 
 class WideMatch(NamedTuple):
@@ -95,7 +95,7 @@ class WideSearch:
         cell_m = self._field.cell_m
         reach = _in_cells(reach_m, cell_m)
         done = -1 if done_m is None else _in_cells(done_m, cell_m)
-        largest = min(_DEEPEST, max(branch_and_bound_kernels.LEAF, int(math.log2(reach))))
+        largest = min(_MAX_DEPTH, max(branch_and_bound_kernels.LEAF, int(math.log2(reach))))
         turn, columns, rows, value = branch_and_bound_kernels.bound_search(
             self._field.values, self._levels.words, self._levels.up_to(largest),
             self._cells[part], self._boxes[part], reach, done, least,
@@ -116,7 +116,7 @@ class _Levels:
         self.words = np.empty(values.shape, np.uint64)
         branch_and_bound_kernels.packed(bytes_, self.words)
         self._levels = np.empty(
-            (_DEEPEST - branch_and_bound_kernels.LEAF + 1, *values.shape), np.uint8
+            (_MAX_DEPTH - branch_and_bound_kernels.LEAF + 1, *values.shape), np.uint8
         )
         pair = np.empty_like(bytes_)
         branch_and_bound_kernels.sliding(bytes_, 1, pair)

@@ -25,12 +25,12 @@ LEAF = 2
 _SIDE = 1 << LEAF
 _FULL = 255
 # So many points a 16 bit sum holds.
-_MOST = 256
+_MAX = 256
 # Points between two looks at whether the rest can still matter.
 _PART = 40
 # So many are sorted by insertion; so many parts wait at most.
 _FEW = 15
-_DEEPEST = 100
+_MAX_DEPTH = 100
 
 
 class _Search(NamedTuple):
@@ -157,7 +157,7 @@ def _block_sums(words, cells, ix, iy, least, sums):
     sums[:] = 0
     begin = 0
     while begin < n:
-        end = min(begin + _MOST, n)
+        end = min(begin + _MAX, n)
         a = b = c = d = np.uint64(0)
         for i in range(begin, end):
             place = places[i] + shift
@@ -216,7 +216,7 @@ def _descending(bounds):
     """
     count = bounds.shape[0]
     order = np.arange(count)
-    stack = np.empty((_DEEPEST, 2), np.int64)
+    stack = np.empty((_MAX_DEPTH, 2), np.int64)
     stack[0, 0], stack[0, 1] = 0, count - 1
     depth = 1
     while depth > 0:

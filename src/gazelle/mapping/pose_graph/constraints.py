@@ -20,7 +20,7 @@ UNKNOWN = np.diag([4.0**-2, 4.0**-2, 2.0**-2])
 
 """Of what happened while nothing fitted: a robot may have been carried away."""
 
-_LEAST_SIGMA = np.diag([0.02**2, 0.02**2, 0.006**2])
+_MIN_SIGMA = np.diag([0.02**2, 0.02**2, 0.006**2])
 
 _FAINT = np.diag([1e-2, 1e-2, 1e-1])
 
@@ -32,7 +32,7 @@ def bounded(information: NDArray[np.float64]) -> NDArray[np.float64]:
     of them are no better.
     """
     covariance = np.linalg.inv(information + _FAINT)
-    return np.linalg.inv(covariance + _LEAST_SIGMA)
+    return np.linalg.inv(covariance + _MIN_SIGMA)
 
 
 def doubtful(information: NDArray[np.float64]) -> NDArray[np.bool_]:

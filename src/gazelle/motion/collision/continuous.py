@@ -36,7 +36,7 @@ from gazelle.motion.collision.sweep_arguments import (
 from gazelle.motion.collision.sweep_kernels import (
     COLLIDES,
     FREE,
-    MOST_STEPS,
+    MAX_STEPS,
     TOO_LONG,
     pair_clear,
     sweep,
@@ -53,7 +53,7 @@ __all__ = ["Sweeper", "Verdict"]
 IntArray = NDArray[np.int64]
 
 _UNLIMITED_M = 1e9
-_MOST_DOUBTS = 256
+_MAX_DOUBTS = 256
 _SCRATCH = (10, 4)
 
 
@@ -105,7 +105,7 @@ class Sweeper:
             Bodies(members, pairs, apart[moved], np.zeros((len(pairs), 4)), np.arange(len(pairs))),
             solids,
             np.zeros(_SCRATCH),
-            np.empty(_MOST_DOUBTS),
+            np.empty(_MAX_DOUBTS),
         )
         self._take(arguments)
         self.has_constant_neighbours = self._has_constant_neighbours()
@@ -125,7 +125,7 @@ class Sweeper:
                 rotations=solids.rotations.copy(), positions_m=solids.positions_m.copy()
             ),
             work=np.zeros(_SCRATCH),
-            doubts=np.empty(_MOST_DOUBTS),
+            doubts=np.empty(_MAX_DOUBTS),
         )
         other._take(copied)
         return other
@@ -167,7 +167,7 @@ class Sweeper:
         if not step > 0.0:
             raise ValueError(f"the step of a motion's check is {step:g}, not more than 0")
         way = q1 - q0
-        pieces = math.ceil(float(np.sqrt(way @ way)) / (MOST_STEPS * step)) or 1
+        pieces = math.ceil(float(np.sqrt(way @ way)) / (MAX_STEPS * step)) or 1
         doubtful = [np.empty((0, len(q0)))]
         for piece in range(pieces):
             begin = q0 + way * (piece / pieces)

@@ -56,7 +56,7 @@ KIND, FRAME, FIRST_VERTEX, VERTICES = range(4)
 HULL, BOX, CYLINDER, SEGMENT, ELLIPSOID, PLANE, OTHER = range(7)
 """Kinds of solids. Of the last nothing is known."""
 
-_MOST_ROUNDS = 32
+_MAX_ROUNDS = 32
 _ATTEMPTS = 3
 _DEEP_M = 5e-6
 """An overlap of less is left to MuJoCo, which stops its own search at a millionth of a metre."""
@@ -424,7 +424,7 @@ def separation(one, other, placed, enough, least, axis, work):
         elif attempt == 2:
             x, y, z = -0.64, 0.6, -0.48
         count, length, last = 0, 1.0, 1e300
-        for _ in range(_MOST_ROUNDS):
+        for _ in range(_MAX_ROUNDS):
             _support(one, placed, -x, -y, -z, work, 0)
             _support(other, placed, x, y, z, work, 1)
             for k in range(3):
@@ -475,7 +475,7 @@ def outside_m(points, corners):
             v[k] = corners[0, k] - points[i, k]
             W[0, k] = v[k]
         count, last = 1, 1e300
-        for _ in range(_MOST_ROUNDS):
+        for _ in range(_MAX_ROUNDS):
             square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
             if square >= last or square < 1e-18:
                 break

@@ -38,11 +38,11 @@ from gazelle.motion.collision.sweep_arguments import (
 from gazelle.motion.kinematics.chain import LinkTree
 from gazelle.motion.kinematics.kernels import tree
 
-__all__ = ["COLLIDES", "FREE", "MOST_STEPS", "TOO_LONG", "UNDECIDED", "pair_clear", "sweep"]
+__all__ = ["COLLIDES", "FREE", "MAX_STEPS", "TOO_LONG", "UNDECIDED", "pair_clear", "sweep"]
 
 FREE, COLLIDES, UNDECIDED, TOO_LONG = 0, 1, 2, 3
 
-MOST_STEPS = 10_000
+MAX_STEPS = 10_000
 """Longer motions are looked at piece by piece, or room for their parts would be too large."""
 
 _NEVER_M = 1e300
@@ -51,7 +51,7 @@ _ONLY_A_LOOK = -1.0
 _FEW = 64
 _SHORT = 0.05
 _LOOK_EVERY = 0.4
-_MOST_LOOKS = 63
+_MAX_LOOKS = 63
 
 
 @njit(cache=True, nogil=True)
@@ -341,7 +341,7 @@ def _to_the_front(pair, order):
 def _first_looks(length):
     """Return at how many states to look first: most motions that are not free show it there."""
     looks = 0
-    while looks < _MOST_LOOKS and length > _LOOK_EVERY * (looks + 1):
+    while looks < _MAX_LOOKS and length > _LOOK_EVERY * (looks + 1):
         looks = 2 * looks + 1
     return looks
 

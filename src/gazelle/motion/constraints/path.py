@@ -16,7 +16,7 @@ _SLACK = 1e-6
 _ITERATIONS = 40
 _SHARE = 0.7
 _DAMPING = 1e-6
-_LONGEST_STEP = 0.3
+_MAX_STEP = 0.3
 _DIFFERENCE = 1e-6
 
 
@@ -96,7 +96,7 @@ def projection(
             square = columns @ columns.T + _DAMPING * np.eye(len(error))
             step = -columns.T @ np.linalg.solve(square, error)
             length = float(np.linalg.norm(step))
-            q = space.clamped(q + step * min(1.0, _LONGEST_STEP / max(length, 1e-12)))
+            q = space.clamped(q + step * min(1.0, _MAX_STEP / max(length, 1e-12)))
         return q if not residual(q, 1.0).any() else None
 
     return project

@@ -24,8 +24,8 @@ __all__ = ["FIXED", "QUATERNION", "SLIDE", "TURN", "chain_jacobian", "chain_pose
 
 FIXED, TURN, SLIDE, QUATERNION = 0, 1, 2, 3
 
-_LEAST_DAMPING = 1e-5
-_LARGEST_STEP = 1.0
+_MIN_DAMPING = 1e-5
+_MAX_STEP = 1.0
 _PATIENCE = 6
 _ENOUGH_PROGRESS = 0.8
 _POLISH = 2
@@ -357,7 +357,7 @@ def solve(chain, goal, lower, upper, seeds, out):
                 for i in range(nv):
                     for j in range(nv):
                         H[i, j] = H0[i, j] if free[i] and free[j] else 0.0
-                    H[i, i] = (H0[i, i] if free[i] else 1.0) + E + _LEAST_DAMPING
+                    H[i, i] = (H0[i, i] if free[i] else 1.0) + E + _MIN_DAMPING
                     dx[i] = 0.0
                 for i in range(nv):
                     if not free[i]:
@@ -377,7 +377,7 @@ def solve(chain, goal, lower, upper, seeds, out):
             largest = 0.0
             for i in range(nv):
                 largest = max(largest, abs(dx[i]))
-            scale = _LARGEST_STEP / largest if largest > _LARGEST_STEP else 1.0
+            scale = _MAX_STEP / largest if largest > _MAX_STEP else 1.0
             for i in range(nv):
                 v = dof_variables[i]
                 if v >= 0:

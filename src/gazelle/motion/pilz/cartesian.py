@@ -17,7 +17,7 @@ __all__ = ["CartesianPath", "circle", "line"]
 
 _COLINEAR = 1e-5
 _RADIUS_DIFFERENCE_M = 1e-2
-_SHORTEST_RADIUS_M = 1e-5
+_MIN_RADIUS_M = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +116,7 @@ def _center(p0: FloatArray, interim: FloatArray, p1: FloatArray, normal: FloatAr
 
 
 def _check_radii(first: float, last: float) -> None:
-    if min(first, last) < _SHORTEST_RADIUS_M:
+    if min(first, last) < _MIN_RADIUS_M:
         _fail("the center of CIRC is its start or its goal")
     if abs(first - last) > _RADIUS_DIFFERENCE_M:
         _fail(

@@ -12,7 +12,7 @@ from gazelle.motion.space import FloatArray
 
 __all__ = ["Auxiliary", "AuxiliaryKind", "Command", "CommandKind"]
 
-_LEAST_SCALING = 1e-4
+_MIN_SCALING = 1e-4
 
 
 class CommandKind(enum.StrEnum):
@@ -71,8 +71,8 @@ class Command:
         """
         factors = ("Velocity", self.velocity_scaling), ("Acceleration", self.acceleration_scaling)
         for name, value in factors:
-            if not _LEAST_SCALING <= value <= 1.0:
-                text = f"{name} scaling not in range [{_LEAST_SCALING:g}, 1], actual value is: "
+            if not _MIN_SCALING <= value <= 1.0:
+                text = f"{name} scaling not in range [{_MIN_SCALING:g}, 1], actual value is: "
                 raise PlanningError(ErrorCode.INVALID_MOTION_PLAN, f"{text}{value:g}")
         if not np.isfinite(self.goal).all():
             reason = f"the goal of {self.kind} has numbers that are not finite"

@@ -20,7 +20,7 @@ from gazelle.motion.timing.trajectory import Trajectory
 
 __all__ = ["Kinematics", "PilzPlanner"]
 
-_LEAST_MOVEMENT = 1e-3
+_MIN_MOVEMENT = 1e-3
 _GOAL_PATIENCE = Patience(attempts=50)
 
 
@@ -121,7 +121,7 @@ class PilzPlanner:
             raise PlanningError(ErrorCode.PLANNING_FAILED, f"{reason} (joint_limits.yaml)")
         way = self._goal(start, command) - start
         furthest = float(np.abs(way).max())
-        if furthest < _LEAST_MOVEMENT:
+        if furthest < _MIN_MOVEMENT:
             return measured(np.zeros(1), start[None])
         faster, harder = command.velocity_scaling, command.acceleration_scaling
         speed = Trapezoid(furthest, limits[0] * faster, limits[1] * harder, limits[2] * harder)

@@ -122,7 +122,7 @@ Waypoints = list[FloatArray]
 
 _CHAIN_STEP = 0.1
 
-_MOST_OF_CHAIN = 400
+_MAX_OF_CHAIN = 400
 
 _TRIES_PER_GOAL = 3
 
@@ -241,7 +241,7 @@ class Problem:
         assert self.project is not None
         chain: Waypoints = []
         gone, here = 0.0, q
-        while gone < most and len(chain) < _MOST_OF_CHAIN:
+        while gone < most and len(chain) < _MAX_OF_CHAIN:
             way = self.space.between(here, target)
             distance = float(np.linalg.norm(way))
             if distance <= _CHAIN_STEP:

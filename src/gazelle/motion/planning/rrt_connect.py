@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.motion.collision.sweep_kernels import MOST_STEPS
+from gazelle.motion.collision.sweep_kernels import MAX_STEPS
 from gazelle.motion.planning.problem import Problem, Waypoints
 from gazelle.motion.planning.rrt_connect_kernels import ARRIVED, DOUBTFUL, Draws, connect_trees
 from gazelle.motion.planning.tree import Tree, warm_up_trees
@@ -65,7 +65,7 @@ def _straight(problem: Problem) -> Waypoints | None:
 
 def _swept_motions(problem: Problem) -> SweptMotions | None:
     """Return what a kernel needs to check the motions of a problem, None where it cannot."""
-    is_long = problem.range > MOST_STEPS * problem.step
+    is_long = problem.range > MAX_STEPS * problem.step
     return None if is_long else problem.swept_motions
 
 

@@ -9,9 +9,9 @@ from gazelle.motion.space import FloatArray
 
 __all__ = ["shortcut"]
 
-_MOST_TRIES = 100
+_MAX_TRIES = 100
 _PATIENCE = 12
-_LEAST_GAIN = 0.01
+_MIN_GAIN = 0.01
 
 
 def shortcut(problem: Problem, path: Waypoints) -> Waypoints:
@@ -22,7 +22,7 @@ def shortcut(problem: Problem, path: Waypoints) -> Waypoints:
     """
     path = _without_detours(problem, path)
     failures = 0
-    for _ in range(_MOST_TRIES):
+    for _ in range(_MAX_TRIES):
         if failures >= _PATIENCE or len(path) < 3 or problem.is_over():
             break
         shorter = _try(problem, path)
@@ -72,7 +72,7 @@ def _try(problem: Problem, path: Waypoints) -> Waypoints | None:
         return None
     begin = _point(path, marks, lengths, first, low)
     end = _point(path, marks, lengths, last, high)
-    if high - low - problem.space.distance(begin, end) < _LEAST_GAIN * marks[-1]:
+    if high - low - problem.space.distance(begin, end) < _MIN_GAIN * marks[-1]:
         return None
     waypoints = problem.connect(begin, end)
     if waypoints is None or _length([begin, *waypoints]) >= high - low:

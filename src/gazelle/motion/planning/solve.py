@@ -35,7 +35,7 @@ _START_BEYOND = 0.1
 """MoveIt's start_state_max_bounds_error, rad or m."""
 _GOAL_BEYOND = 1e-3
 _FINER = 0.4
-_MOST_GOALS_TOLD = 3
+_MAX_GOALS_TOLD = 3
 _USUAL = Search()
 
 
@@ -153,7 +153,7 @@ def _find_goals(
             reason = "no configuration that reaches the goal was found"
             raise PlanningError(ErrorCode.NO_IK_SOLUTION, reason)
     if not problem.goals:
-        told = list(dict.fromkeys(reason for _, reason in faults))[:_MOST_GOALS_TOLD]
+        told = list(dict.fromkeys(reason for _, reason in faults))[:_MAX_GOALS_TOLD]
         code = faults[0][0] if faults else ErrorCode.INVALID_GOAL_CONSTRAINTS
         raise PlanningError(code, "; ".join(told) or "there is no goal")
 

@@ -18,7 +18,7 @@ __all__ = ["Arc", "Line", "Piece", "corner_arc", "distinct", "pieces"]
 
 _ALMOST_STRAIGHT = 1e-6
 _ALMOST_BACK = math.pi - 1e-3
-_SHORTEST = 1e-9
+_MIN_LENGTH = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +62,7 @@ def distinct(waypoints: FloatArray) -> FloatArray:
     """Return the waypoints (k, n) without those that repeat the one before."""
     kept = [waypoints[0]]
     for q in waypoints[1:]:
-        if float(np.linalg.norm(q - kept[-1])) > _SHORTEST:
+        if float(np.linalg.norm(q - kept[-1])) > _MIN_LENGTH:
             kept.append(q)
     return np.array(kept)
 
@@ -121,7 +121,7 @@ def pieces(waypoints: FloatArray, tolerances: Sequence[float]) -> list[Piece]:
 
 def _add_line(piece: Piece, start: FloatArray, end: FloatArray) -> None:
     length = float(np.linalg.norm(end - start))
-    if length > _SHORTEST:
+    if length > _MIN_LENGTH:
         piece.append(Line(start, (end - start) / length, length))
 
 

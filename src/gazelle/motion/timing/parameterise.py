@@ -22,7 +22,7 @@ __all__ = ["Method", "method_of", "parameterise"]
 Method = Literal["totg", "jerk"]
 
 _HALVINGS = 5
-_SHORTEST_PERIOD_S = 0.01
+_MIN_PERIOD_S = 0.01
 
 
 def parameterise(
@@ -75,7 +75,7 @@ def parameterise(
         period = resample_dt_s
         while validity is not None and _fault(space, validity, trajectory.positions):
             period /= 2.0
-            if period < _SHORTEST_PERIOD_S:
+            if period < _MIN_PERIOD_S:
                 break
             trajectory = item.sampled(space, period, limits.notes)
         else:

@@ -13,7 +13,7 @@ from gazelle.navigation.costmap.kernels import outline_cost
 
 __all__ = ["BLOCKED", "distance_field", "score_samples", "simulate"]
 
-_MOST_STEPS = 4096
+_MAX_STEPS = 4096
 BLOCKED = 1e6
 """Distance of cells that are obstacles or that nothing leads to."""
 
@@ -117,7 +117,7 @@ def score_samples(cells, distances, front, corners, state, samples, terms):
     n = samples.shape[0]
     scores = np.empty(n)
     count = corners.shape[0]
-    poses = np.empty((_MOST_STEPS + 1, 3))
+    poses = np.empty((_MAX_STEPS + 1, 3))
     reach = 0.0
     for k in range(count):
         reach = max(reach, math.hypot(corners[k, 0], corners[k, 1]))
@@ -132,13 +132,13 @@ def score_samples(cells, distances, front, corners, state, samples, terms):
             pieces = speed * timing.duration_s / timing.step_m
             pieces = max(pieces, abs(w) * timing.duration_s / timing.step_rad)
             steps = math.ceil(pieces - 1e-9)
-        steps = min(steps, _MOST_STEPS)
+        steps = min(steps, _MAX_STEPS)
         if steps <= 0:
             scores[k] = -10.0
             continue
         # Between the points that are scored nothing of the outline may pass over a cell unseen.
         between = math.ceil((speed + abs(w) * reach) * timing.duration_s / steps * inverse)
-        between = max(min(between, _MOST_STEPS // steps), 1)
+        between = max(min(between, _MAX_STEPS // steps), 1)
         steps *= between
         dt = timing.duration_s / steps
         scale = 1.0

@@ -37,7 +37,7 @@ _IN_GOAL_M = 0.25
 _ON_THE_WAY_M, _ON_THE_WAY_RAD = 0.03, 0.05
 _ASTRAY_M = 0.15
 _LOOK_AHEAD = 6
-_MOST_IN_A_ROW = 4
+_MAX_IN_A_ROW = 4
 _SEARCH_M = 3.0
 
 
@@ -168,7 +168,7 @@ class Maneuvering:
         # What has brought the robot no further some times does not the next time.
         self._in_a_row = self._in_a_row + 1 if left_m > self._left_m - 0.3 else 0
         self._left_m = min(left_m, self._left_m)
-        if self._in_a_row >= _MOST_IN_A_ROW:
+        if self._in_a_row >= _MAX_IN_A_ROW:
             return None
         free = [s for s in _SCALES if _is_free(grid, footprint, state.pose, s)]
         if not free:

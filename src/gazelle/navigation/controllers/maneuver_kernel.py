@@ -16,7 +16,7 @@ __all__ = ["find_maneuver", "outline_is_free"]
 
 _STEP_M = 0.05
 _HEADINGS = 48
-_MOST_LOOKED_AT = 60_000
+_MAX_LOOKED_AT = 60_000
 # Lengths, m, that a turn by one heading and a metre backwards are worth.
 _TURN_M, _BACK = 0.02, 2.0
 _GREED = 1.2
@@ -112,7 +112,7 @@ def find_maneuver(cells, outline, start, target, near):
     columns = int(width / inverse / _STEP_M) + 2
     rows = int(height / inverse / _STEP_M) + 2
     best = np.full(columns * rows * _HEADINGS, 1e9)
-    room = 4 * _MOST_LOOKED_AT + 8
+    room = 4 * _MAX_LOOKED_AT + 8
     keys = np.empty(room, np.float64)
     items = np.empty(room, np.int64)
     xs = np.empty(room)
@@ -131,7 +131,7 @@ def find_maneuver(cells, outline, start, target, near):
     nodes = 1
     count = 1
     looked = 0
-    while count > 0 and looked < _MOST_LOOKED_AT:
+    while count > 0 and looked < _MAX_LOOKED_AT:
         node = items[0]
         count -= 1
         if count > 0:

@@ -21,7 +21,7 @@ from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = ["CONTROLLERS", "REFUSED_CONTROLLERS", "ControllerKind", "ControllerSetting"]
 
-_MANEUVER_M_S, _MANEUVER_RAD_S, _SLOWEST_RAD_S = 0.2, 0.6, 0.1
+_MANEUVER_M_S, _MANEUVER_RAD_S, _MIN_SPEED_RAD_S = 0.2, 0.6, 0.1
 # TrajectoryPlannerROS had these up to ROS Lunar.
 _OLD_NAMES = frozenset({"gdist_scale", "pdist_scale"})
 ControllerOptions = (
@@ -117,7 +117,7 @@ def _maneuvering(
     if m_s <= 0 or rad_s <= 0:
         return controller
     fastest, turn = min(m_s, _MANEUVER_M_S), min(rad_s, _MANEUVER_RAD_S)
-    slowest = min(max(slowest_rad_s, _SLOWEST_RAD_S), turn)
+    slowest = min(max(slowest_rad_s, _MIN_SPEED_RAD_S), turn)
     return Maneuvering(controller, Pace(fastest, turn, slowest), setting.period_s)
 
 

@@ -17,7 +17,7 @@ __all__ = ["HIT", "NO_WAY", "roll_out"]
 HIT, NO_WAY = -1.0, -2.0
 """Costs of trajectories on which the robot hits something or leaves the costmap, and of those
 that lead where no way leads to the goal."""
-_MOST_STEPS = 4096
+_MAX_STEPS = 4096
 
 
 @njit(cache=True, nogil=True)
@@ -37,7 +37,7 @@ def roll_out(cells, distances, corners, state, samples, terms, plan):
     path, goal, timing, heading = distances.path, distances.goal, terms.timing, terms.heading_s
     n = samples.shape[0]
     found = np.empty((n, 4))
-    poses = np.empty((_MOST_STEPS + 1, 3))
+    poses = np.empty((_MAX_STEPS + 1, 3))
     last = plan.shape[0] - 1
     reach = 0.0
     for k in range(corners.shape[0]):
@@ -49,10 +49,10 @@ def roll_out(cells, distances, corners, state, samples, terms, plan):
             steps = timing.duration_s / timing.step_m
         elif abs(samples[k, 2]) / timing.step_rad > steps:
             steps = abs(samples[k, 2]) / timing.step_rad
-        steps = min(max(int(steps + 0.5), 1), _MOST_STEPS)
+        steps = min(max(int(steps + 0.5), 1), _MAX_STEPS)
         # Between the points that are scored nothing of the outline may pass over a cell unseen.
         between = (speed + abs(samples[k, 2]) * reach) * timing.duration_s / steps * inverse
-        between = max(min(math.ceil(between), _MOST_STEPS // steps), 1)
+        between = max(min(math.ceil(between), _MAX_STEPS // steps), 1)
         steps *= between
         dt = timing.duration_s / steps
         simulate(state, samples[k], terms.acceleration, steps + 1, dt, True, poses)

@@ -15,10 +15,10 @@ _SIGMA_M = 0.1
 _OUTLIERS = 0.1
 # Neighbouring beams err alike, so more of them say no more.
 _INDEPENDENT = 30.0
-_LEAST_SPREAD = np.array([0.03, 0.03, 0.02])
+_MIN_SPREAD = np.array([0.03, 0.03, 0.02])
 _FIRST_STEP = np.array([0.04, 0.04, 0.03])
 _HALVINGS = 4
-_MOST_STEPS = 40
+_MAX_STEPS = 40
 _AROUND = np.array(list(itertools.product((0.0, -1.0, 1.0), repeat=3)))
 
 
@@ -53,10 +53,10 @@ class Refiner:
         """
         if not len(ends):
             return mean
-        inverse = np.asarray(np.linalg.inv(covariance + np.diag(_LEAST_SPREAD**2)), np.float64)
+        inverse = np.asarray(np.linalg.inv(covariance + np.diag(_MIN_SPREAD**2)), np.float64)
         best, step = mean.copy(), _FIRST_STEP.copy()
         halvings = 0
-        for _ in range(_MOST_STEPS):
+        for _ in range(_MAX_STEPS):
             around = best + _AROUND * step
             chosen = int(np.argmax(self._scores(around, mean, inverse, ends)))
             if chosen:

@@ -23,7 +23,7 @@ __all__ = ["Amcl", "Estimate", "best_cluster", "statistics"]
 
 _CELL = np.array([0.5, 0.5, math.pi / 18])
 
-_MOST_CELLS = 20_000_000
+_MAX_CELLS = 20_000_000
 
 _ANGLES = 36
 
@@ -54,7 +54,7 @@ def best_cluster(
     cells[:, 2] %= _ANGLES
     low = cells[:, :2].min(axis=0)
     size = cells[:, :2].max(axis=0) - low + 1
-    if int(size[0]) * int(size[1]) * _ANGLES > _MOST_CELLS:
+    if int(size[0]) * int(size[1]) * _ANGLES > _MAX_CELLS:
         return statistics(particles, weights)
     # One slice more on either side of the angles, so that neighbours across ±180° are seen.
     held = np.zeros((size[0], size[1], _ANGLES + 1), bool)

@@ -13,10 +13,10 @@ from gazelle.navigation.localisation.field import LikelihoodMap
 __all__ = ["chances_of", "places_like"]
 
 _POSES_PER_M2 = 6000
-_MOST_POSES = 300_000
+_MAX_POSES = 300_000
 _BEAMS = 30
 _CELL = np.array([0.3, 0.3, math.radians(20)])
-_MOST_PLACES = 300
+_MAX_PLACES = 300
 _WIDE = np.diag([0.1**2, 0.1**2, 0.1**2])
 _JITTER = np.array([0.03, 0.03, 0.02])
 # Maps are some centimetres wrong, so that a scan alone decides nothing for good.
@@ -50,14 +50,14 @@ def places_like(
         random: where chance comes from.
     """
     area_m2 = len(place.free) * place.resolution_m**2
-    tried = int(min(max(area_m2 * _POSES_PER_M2, count), _MOST_POSES))
+    tried = int(min(max(area_m2 * _POSES_PER_M2, count), _MAX_POSES))
     poses = place.random_poses(tried, random)
     if not len(ends):
         return poses[:count]
     order = np.argsort(-refiner.log_fits(poses, ends[:: max(len(ends) // _BEAMS, 1)]))
     poses = poses[order]
     _cells, first = np.unique(np.floor(poses / _CELL), axis=0, return_index=True)
-    chosen = poses[np.sort(first)[:_MOST_PLACES]]
+    chosen = poses[np.sort(first)[:_MAX_PLACES]]
     best = np.array([refiner.refine(pose, _WIDE, ends) for pose in chosen])
     drawn = random.choice(len(best), count, p=chances_of(refiner.log_fits(best, ends)))
     return np.asarray(best[drawn] + random.standard_normal((count, 3)) * _JITTER)

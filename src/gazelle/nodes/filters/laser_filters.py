@@ -57,7 +57,7 @@ FILTER_TABLES = {
     for name, one in FILTERS.items()
 }
 
-_MOST = 100
+_MAX = 100
 _NO_NUMBERS = {".inf": math.inf, "-.inf": -math.inf, ".nan": math.nan}
 
 
@@ -74,7 +74,7 @@ def chain_of(tree: Mapping[str, Any], owner: str, found: Diagnostics) -> list[Fi
     """
     listed = tree.get("scan_filter_chain")
     if not isinstance(listed, list):
-        listed = [tree[key] for key in (f"filter{k}" for k in range(1, _MOST)) if key in tree]
+        listed = [tree[key] for key in (f"filter{k}" for k in range(1, _MAX)) if key in tree]
     chain, wrong = [], []
     for position, item in enumerate(listed):
         if not isinstance(item, Mapping) or "type" not in item:

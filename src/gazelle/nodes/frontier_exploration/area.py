@@ -29,7 +29,7 @@ _NAME = "explore_costmap"
 _LAYER = "explore_boundary"
 _TRAVEL_POINTS = ("closest", "middle", "centroid")
 # Single cells are no frontiers.
-_LEAST_CELLS = 2
+_MIN_CELLS = 2
 _UNKNOWN, _OCCUPIED, _FREE_BELOW = -1, 100, 50
 
 Corners = NDArray[np.float64]
@@ -84,7 +84,7 @@ class Area:
         with self.costmap.lock:
             grid = self._limited(self.costmap.grid)
         found = find_frontiers(
-            grid, robot_m, free_below=_FREE_BELOW, least_size_m=_LEAST_CELLS * grid.resolution_m
+            grid, robot_m, free_below=_FREE_BELOW, least_size_m=_MIN_CELLS * grid.resolution_m
         )
         return sorted(found, key=lambda one: one.distance_m)
 

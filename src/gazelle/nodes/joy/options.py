@@ -27,7 +27,7 @@ from gazelle.parameters.reader import ParameterReader
 __all__ = ["PARAMETERS", "JoyOptions", "read_options"]
 
 _FULL = 32767.0
-_MOST_DEADZONE = 0.9
+_MAX_DEADZONE = 0.9
 _ROWS = (
     Parameter("dev", "text", "/dev/input/js0", "the device"),
     Parameter("device_name", "text", "", "the first device of this name", aliases=("dev_name",)),
@@ -108,8 +108,8 @@ def read_options(
 def _deadzone(settings: ParameterReader) -> float:
     value = settings.number("deadzone")
     used = value / _FULL if value >= 1 else value
-    used = min(max(used, 0.0), _MOST_DEADZONE)
+    used = min(max(used, 0.0), _MAX_DEADZONE)
     if used != value:
-        text = f"deadzone {value:g} is not a share from 0 to {_MOST_DEADZONE}; {used:g} is used"
+        text = f"deadzone {value:g} is not a share from 0 to {_MAX_DEADZONE}; {used:g} is used"
         settings.report("parameter.bad-value", text, "write a share of full deflection")
     return used

@@ -16,7 +16,7 @@ __all__ = ["JumpLimits", "straight_path"]
 
 _FINE = 0.02
 _SLACK = 1e-5
-_MOST_STEPS = 100_000
+_MAX_STEPS = 100_000
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def _targets(start: FloatArray, poses: Sequence[FloatArray], step_m: float) -> l
         turn = rotation_vector(here[:3, :3].T @ pose[:3, :3])
         way = pose[:3, 3] - here[:3, 3]
         length = max(float(np.linalg.norm(way)), float(np.linalg.norm(turn)))
-        count = min(max(1, int(np.ceil(length / step_m))), _MOST_STEPS)
+        count = min(max(1, int(np.ceil(length / step_m))), _MAX_STEPS)
         for part in np.arange(1, count + 1) / count:
             between = np.eye(4)
             partly = matrix_of(turn * part, Parameterization.ROTATION_VECTOR)

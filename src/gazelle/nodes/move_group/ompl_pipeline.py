@@ -34,7 +34,7 @@ from gazelle.nodes.move_group.problem import GroupProblem
 __all__ = ["OMPL"]
 
 _ELSEWHERE = frozenset({"chomp", "stomp"})
-_LEAST_TIME_S = 1.0
+_MIN_TIME_S = 1.0
 _SEEDS = 7919
 
 
@@ -101,7 +101,7 @@ def _plan(job: PlanningJob) -> tuple[Trajectory, tuple[str, ...]]:
 def _best_path(job: PlanningJob, along: tuple[PathConstraint, ...], goals: Sequence[Goal]) -> Path:
     """Plan as often as asked within the time allowed and take the shortest path."""
     limit_s = float(job.request.allowed_planning_time)
-    deadline = time.perf_counter() + (limit_s if limit_s > 0 else _LEAST_TIME_S)
+    deadline = time.perf_counter() + (limit_s if limit_s > 0 else _MIN_TIME_S)
     best: Path | None = None
     for attempt in range(max(1, int(job.request.num_planning_attempts))):
         left_s = deadline - time.perf_counter()

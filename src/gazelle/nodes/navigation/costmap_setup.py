@@ -52,7 +52,7 @@ _FAMILIES = {
     SourceOptions: ("observation source", "A sensor of an obstacle or voxel layer."),
 }
 # 256 MiB: 800 m × 800 m at 5 cm.
-_MOST_CELLS = 1 << 28
+_MAX_CELLS = 1 << 28
 _OUTLINE = ("footprint", "robot_radius")
 _RANGES = ("obstacle_range", "raytrace_range")
 INHERITED = (*_OUTLINE, *_RANGES)
@@ -314,13 +314,13 @@ def _source(
 def _sized(settings: ParameterReader, options: CostmapOptions) -> CostmapOptions:
     """Return options of a costmap that has no more cells than a machine can hold."""
     cells = options.width / options.resolution * (options.height / options.resolution)
-    if cells <= _MOST_CELLS:
+    if cells <= _MAX_CELLS:
         return options
     usual = CostmapOptions()
     settings.report(
         "parameter.bad-value",
         f"parameters 'width' ({options.width:g} m) and 'height' ({options.height:g} m) are "
-        f"{cells:.3g} cells of {options.resolution:g} m, {_MOST_CELLS:.3g} can be held; "
+        f"{cells:.3g} cells of {options.resolution:g} m, {_MAX_CELLS:.3g} can be held; "
         f"{usual.width:g} m and {usual.height:g} m are used",
         "write a smaller window or a coarser resolution",
     )

@@ -72,7 +72,7 @@ class Flavour:
 
 
 _ENGINE = frozenset(one.name for one in fields(SlamParameters))
-_FARTHEST_M = 30.0
+_MAX_DISTANCE_M = 30.0
 """Fields of all that is seen would be too large, and beams that long err by their angle."""
 
 
@@ -101,6 +101,6 @@ def options_of(flavour: Flavour, settings: ParameterReader) -> SlamOptions:
         if frame in own:
             own[frame] = str(own[frame]).removeprefix("/")
     if "max_range_m" in engine:
-        engine["max_range_m"] = min(_FARTHEST_M, engine["max_range_m"])
+        engine["max_range_m"] = min(_MAX_DISTANCE_M, engine["max_range_m"])
     slam = replace(flavour.base.slam, **engine)
     return replace(flavour.base, slam=slam, **own)

@@ -24,7 +24,7 @@ Color = tuple[int, int, int]
 _CHANNELS = ("background_r", "background_g", "background_b")
 _DEFAULTS = dict(zip(_CHANNELS, BACKGROUND, strict=True))
 _WORDS = dict(zip(_CHANNELS, ("Red", "Green", "Blue"), strict=True))
-_HIGHEST = 255
+_MAX = 255
 
 PARAMETERS = ParameterTable(
     "turtlesim",
@@ -39,7 +39,7 @@ PARAMETERS = ParameterTable(
                 f"{word.lower()} of the colour below the lines; in ROS 1 from the next `clear`, and"
                 f" `{name}` of the namespace counts, too, as up to Melodic",
                 low=0,
-                high=_HIGHEST,
+                high=_MAX,
                 live=True,
             )
             for name, word in _WORDS.items()
@@ -107,9 +107,9 @@ class _Ros1Settings:
         store = self._node.parameters
         own = store.get(f"~{name}") if store.has(f"~{name}") else default
         value = store.get(name) if own == default and store.has(name) else own
-        if isinstance(value, int) and 0 <= value <= _HIGHEST:
+        if isinstance(value, int) and 0 <= value <= _MAX:
             return int(value)
-        text = f"parameter '{name}' is {value!r}, no whole number from 0 to {_HIGHEST}"
+        text = f"parameter '{name}' is {value!r}, no whole number from 0 to {_MAX}"
         self._node.log("warn", f"{text}; {default} is taken")
         return default
 
@@ -122,7 +122,7 @@ class _Ros2Settings:
         for name in values.keys() & arguments.params.keys():
             values[name] = _declared(name, arguments.params[name], values[name])
         descriptors = {
-            name: Descriptor(f"{word} channel of the background color", lowest=0, highest=_HIGHEST)
+            name: Descriptor(f"{word} channel of the background color", lowest=0, highest=_MAX)
             for name, word in _WORDS.items()
         }
         descriptors["holonomic"] = Descriptor("If true, then turtles will be holonomic")
@@ -168,9 +168,9 @@ def _declared(name: str, value: Any, default: Any) -> Any:
             f"parameter '{name}' is {value!r}; it must be like {default!r}\n"
             f"  ROS says: parameter '{name}' has invalid type: expected [{wanted}] got [{got}]"
         )
-    if name in _DEFAULTS and not 0 <= value <= _HIGHEST:
+    if name in _DEFAULTS and not 0 <= value <= _MAX:
         raise LaunchError(
-            f"parameter '{name}' is {value}; it must be from 0 to {_HIGHEST}\n"
+            f"parameter '{name}' is {value}; it must be from 0 to {_MAX}\n"
             f"  ROS says: Parameter {{{name}}} doesn't comply with integer range."
         )
     return value

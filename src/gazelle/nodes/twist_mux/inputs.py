@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 __all__ = ["Choice", "Input", "read_inputs"]
 
 _MEMBERS = ("topic", "timeout", "priority")
-_MOST = 255
+_MAX = 255
 _PARSING = "ROS says: Error parsing params"
 _FIX = {
     "topics": "topics: {keyboard: {topic: key_vel, timeout: 0.5, priority: 90}}",
@@ -138,7 +138,7 @@ def _input(name: str, group: Mapping[str, Any], owner: str, found: Diagnostics) 
     timeout_s, priority = numbers
     if timeout_s is None or priority is None:
         return None
-    return Input(name, str(group["topic"]), timeout_s, min(max(int(priority), 0), _MOST))
+    return Input(name, str(group["topic"]), timeout_s, min(max(int(priority), 0), _MAX))
 
 
 def _number(value: Any) -> float | None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from gazelle.description.model import CameraSpec, Model, PluginTag, Sensor
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Qos
-from gazelle.graph.subscription import MOST_WAITING, Backlog
+from gazelle.graph.subscription import MAX_WAITING, Backlog
 from gazelle.interfaces import message_type, service_type
 from gazelle.simulator.commands import CommandQueue
 from gazelle.simulator.inputs import InputRefusedError, Inputs, problem_of, refusal
@@ -146,7 +146,7 @@ class Resources:
         host, told = self._host, set[str]()
 
         def overflowed() -> None:
-            text = f"more than {MOST_WAITING} messages wait for the world; the oldest are left out"
+            text = f"more than {MAX_WAITING} messages wait for the world; the oldest are left out"
             host.node.log("WARN", f"[{topic}] {text}")
 
         backlog = Backlog(host.commands.post, callback, overflowed)

@@ -18,7 +18,7 @@ from gazelle.simulator.plugins.table import PluginTable
 __all__ = ["TABLE", "load"]
 
 _ROOT = "world"
-_DEEPEST = 100
+_MAX_DEPTH = 100
 
 TABLE = PluginTable(
     ParameterTable(
@@ -81,7 +81,7 @@ class _Frames:
     def find(self, frame: str) -> Pose | None:
         """Return a frame's pose in the world, None while it is not known."""
         pose = Pose()
-        for _ in range(_DEEPEST):
+        for _ in range(_MAX_DEPTH):
             if frame == _ROOT:
                 return pose
             if frame not in self._parents:

@@ -18,7 +18,7 @@ __all__ = ["all_tables", "known_names", "load_plugin", "looked_up", "plain_name"
 Load = Callable[[PluginContext], None]
 
 _COMMON_BEGIN = "gazebo_ros_"
-_LEAST_LIKENESS = 0.8
+_MIN_LIKENESS = 0.8
 # sdformat's word for a missing file name; Gazebo passes over such a plug-in.
 _NO_PLUGIN = "__default__"
 _RELEASE = re.compile(r"^(gz-sim|ignition-gazebo)\d+(?=-)")
@@ -161,7 +161,7 @@ def _alike(name: str) -> list[str]:
     return [
         known
         for known in known_names()
-        if f"_{known}_" in f"_{name}_" or _likeness(name, known) >= _LEAST_LIKENESS
+        if f"_{known}_" in f"_{name}_" or _likeness(name, known) >= _MIN_LIKENESS
     ]
 
 

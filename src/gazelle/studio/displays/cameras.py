@@ -24,7 +24,7 @@ from gazelle.studio.taps import Sample, Taps
 __all__ = ["CameraInfo", "info_topic", "open_camera", "open_image", "open_picture"]
 
 _SUFFIXES = ("/compressedDepth", "/compressed")
-_LARGEST_PX = 16_384
+_MAX_PX = 16_384
 
 
 def open_image(context: DisplayContext, channel: Channel, params: Params) -> OpenStream:
@@ -108,7 +108,7 @@ def _settings(params: Params) -> PictureSettings:
         low, high = params.number("Min Value", 0.0), params.number("Max Value", 1.0)
     return PictureSettings(
         params.whole("quality", 80, least=1, most=95),
-        params.whole("max_width", 1280, least=16, most=_LARGEST_PX),
+        params.whole("max_width", 1280, least=16, most=_MAX_PX),
         checked_colormap(params.text("colormap", "gray")),
         low,
         high,

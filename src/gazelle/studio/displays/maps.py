@@ -25,7 +25,7 @@ __all__ = ["KIND_MAP", "KIND_MAP_PART", "open_map"]
 KIND_MAP, KIND_MAP_PART = 21, 30
 _REFRESH_S = 0.5
 # A page that is hidden for long asks for no frames; what waits then is put in place meanwhile.
-_MOST_UPDATES = 100
+_MAX_UPDATES = 100
 _NUMBERS = itertools.count(1)
 
 
@@ -70,7 +70,7 @@ class _Grid:
         self._number = 0
         self._told: tuple[int, float, Pose] | None = None
         self._changed: _Rect | None = None
-        self._updates: deque[tuple[int, Sample]] = deque(maxlen=10 * _MOST_UPDATES)
+        self._updates: deque[tuple[int, Sample]] = deque(maxlen=10 * _MAX_UPDATES)
 
     def base(self, sample: Sample) -> None:
         """A whole map has come; runs in the transport's thread."""
@@ -81,7 +81,7 @@ class _Grid:
         if self._newest is None:
             return
         self._updates.append((self._newest[0], sample))
-        if len(self._updates) > _MOST_UPDATES:
+        if len(self._updates) > _MAX_UPDATES:
             # What is wrong with a map is told by its frame.
             with self._lock, contextlib.suppress(StudioError):
                 self._catch_up()

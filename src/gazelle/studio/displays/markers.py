@@ -31,7 +31,7 @@ __all__ = [
 
 _MESH = 10
 _DELETE_ALL = 3
-_MOST_WAITING = 20_000
+_MAX_WAITING = 20_000
 _RETRY_S = 0.5
 _WAIT_S = 10.0
 _SERVICE_S = 2.0
@@ -110,7 +110,7 @@ class _Markers:
         """Runs in the transport's thread."""
         with self._lock:
             self._samples.append(sample)
-            del self._samples[:-_MOST_WAITING]
+            del self._samples[:-_MAX_WAITING]
         self._site.channel.offer(self._frame)
 
     def again(self) -> None:
@@ -130,7 +130,7 @@ class _Markers:
                     self._late = []
                 self._late.append((one, sample.time_s))
         found, self._late = self._late, []
-        return found[-_MOST_WAITING:]
+        return found[-_MAX_WAITING:]
 
     def _frame(self) -> MarkerFrame | None:
         waiting = self._waiting()

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 __all__ = ["PackedPositions", "pack"]
 
-_FEWEST = 4096
+_MIN_COUNT = 4096
 _LEVELS = 65_535
 _COARSEST_M = 0.002
 
@@ -34,7 +34,7 @@ def pack(xyz: NDArray[np.float32]) -> PackedPositions | None:
     Args:
         xyz: (N, 3) finite positions, metres.
     """
-    if len(xyz) < _FEWEST:
+    if len(xyz) < _MIN_COUNT:
         return None
     values = np.ravel(xyz)
     low, high = float(values.min()), float(values.max())

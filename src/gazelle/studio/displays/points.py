@@ -36,7 +36,7 @@ KIND_PACKED_POINTS = 29
 BUDGET = 100_000
 """Points of one message that a page gets unless it says otherwise."""
 
-_LARGEST_BUDGET = 5_000_000
+_MAX_BUDGET = 5_000_000
 # By sensor_msgs/PointField's numbers.
 _FIELD_TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 
@@ -74,7 +74,7 @@ def open_points(site: Site) -> OpenStream:
 
 def budget_of(site: Site) -> int:
     """Return the most points that a page wants of one message."""
-    return site.params.whole("Point Budget", BUDGET, least=1, most=_LARGEST_BUDGET)
+    return site.params.whole("Point Budget", BUDGET, least=1, most=_MAX_BUDGET)
 
 
 def points_of(message: Any, budget: int, channels: tuple[str, ...], with_rgb: bool) -> Points:

@@ -15,7 +15,7 @@ from gazelle.studio.errors import StudioError
 
 __all__ = ["Curve", "curves_of", "read_number"]
 
-_MOST_ITEMS = 50
+_MAX_ITEMS = 50
 _STEP = re.compile(r"(\w+)((?:\[\d+\])*)")
 _INDEX = re.compile(r"\[(\d+)\]")
 _SKIPPED = (
@@ -144,7 +144,7 @@ def _numbers(
         yield from _inside(topic, type_name, steps, message)
     elif field.type.array is not Array.ONE:
         count = field.type.size if field.type.array is Array.FIXED else _length(value)
-        for index in range(min(count, _MOST_ITEMS)):
+        for index in range(min(count, _MAX_ITEMS)):
             yield from _numbers(topic, type_name, (*steps, index), _item(field), message)
     elif field.type.is_message:
         yield from _inside(topic, field.type.base, steps, message)

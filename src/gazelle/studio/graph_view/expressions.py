@@ -21,9 +21,9 @@ __all__ = ["Expression", "expression"]
 
 Expression = Callable[[Mapping[str, float]], float]
 
-_LONGEST = 500
-_DEEPEST = 50
-_MOST_BITS = 1024
+_MAX_LENGTH = 500
+_MAX_DEPTH = 50
+_MAX_BITS = 1024
 _CONSTANTS = {"pi": math.pi, "e": math.e, "tau": math.tau, "inf": math.inf, "nan": math.nan}
 # They make whole numbers without limit, or take lists.
 _LEFT_OUT = ("comb", "dist", "factorial", "fsum", "perm", "prod", "sumprod")
@@ -67,8 +67,8 @@ def expression(text: str, names: tuple[str, ...] = ("t", "i")) -> Expression:
     Raises:
         StudioError: it is no expression of numbers.
     """
-    if len(text) > _LONGEST:
-        raise StudioError(f"the expression is longer than {_LONGEST} characters")
+    if len(text) > _MAX_LENGTH:
+        raise StudioError(f"the expression is longer than {_MAX_LENGTH} characters")
     try:
         tree = ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -87,10 +87,10 @@ def expression(text: str, names: tuple[str, ...] = ("t", "i")) -> Expression:
 
 def _check(node: ast.AST, text: str, names: tuple[str, ...], depth: int) -> None:
     """Refuse whatever is not listed here."""
-    if depth > _DEEPEST:
+    if depth > _MAX_DEPTH:
         raise StudioError(f"'{text}' is nested too deep")
     if isinstance(node, ast.Constant) and type(node.value) in (int, float, bool):
-        if isinstance(node.value, int) and node.value.bit_length() > _MOST_BITS:
+        if isinstance(node.value, int) and node.value.bit_length() > _MAX_BITS:
             raise StudioError(f"'{text}': the number is too large")
         return
     if isinstance(node, ast.Name):

@@ -26,7 +26,7 @@ __all__ = [
     "set_publisher",
 ]
 
-_MOST_PUBLISHERS = 100
+_MAX_PUBLISHERS = 100
 _ALONE_S = 10.0
 _LOOK_S = 0.2
 
@@ -92,8 +92,8 @@ class Publishers:
         name = params.text("id")
         with self._lock:
             old = self._made.get(name)
-            if old is None and len(self._made) >= _MOST_PUBLISHERS:
-                raise StudioError(f"there are {_MOST_PUBLISHERS} publishers already")
+            if old is None and len(self._made) >= _MAX_PUBLISHERS:
+                raise StudioError(f"there are {_MAX_PUBLISHERS} publishers already")
             settings = _Settings(params, old.settings if old else None)
             settings.check(self._node)
             if old is not None and old.settings.end == settings.end:

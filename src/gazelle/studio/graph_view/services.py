@@ -15,7 +15,7 @@ from gazelle.studio.params import Params
 __all__ = ["call_service", "request_response", "services_by_type"]
 
 _TIMEOUT_S = 10.0
-_LONGEST_S = 3600.0
+_MAX_DURATION_S = 3600.0
 
 
 def call_service(node: Node, params: Params) -> Any:
@@ -25,7 +25,7 @@ def call_service(node: Node, params: Params) -> Any:
     kind = service_type(type_name)
     values = params.any("request", {})
     request = filled(kind.Request, values, node.clock.now_ns())
-    timeout_s = params.number("timeout_s", _TIMEOUT_S, least=0.01, most=_LONGEST_S)
+    timeout_s = params.number("timeout_s", _TIMEOUT_S, least=0.01, most=_MAX_DURATION_S)
     client = node.create_client(name, kind)
     try:
         return message_value(client.call(request, timeout_s))

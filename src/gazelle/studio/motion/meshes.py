@@ -15,7 +15,7 @@ from gazelle.studio.params import Params
 
 __all__ = ["MotionMesh", "read_mesh"]
 
-_MOST_TRIANGLES = 200_000
+_MAX_TRIANGLES = 200_000
 
 
 class MotionMesh(TypedDict):
@@ -55,8 +55,8 @@ def _value(name: str, parts: list[tuple[Any, Any]]) -> MotionMesh:
     faces = np.concatenate(
         [np.asarray(rows).reshape(-1, 3) + at for (_, rows), at in zip(parts, begins, strict=True)]
     )
-    if len(faces) > _MOST_TRIANGLES:
-        text = f"{name} has {len(faces)} triangles, more than {_MOST_TRIANGLES}"
+    if len(faces) > _MAX_TRIANGLES:
+        text = f"{name} has {len(faces)} triangles, more than {_MAX_TRIANGLES}"
         raise StudioError(text, hint="Planning needs a simple shape; reduce the mesh first.")
     places, index = np.unique(corners.round(9), axis=0, return_inverse=True)
     return {"vertices": places.tolist(), "triangles": index.reshape(-1)[faces].tolist()}

@@ -18,7 +18,7 @@ __all__ = ["PlanningScene", "open_scene"]
 _GET = "moveit_msgs/srv/GetPlanningScene"
 _REMOVE = 1
 _MOVE = 3
-_MOST_WAITING = 1000
+_MAX_WAITING = 1000
 
 
 class PlanningScene(TypedDict):
@@ -68,7 +68,7 @@ class _Scene:
         """Runs in the transport's thread."""
         with self._lock:
             self._samples.append(sample)
-            del self._samples[:-_MOST_WAITING]
+            del self._samples[:-_MAX_WAITING]
         self._channel.offer(self._value)
 
     def _value(self) -> PlanningScene:

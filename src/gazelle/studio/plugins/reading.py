@@ -11,7 +11,7 @@ __all__ = ["PanelClass", "Unreadable", "panel_classes"]
 
 _MODULES = ("gazelle.studio.plugins", "gazelle.studio.plugins.panel")
 _MARK = "gazelle.studio"
-_LARGEST_BYTES = 2 << 20
+_MAX_BYTES = 2 << 20
 _TEXTS = ("title", "group", "about", "module")
 
 
@@ -38,7 +38,7 @@ class Unreadable(NamedTuple):
 def panel_classes(file: Path) -> tuple[PanelClass, ...] | Unreadable:
     """Return the panels of a file in order; none when it does not speak of Studio."""
     try:
-        if file.stat().st_size > _LARGEST_BYTES:
+        if file.stat().st_size > _MAX_BYTES:
             return ()
         text = file.read_text(encoding="utf-8", errors="replace")
         if _MARK not in text:

@@ -26,7 +26,7 @@ from gazelle.workspace.python_files import import_python_file
 __all__ = ["Life"]
 
 _BUSY_S = 5.0
-_SHORTEST_S = 0.005
+_MIN_DURATION_S = 0.005
 _CLIENTS = ("rospy", "rclpy")
 _Tell = Callable[[str, str, Any], None]
 
@@ -128,8 +128,8 @@ class Life:
 
     def every(self, period_s: float, callback: Callable[[], Any]) -> None:
         """Call something again and again."""
-        if not period_s >= _SHORTEST_S:
-            raise ValueError(f"every({period_s}, …): the shortest period is {_SHORTEST_S} s")
+        if not period_s >= _MIN_DURATION_S:
+            raise ValueError(f"every({period_s}, …): the shortest period is {_MIN_DURATION_S} s")
 
         def run() -> None:
             while not self._over.wait(period_s):

@@ -25,7 +25,7 @@ from gazelle.studio.plugins.widgets import (
 
 __all__ = ["accepted", "check_sendable", "chosen", "first_value", "refitted"]
 
-_MOST_ROWS = 1000
+_MAX_ROWS = 1000
 _EVENTS = (Slider, Number, Checkbox, Choice, TextInput, Button)
 """Kinds that a person acts on."""
 
@@ -146,7 +146,7 @@ def _rows(widget: Table, value: Any) -> list[list[Any]]:
     if wrong is not None:
         text = f"'{widget.name}' has {len(widget.columns)} columns, not {len(wrong)}: {wrong}"
         raise ValueError(text)
-    return rows[:_MOST_ROWS]
+    return rows[:_MAX_ROWS]
 
 
 def _cell(value: Any) -> Any:

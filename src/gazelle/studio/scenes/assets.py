@@ -22,8 +22,8 @@ __all__ = ["Assets", "mesh_answer", "texture_answer"]
 
 _HEAD = struct.Struct("<4I")
 _HAS_UV = 1
-_MOST_KEYS = 20_000
-_LARGEST_TEXTURE_PX = 4096
+_MAX_KEYS = 20_000
+_MAX_TEXTURE_PX = 4096
 _PASSED_ON = {"PNG": "image/png", "JPEG": "image/jpeg"}
 
 
@@ -72,7 +72,7 @@ class Assets:
         with self._lock:
             self._made[kind, key] = make
             self._made.move_to_end((kind, key))
-            while len(self._made) > _MOST_KEYS:
+            while len(self._made) > _MAX_KEYS:
                 self._made.popitem(last=False)
         return key
 
@@ -98,9 +98,9 @@ def _texture(data: bytes) -> Answer | None:
     try:
         with Image.open(io.BytesIO(data)) as image:
             passed = _PASSED_ON.get(image.format or "")
-            if passed is not None and max(image.size) <= _LARGEST_TEXTURE_PX:
+            if passed is not None and max(image.size) <= _MAX_TEXTURE_PX:
                 return Answer(data, passed, lasting=True, packed=False)
-            image.thumbnail((_LARGEST_TEXTURE_PX, _LARGEST_TEXTURE_PX))
+            image.thumbnail((_MAX_TEXTURE_PX, _MAX_TEXTURE_PX))
             out = io.BytesIO()
             image.convert("RGBA").save(out, "PNG")
     except (OSError, ValueError, UnidentifiedImageError, Image.DecompressionBombError):

@@ -17,8 +17,8 @@ from gazelle.studio.params import Params
 __all__ = ["delete_layout", "layout_folder", "list_layouts", "load_layout", "save_layout"]
 
 _SUFFIX = ".json"
-_MOST_BYTES = 4 << 20
-_LONGEST_NAME = 100
+_MAX_BYTES = 4 << 20
+_MAX_NAME = 100
 _VERSION = 1
 
 
@@ -53,8 +53,8 @@ def save_layout(params: Params) -> dict[str, Any]:
     """``layout.save``: a crash leaves the old one whole."""
     name = params.text("name")
     text = json.dumps({"version": _VERSION, "layout": params.any("value")})
-    if len(text) > _MOST_BYTES:
-        raise StudioError(f"the layout '{name}' has more than {_MOST_BYTES >> 20} MiB")
+    if len(text) > _MAX_BYTES:
+        raise StudioError(f"the layout '{name}' has more than {_MAX_BYTES >> 20} MiB")
     file = _file(name)
     part = file.with_suffix(f".{os.getpid()}.part")
     try:
@@ -78,6 +78,6 @@ def delete_layout(params: Params) -> dict[str, Any]:
 
 def _file(name: str) -> Path:
     """A name may hold any character; the file's never leaves the folder."""
-    if not name.strip() or len(name) > _LONGEST_NAME:
-        raise StudioError(f"a layout's name has 1 to {_LONGEST_NAME} characters")
+    if not name.strip() or len(name) > _MAX_NAME:
+        raise StudioError(f"a layout's name has 1 to {_MAX_NAME} characters")
     return layout_folder() / f"{quote(name, safe=' ').replace('.', '%2E')}{_SUFFIX}"

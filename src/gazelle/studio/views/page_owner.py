@@ -31,7 +31,7 @@ _ANSWER_S = 5.0
 _LOOK_S = 0.5
 # The page of the usual graph is at the port that `gazelle studio` takes.
 _USUAL_GRAPH, _USUAL_PAGE = 7447, 8090
-_HIGHEST_PORT = 65_535
+_MAX_PORT = 65_535
 _SAY = Callable[[str], None]
 
 
@@ -62,7 +62,7 @@ def say(text: str) -> None:
 def page_port(graph: Graph) -> int:
     """Return the port of a graph's page, so that graphs side by side do not meet."""
     port = _USUAL_PAGE + graph.port - _USUAL_GRAPH
-    return port if 1024 < port <= _HIGHEST_PORT else 0
+    return port if 1024 < port <= _MAX_PORT else 0
 
 
 def present(node: Node, request: Request, stop: threading.Event, say: _SAY) -> None:

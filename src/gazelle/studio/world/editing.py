@@ -22,7 +22,7 @@ __all__ = [
 _TARGETS = ("force", "position", "velocity")
 _GAINS = ("p", "i", "d")
 _LIGHT = ("pose", "direction", "diffuse", "specular", "range_m", "intensity", "cast_shadows")
-_LONGEST_S = 1e6
+_MAX_DURATION_S = 1e6
 
 
 def delete_model(world: WorldLink, params: Params) -> Any:
@@ -48,7 +48,7 @@ def apply_wrench(world: WorldLink, params: Params) -> Any:
     """``world.wrench``: a force and a torque in the world's axes on a body, for some seconds."""
     force = params.numbers("force", [0.0, 0.0, 0.0], count=3)
     torque = params.numbers("torque", [0.0, 0.0, 0.0], count=3)
-    seconds = params.number("seconds", 0.001, least=0.0, most=_LONGEST_S)
+    seconds = params.number("seconds", 0.001, least=0.0, most=_MAX_DURATION_S)
     wrench = message_type("geometry_msgs/Wrench")()
     for vector, values in ((wrench.force, force), (wrench.torque, torque)):
         vector.x, vector.y, vector.z = values

@@ -15,10 +15,10 @@ from gazelle.studio.world.models import model_folder
 
 __all__ = ["insert", "primitive_sdf"]
 
-_MOST_TEXT = 16 << 20
+_MAX_TEXT = 16 << 20
 _MASS_KG = 1.0
 # Whoever places it farther away than this is refused by the world.
-_MOST_M = 1e5
+_MAX_M = 1e5
 _PRIMITIVES = ("box", "cylinder", "sphere")
 _NUMBER = re.compile(r"_(\d+)$")
 _PLACE = re.compile(r"<[a-z_]+>(?=:\d+:\d+)")
@@ -59,8 +59,8 @@ def primitive_sdf(kind: str, size: list[float]) -> str:
     wanted = {"box": 3, "sphere": 1, "cylinder": 2}[kind]
     if len(size) != wanted or min(size) <= 0.0:
         raise StudioError(f"a {kind} has {wanted} sizes above 0, not {size}")
-    if max(size) > _MOST_M:
-        raise StudioError(f"a {kind}'s sizes are at most {_MOST_M:g} m, not {size}")
+    if max(size) > _MAX_M:
+        raise StudioError(f"a {kind}'s sizes are at most {_MAX_M:g} m, not {size}")
     words = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}[kind]
     values = [" ".join(f"{one:g}" for one in size)] if kind == "box" else [f"{v:g}" for v in size]
     inside = "".join(f"<{word}>{value}</{word}>" for word, value in zip(words, values, strict=True))
@@ -100,8 +100,8 @@ def _text_of(source: Params) -> tuple[str, str]:
         default = {"box": [1.0] * 3, "sphere": [0.5], "cylinder": [0.5, 1.0]}.get(kind, [1.0])
         return primitive_sdf(kind, source.numbers("size", default)), f"unit_{kind}"
     text = source.text("text")
-    if len(text) > _MOST_TEXT:
-        raise StudioError(f"the file has more than {_MOST_TEXT >> 20} MiB")
+    if len(text) > _MAX_TEXT:
+        raise StudioError(f"the file has more than {_MAX_TEXT >> 20} MiB")
     return text, _named(text, source.text("file", ""))
 
 

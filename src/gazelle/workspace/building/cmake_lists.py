@@ -17,11 +17,11 @@ from gazelle.workspace.building.configured import configured_text
 __all__ = ["CMakeLists", "Step", "read_cmake_lists"]
 
 _VARIABLE = re.compile(r"\$\{([\w./+-]+)\}|\$(ENV|CACHE)\{[^}]*\}")
-_MOST_STEPS = 20_000
-_MOST_FILES = 5_000
-_DEEPEST = 8
-_DEEPEST_BLOCK = 50
-_MOST_ROUNDS = 20_000
+_MAX_STEPS = 20_000
+_MAX_FILES = 5_000
+_MAX_DEPTH = 8
+_MAX_BLOCK_DEPTH = 50
+_MAX_ROUNDS = 20_000
 _MAKE_PROGRAMS = (
     "add_executable",
     "ament_auto_add_executable",
@@ -166,7 +166,7 @@ class _Walker:
 
     def read(self, file: Path, folder: str) -> None:
         """Follow a file's commands."""
-        if self._depth >= _DEEPEST:
+        if self._depth >= _MAX_DEPTH:
             return
         self._depth += 1
         commands, problem = read_commands(file.read_text(encoding="utf-8", errors="replace"))
@@ -187,7 +187,7 @@ class _Walker:
     def _follow(self, piece: _Piece, file: Path, folder: str) -> None:
         """Follow commands, unless blocks are nested too deep or loops go on for too long."""
         self._rounds += 1
-        if self._blocks >= _DEEPEST_BLOCK or self._rounds > _MOST_ROUNDS:
+        if self._blocks >= _MAX_BLOCK_DEPTH or self._rounds > _MAX_ROUNDS:
             return
         self._blocks += 1
         self._follow_all(piece, file, folder)
@@ -195,7 +195,7 @@ class _Walker:
 
     def _follow_all(self, piece: _Piece, file: Path, folder: str) -> None:
         place = piece.first
-        while place < piece.last and len(self.lists.steps) < _MOST_STEPS:
+        while place < piece.last and len(self.lists.steps) < _MAX_STEPS:
             command = piece.commands[place]
             if command.name in _ENDS:
                 body = piece.body(place)
@@ -275,7 +275,7 @@ class _Walker:
     def _replaced(self, text: str) -> str:
         for _ in range(2):  # once, and once more for ${${name}}
             new = _VARIABLE.sub(lambda found: self._variables.get(found[1] or "", found[0]), text)
-            if new == text or len(new) > _MOST_STEPS:
+            if new == text or len(new) > _MAX_STEPS:
                 break
             text = new
         return text
@@ -465,4 +465,4 @@ def _globbed(base: Path, pattern: str, *, recursive: bool) -> list[Path]:
     if "*" in folder or "${" in folder:
         return []
     search = Path(folder).rglob if recursive else Path(folder).glob
-    return list(islice(search(name or "*"), _MOST_FILES)) if is_folder(Path(folder)) else []
+    return list(islice(search(name or "*"), _MAX_FILES)) if is_folder(Path(folder)) else []

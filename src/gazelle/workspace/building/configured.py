@@ -10,7 +10,7 @@ from gazelle.documents import read_limited
 
 __all__ = ["configured_text"]
 
-_MOST_BYTES = 4_000_000
+_MAX_BYTES = 4_000_000
 _AT = re.compile(r"@([\w./+-]+)@")
 _BOTH = re.compile(r"@([\w./+-]+)@|\$\{([\w./+-]+)\}")
 
@@ -26,7 +26,7 @@ def configured_text(
         options: the call's words after its two files, such as ``@ONLY``.
     """
     try:
-        text = read_limited(template, _MOST_BYTES).decode("utf-8")
+        text = read_limited(template, _MAX_BYTES).decode("utf-8")
     except (OSError, UnicodeDecodeError):
         return None
     if "COPYONLY" in options:

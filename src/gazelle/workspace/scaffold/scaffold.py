@@ -94,7 +94,7 @@ _TEMPLATES = Path(__file__).parent / "templates"
 
 _NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 
-_MOST_LISTED = 20
+_MAX_LISTED = 20
 
 
 class ScaffoldError(GazelleError):
@@ -168,8 +168,8 @@ def _check_free(folder: Path) -> None:
     there = sorted(folder.rglob("*")) if folder.is_dir() else []
     files = [str(path.relative_to(folder)) for path in there if path.is_file()]
     if files:
-        listed = "\n".join(f"    {file}" for file in files[:_MOST_LISTED])
-        rest = f"\n    … and {len(files) - _MOST_LISTED} more" if len(files) > _MOST_LISTED else ""
+        listed = "\n".join(f"    {file}" for file in files[:_MAX_LISTED])
+        rest = f"\n    … and {len(files) - _MAX_LISTED} more" if len(files) > _MAX_LISTED else ""
         raise ScaffoldError(f"{folder} is there already; nothing was written:\n{listed}{rest}")
 
 

@@ -19,9 +19,9 @@ from gazelle.workspace.static_python.values import UNKNOWN, Call, Function, Name
 __all__ = ["Evaluator"]
 
 _STEPS = 200_000
-_DEEPEST_CALL = 12
-_LONGEST = 100_000
-_LARGEST = 2**63
+_MAX_CALL_DEPTH = 12
+_MAX_LENGTH = 100_000
+_MAX_SIZE = 2**63
 _BUILTINS = frozenset(
     {"bool", "dict", "enumerate", "float", "int", "len", "list", "range", "set", "sorted", "str",
      "tuple", "zip", "print", "open", "isinstance", "getattr", "map", "filter", "any", "all"}
@@ -101,7 +101,7 @@ class Evaluator:
 
     def follow(self, function: Function, arguments: Sequence[Any], keywords: dict[str, Any]) -> Any:
         """Follow a function of the file with these arguments."""
-        if self._depth >= _DEEPEST_CALL:
+        if self._depth >= _MAX_CALL_DEPTH:
             return UNKNOWN
         scope = {**self.names, **self._bound(function.node.args, arguments, keywords)}
         self._depth += 1
@@ -459,7 +459,7 @@ class Evaluator:
 
 def _grow(items: list[Any], name: str, arguments: tuple[Any, ...]) -> None:
     value = arguments[-1] if arguments else UNKNOWN
-    if len(items) > _LONGEST:
+    if len(items) > _MAX_LENGTH:
         return
     if name != "extend":
         items.append(value)
@@ -472,8 +472,8 @@ def _grow(items: list[Any], name: str, arguments: tuple[Any, ...]) -> None:
 def _is_huge(value: Any) -> bool:
     """Tell what a file could only have made to fill the memory."""
     if isinstance(value, str | list | tuple | dict):
-        return len(value) > _LONGEST
-    return isinstance(value, int) and abs(value) > _LARGEST
+        return len(value) > _MAX_LENGTH
+    return isinstance(value, int) and abs(value) > _MAX_SIZE
 
 
 def _has_unknown(items: Any) -> bool:

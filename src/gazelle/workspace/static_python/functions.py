@@ -14,8 +14,8 @@ from gazelle.workspace.static_python.values import UNKNOWN, is_known
 
 __all__ = ["library", "method"]
 
-_MOST = 5000
-_LONGEST = 1_000_000
+_MAX = 5000
+_MAX_LENGTH = 1_000_000
 # A width that a format would fill the memory with.
 _WIDE = re.compile(r"[%{:][^{}]*\d{5}")
 _TEXT_METHODS = frozenset(
@@ -39,17 +39,17 @@ def library(folder: Path, file: Path, environ: Mapping[str, str]) -> dict[str, C
     """
 
     def found(pattern: str, recursive: bool = False, **_others: Any) -> list[str]:
-        names = islice(glob.iglob(pattern, root_dir=folder, recursive=recursive), _MOST)  # noqa: PTH207
+        names = islice(glob.iglob(pattern, root_dir=folder, recursive=recursive), _MAX)  # noqa: PTH207
         return sorted(names)
 
     def walked(top: str, **_others: Any) -> list[tuple[str, list[str], list[str]]]:
         base = folder / top
-        rows = islice(os.walk(base), _MOST)
+        rows = islice(os.walk(base), _MAX)
         return [(os.path.join(top, os.path.relpath(r, base)) if r != str(base) else top, d, f)  # noqa: PTH118
                 for r, d, f in rows]  # fmt: skip
 
     def listed(top: str = ".") -> list[str]:
-        return sorted(path.name for path in islice((folder / top).iterdir(), _MOST))
+        return sorted(path.name for path in islice((folder / top).iterdir(), _MAX))
 
     def variable(name: str, default: Any = UNKNOWN) -> Any:
         return environ.get(name, default)
@@ -76,7 +76,7 @@ def method(owner: Any, name: str, arguments: tuple[Any, ...], keywords: dict[str
     if isinstance(owner, str) and name in _TEXT_METHODS:
         if not is_known(arguments) or not is_known(keywords):
             return UNKNOWN
-        if (len(owner) + 1) * _length(arguments) > _LONGEST or _WIDE.search(owner):
+        if (len(owner) + 1) * _length(arguments) > _MAX_LENGTH or _WIDE.search(owner):
             return UNKNOWN
         return owner % arguments[0] if name == "%" else getattr(owner, name)(*arguments, **keywords)
     if isinstance(owner, PurePath) and name in _PATH_METHODS and is_known(arguments):
@@ -114,7 +114,7 @@ _PURE: dict[str, Callable[..., Any]] = {
     "int": int,
     "len": len,
     "list": list,
-    "range": lambda *numbers: list(islice(range(*numbers), _MOST)),
+    "range": lambda *numbers: list(islice(range(*numbers), _MAX)),
     "set": lambda items=(): list(dict.fromkeys(items)),
     "sorted": sorted,
     "str": str,

@@ -10,7 +10,7 @@ from typing import Any
 
 __all__ = ["UNKNOWN", "Call", "Function", "Name", "Unknown", "is_known"]
 
-_DEEPEST = 40
+_MAX_DEPTH = 40
 
 
 class Unknown:
@@ -76,7 +76,7 @@ class Function:
 
 def is_known(value: Any, depth: int = 0) -> bool:
     """Tell whether a value has nothing in it that only running the file would tell."""
-    if depth > _DEEPEST:
+    if depth > _MAX_DEPTH:
         return False
     if isinstance(value, list | tuple | set):
         return all(is_known(item, depth + 1) for item in value)

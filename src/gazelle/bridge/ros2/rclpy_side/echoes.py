@@ -14,7 +14,7 @@ from typing import Any
 __all__ = ["Echoes", "Speakers"]
 
 _ALIVE_S = 5.0
-_MOST = 1000
+_MAX = 1000
 _HEAD = 4
 
 
@@ -90,7 +90,7 @@ class Echoes:
         """
         self._alive_s = float("inf") if for_ever else _ALIVE_S
         self._lock = threading.Lock()
-        self._sent: deque[tuple[int, float]] = deque(maxlen=_MOST)
+        self._sent: deque[tuple[int, float]] = deque(maxlen=_MAX)
 
     def note(self, data: bytes) -> None:
         """Remember a message that is about to be published."""

@@ -18,7 +18,7 @@ __all__ = ["Frame", "FrameKind", "Pipes"]
 
 _HEAD = struct.Struct("<IBII")
 _LARGE = 1 << 16
-_LONGEST = 1 << 31
+_MAX_LENGTH = 1 << 31
 
 
 class FrameKind(enum.IntEnum):
@@ -95,7 +95,7 @@ class Pipes:
             EOFError: the other side has gone.
         """
         size, kind, channel, number = _HEAD.unpack(self._read(_HEAD.size))
-        if size > _LONGEST:
+        if size > _MAX_LENGTH:
             raise EOFError("the other side does not speak in frames")
         return Frame(kind, channel, number, self._read(size))
 

@@ -18,7 +18,7 @@ _HELLO = (
     "machines has nothing to try"
 )
 _ABOUT = "Check ROS setup and other potential issues"
-_LEAST_WIDTH = 8
+_MIN_WIDTH = 8
 
 
 def main(argv: list[str]) -> int:
@@ -81,7 +81,7 @@ def _print_reports(shown: Iterable[Report]) -> None:
     for report in shown:
         print("\n  ", report.name)
         longest = max((len(name) for name, _ in report.items), default=0)
-        width = longest + 4 if longest >= _LEAST_WIDTH else _LEAST_WIDTH
+        width = longest + 4 if longest >= _MIN_WIDTH else _MIN_WIDTH
         for name, text in report.items:
             print(f"{name:{width}}: {text}")
 

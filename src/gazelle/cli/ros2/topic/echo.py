@@ -23,7 +23,7 @@ from gazelle.interfaces import Message
 __all__ = ["add_arguments", "run"]
 
 _LENGTH = 128
-_LEAST_QUEUE = 1000
+_MIN_QUEUE = 1000
 _FLAGS = (
     ("--no-arr", "Don't print array fields of messages"),
     ("--no-str", "Don't print string fields of messages"),
@@ -102,7 +102,7 @@ def _told_qos(profile: Profile) -> Qos:
 def _queue_size(options: argparse.Namespace, profile: Profile) -> int:
     """More may wait than ROS 2's five, unless the user chooses: a busy machine loses none."""
     chosen = options.qos_depth is not None or options.qos_history is not None
-    return profile.queue_size if chosen else max(profile.queue_size, _LEAST_QUEUE)
+    return profile.queue_size if chosen else max(profile.queue_size, _MIN_QUEUE)
 
 
 def _kind(graph: Graph, topic: str, options: argparse.Namespace) -> type[Message]:

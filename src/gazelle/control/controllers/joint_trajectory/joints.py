@@ -18,7 +18,7 @@ from gazelle.description.model import JointType
 
 __all__ = ["TrackedJoints", "joint_names", "read_tolerances"]
 
-_LEAST_FAR = math.pi * math.pi
+_MIN_FAR = math.pi * math.pi
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class TrackedJoints:
         np.subtract(desired, actual, out=out)
         way = out[0]
         # One product tells that no difference can exceed half a turn.
-        if np.dot(way, way) > _LEAST_FAR:
+        if np.dot(way, way) > _MIN_FAR:
             wrap_in_place(way, self.is_angle)
 
 

@@ -22,7 +22,7 @@ _Step = tuple[Link, int, bool]
 _WORLD = "world"
 
 # A link with two parents is visited under both, with all below it.
-_MOST_REPEATS = 100_000
+_MAX_REPEATS = 100_000
 
 
 class EndlessRobotError(ValueError):
@@ -70,7 +70,7 @@ def _bottom_up(robot: Robot, extensions: Extensions) -> Iterator[Link]:
             yield link
             continue
         visits += 1
-        if depth > len(robot.links) or visits > len(robot.links) + _MOST_REPEATS:
+        if depth > len(robot.links) or visits > len(robot.links) + _MAX_REPEATS:
             raise EndlessRobotError(link.name)
         first: list[_Step] = []
         later: list[_Step] = []

@@ -16,7 +16,7 @@ __all__ = ["explain_expression"]
 _COMMA_VALUE = re.compile(r"\s*[-+]?\d+,\d+\s*")
 _COMMA = re.compile(r"(?<![\w.,\[])\d+,\d+(?![\w.,\]])")
 _WITH_UNIT = re.compile(r"\s*([-+]?\d*\.?\d+)\s*([a-zA-Z°]+)\s*")
-_LONGEST = 60
+_MAX_LENGTH = 60
 
 
 def explain_expression(failure: Failure) -> Finding | None:
@@ -75,7 +75,7 @@ def _values(failure: Failure) -> list[tuple[str, Any]]:
 
 def _shown(value: Any) -> str:
     text = one_line(repr(value))
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+    return text if len(text) <= _MAX_LENGTH else f"{text[: _MAX_LENGTH - 1]}…"
 
 
 def _where(name: str, failure: Failure) -> str:

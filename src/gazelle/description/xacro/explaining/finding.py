@@ -19,7 +19,7 @@ __all__ = [
     "short_place",
 ]
 
-_MOST = 12
+_MAX = 12
 
 
 class Finding(NamedTuple):
@@ -48,8 +48,8 @@ def one_line(text: str) -> str:
 def listed(names: Iterable[str], nothing: str = "none") -> str:
     """Return names with commas; a long list ends with how many more there are."""
     found = list(dict.fromkeys(names))
-    more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
-    return ", ".join(found[:_MOST]) + more if found else nothing
+    more = f" and {len(found) - _MAX} more" if len(found) > _MAX else ""
+    return ", ".join(found[:_MAX]) + more if found else nothing
 
 
 def short_place(span: SourceSpan) -> str:

@@ -9,7 +9,7 @@ from gazelle.documents import LimitError
 
 __all__ = ["explain_limit"]
 
-_LONGEST = 80
+_MAX_LENGTH = 80
 
 
 def explain_limit(failure: Failure) -> Finding | None:
@@ -21,6 +21,6 @@ def explain_limit(failure: Failure) -> Finding | None:
         message = f"the file expands to too much: {error}"
         return Finding("limits.expansion", message, failure.span)
     shown = one_line(failure.expression or failure.part)
-    shown = shown if len(shown) <= _LONGEST else f"{shown[:_LONGEST]}…"
+    shown = shown if len(shown) <= _MAX_LENGTH else f"{shown[:_MAX_LENGTH]}…"
     message = f"{error}, when evaluating expression '{shown}'"
     return Finding("limits.expression", message, failure.span)

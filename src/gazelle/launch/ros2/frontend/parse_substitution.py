@@ -16,7 +16,7 @@ from gazelle.launch.ros2.substitution import Substitution, TextSubstitution
 __all__ = ["parse_if_substitutions", "parse_substitution", "replace_escaped_characters"]
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
-_DEEPEST = 100
+_MAX_DEPTH = 100
 
 
 def replace_escaped_characters(data: str) -> str:
@@ -94,8 +94,8 @@ class _Reader:
     def _substitution(self, quote: str) -> Substitution:
         start = self._at
         self._depth += 1
-        if self._depth > _DEEPEST:
-            raise self._error(f"more than {_DEEPEST} substitutions within each other")
+        if self._depth > _MAX_DEPTH:
+            raise self._error(f"more than {_MAX_DEPTH} substitutions within each other")
         self._at += 2
         name = _NAME.match(self._text, self._at)
         if name is None:

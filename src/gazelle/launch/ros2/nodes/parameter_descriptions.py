@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle.documents import read_text_limited
-from gazelle.documents.yaml import MOST_CHARACTERS, YamlError, load_yaml
+from gazelle.documents.yaml import MAX_CHARACTERS, YamlError, load_yaml
 from gazelle.launch.ros2.nodes.temporary import write_temporary
 from gazelle.launch.ros2.substitution import (
     SomeSubstitutionsType,
@@ -162,7 +162,7 @@ def _substituted(path: Path, context: LaunchContext) -> Path:
     from gazelle.launch.ros2.frontend.parser import Parser
 
     Parser.load_launch_extensions()
-    parts = parse_substitution(read_text_limited(path, MOST_CHARACTERS))
+    parts = parse_substitution(read_text_limited(path, MAX_CHARACTERS))
     text = perform_substitutions(context, parts)
     try:
         load_yaml(text)

@@ -26,7 +26,7 @@ NODE_TYPES: Mapping[str, type[TreeNode]] = {**CONTROLS, **DECORATORS, **CONDITIO
 
 _SUBTREES = ("SubTree", "SubTreePlus")
 _GENERIC = ("Action", "Condition", "Control", "Decorator")
-_DEEPEST = 100
+_MAX_DEPTH = 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +90,7 @@ def _collect(
     root: Tag, folder: Path | None, trees: dict[str, Tag], diagnostics: Diagnostics, depth: int
 ) -> None:
     for tag in root.children:
-        if tag.name == "include" and folder is not None and depth < _DEEPEST:
+        if tag.name == "include" and folder is not None and depth < _MAX_DEPTH:
             path = folder / tag.attributes.get("path", "")
             included = read_xml(path, diagnostics)
             if included is not None:
@@ -165,7 +165,7 @@ def _check_loops(file: TreeFile, diagnostics: Diagnostics) -> None:
             return
         for tag in file.trees[name].walk():
             below = tag.attributes.get("ID", "")
-            if tag.name in _SUBTREES and below in file.trees and len(above) < _DEEPEST:
+            if tag.name in _SUBTREES and below in file.trees and len(above) < _MAX_DEPTH:
                 visit(below, (*above, name))
 
     visit(file.main, ())

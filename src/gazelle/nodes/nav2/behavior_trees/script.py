@@ -35,8 +35,8 @@ _BINARY: tuple[dict[str, Callable[[Any, Any], Any]], ...] = (
 _ASSIGN = {":=": None, "=": None, "+=": operator.add, "-=": operator.sub,
            "*=": operator.mul, "/=": operator.truediv}  # fmt: skip
 _WORDS = {"true": True, "false": False}
-_LONGEST = 10_000
-_DEEPEST = 40
+_MAX_LENGTH = 10_000
+_MAX_DEPTH = 40
 
 
 class ScriptError(GazelleError):
@@ -102,7 +102,7 @@ class _Reader:
 
     def _choice(self) -> Any:
         self._depth += 1
-        if self._depth > _DEEPEST:
+        if self._depth > _MAX_DEPTH:
             raise self._error("it is nested too deeply")
         value = self._binary(0)
         if self._take("?"):
@@ -135,7 +135,7 @@ class _Reader:
         for op, apply in (("!", operator.not_), ("-", operator.neg), ("~", operator.invert)):
             if self._take(op):
                 self._depth += 1
-                if self._depth > _DEEPEST:
+                if self._depth > _MAX_DEPTH:
                     raise self._error("it is nested too deeply")
                 value = self._unary()
                 self._depth -= 1
@@ -189,7 +189,7 @@ def _one_sided(apply: Callable[[Any], Any]) -> Callable[[Any, Any], Any]:
 
 
 def _split(script: str) -> list[tuple[str, str]]:
-    if len(script) > _LONGEST:
+    if len(script) > _MAX_LENGTH:
         raise ScriptError(f"a script of {len(script)} characters is too long")
     found, at = [], 0
     text = script.rstrip()

@@ -52,7 +52,7 @@ _OWN_TABLES = {
     "trajectory_builder_3d.lua": (("TRAJECTORY_BUILDER_3D", {}),),
     "map_builder_server.lua": (("MAP_BUILDER_SERVER", {"map_builder": "MAP_BUILDER"}),),
 }
-_DEEPEST_INCLUDE = 20
+_MAX_INCLUDE_DEPTH = 20
 _FLAGS: dict[str, Kind] = {
     **dict.fromkeys(("collect_metrics", "load_frozen_state", "logtostderr", "alsologtostderr",
                      "start_trajectory_with_default_topics"), "bool"),
@@ -154,7 +154,7 @@ class _Loader:
         path = self._find(name)
         if path is not None:
             self._depth += 1
-            if self._depth > _DEEPEST_INCLUDE:
+            if self._depth > _MAX_INCLUDE_DEPTH:
                 raise failure(f"'{name}' includes itself", place, "take the include away")
             self._run(path, place)
             self._depth -= 1

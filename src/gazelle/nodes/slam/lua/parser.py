@@ -36,7 +36,7 @@ _UNARY = frozenset({"not", "-", "#"})
 _LOOPS = frozenset({"for", "while", "repeat", "goto", "break"})
 _BLOCK_ENDS = frozenset({"end", "else", "elseif", "until", "return"})
 _CONSTANTS = {"nil": None, "true": True, "false": False}
-_DEEPEST = 60
+_MAX_DEPTH = 60
 
 
 def parse(text: str, file: str) -> Block:
@@ -181,7 +181,7 @@ class _Reader:
 
     def _expression(self, strength: int = 0) -> Expression:
         self._depth += 1
-        if self._depth > _DEEPEST:
+        if self._depth > _MAX_DEPTH:
             raise failure(
                 "an expression is nested too deeply", self._next.place, "write it in parts"
             )

@@ -30,8 +30,8 @@ from gazelle.nodes.slam.lua.tokens import Place, failure
 
 __all__ = ["Builtin", "LuaTable", "Machine", "text_of"]
 
-_MOST_STEPS = 200_000
-_DEEPEST_CALL = 40
+_MAX_STEPS = 200_000
+_MAX_CALL_DEPTH = 40
 _NUMBERS: dict[str, Callable[[float, float], float]] = {
     "+": lambda a, b: a + b,
     "-": lambda a, b: a - b,
@@ -188,7 +188,7 @@ class Machine:
 
     def _value(self, one: Expression, scope: _Scope) -> Any:
         self._steps += 1
-        if self._steps > _MOST_STEPS:
+        if self._steps > _MAX_STEPS:
             raise failure(
                 "the configuration takes too long", one.place, "write its values as they are"
             )
@@ -239,7 +239,7 @@ class Machine:
         inner = _Scope(dict(zip(names, [*given, *([None] * len(names))], strict=False)),
                        function.scope)  # fmt: skip
         self._calls += 1
-        if self._calls > _DEEPEST_CALL:
+        if self._calls > _MAX_CALL_DEPTH:
             raise failure("stack overflow", one.place, "a function calls itself without end")
         try:
             self._block(function.function.body, inner)
