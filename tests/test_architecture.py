@@ -11,8 +11,6 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "gazelle"
-MAX_FILE = 500
-MAX_FUNCTION = 40
 # Launch files and programs of built-in packages are read and run as users' are.
 OF_PACKAGES = "gazelle.workspace.builtin."
 # A text that is a module's name, with a function behind it, or with what a format string adds.
@@ -35,10 +33,8 @@ class Module(NamedTuple):
     """What the tests look at in a file: that of two thousand syntax trees is not kept."""
 
     path: Path
-    lines: int
     imports: frozenset[str]
     named: frozenset[str]
-    long_functions: tuple[str, ...]
 
 
 @cache
@@ -51,14 +47,8 @@ def _modules() -> tuple[Module, ...]:
 def _read(path: Path) -> Module:
     text = path.read_text(encoding="utf-8")
     statements = list(_statements(ast.parse(text)))
-    functions = (
-        one for one in statements if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef)
-    )
-    long = tuple(
-        f"{path.relative_to(ROOT)}:{words}" for words in map(_too_long, functions) if words
-    )
     named = frozenset(name for name in _NAMED.findall(text) if _is_module(name))
-    return Module(path, len(text.splitlines()), _imports(statements), named, long)
+    return Module(path, _imports(statements), named)
 
 
 def _is_module(name: str) -> bool:
@@ -103,13 +93,6 @@ def _imports(statements: list[ast.stmt]) -> frozenset[str]:
                 else {node.module}
             )
     return frozenset(name for name in found if name.split(".")[0] == "gazelle")
-
-
-def _too_long(node: ast.FunctionDef | ast.AsyncFunctionDef) -> str:
-    body = node.body[1:] if ast.get_docstring(node) else node.body
-    length = (node.end_lineno or 0) - body[0].lineno + 1 if body else 0
-    is_long = length > MAX_FUNCTION and not _is_compiled(node)
-    return f"{node.lineno} {node.name}: {length}" if is_long else ""
 
 
 def test_no_layer_imports_a_higher_one() -> None:
@@ -174,20 +157,6 @@ def test_every_subpackage_is_a_layer() -> None:
     layers = _layers()
     folders = {f"gazelle.{path.parent.name}" for path in SOURCE.glob("*/__init__.py")}
     assert folders <= set(layers)
-
-
-def test_files_and_functions_stay_short() -> None:
-    wrong = []
-    for path, lines, *_, long_functions in _modules():
-        if lines > MAX_FILE:
-            wrong.append(f"{path.relative_to(ROOT)} has more than {MAX_FILE} lines")
-        wrong += long_functions
-    assert not wrong, "\n".join(wrong)
-
-
-def _is_compiled(node: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
-    """Numba kernels are one loop nest by nature; splitting them costs speed."""
-    return any("njit" in ast.unparse(decorator) for decorator in node.decorator_list)
 
 
 def test_nothing_imports_by_a_forbidden_name() -> None:

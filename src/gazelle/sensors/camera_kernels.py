@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled inner loop of the cameras.
 
 Importing this module imports numba; only cameras do. Machine code is cached beside the module

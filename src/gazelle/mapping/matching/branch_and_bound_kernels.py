@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled inner loops of branch and bound.
 
 Bounds are sums of bytes, 255 of which are 1, rounded up; what decides is read from the field

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, PLR0915
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled inner loops of matching points with lines.
 
 Sums are float64 (n, 6): count, Σx, Σy, Σx², Σxy, Σy² of the points in a cell, seen from the middle

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915, PLW3301
+# ruff: noqa: ANN001, ANN201, ANN202, PLW3301
 """The compiled distance between two convex solids, as a bound that cannot be wrong.
 
 The search is that of E. Gilbert, D. Johnson and S. Keerthi, "A fast procedure for computing the

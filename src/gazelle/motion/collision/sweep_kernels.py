@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled check of a whole motion: whether all of it is free, not only some states of it.
 
 Conservative advancement as F. Schwarzer, M. Saha and J.-C. Latombe use it for arms, "Adaptive

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled inner loops of kinematics: poses of links, Jacobians, damped least squares.
 
 Machine code is cached beside the module (or where ``NUMBA_CACHE_DIR`` says). A chain is a list of

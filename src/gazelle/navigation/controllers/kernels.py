@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, C901, PLR0915
+# ruff: noqa: ANN001, ANN201
 """The compiled loops of sampling controllers; see `gazelle.navigation.costmap.kernels`."""
 
 from __future__ import annotations

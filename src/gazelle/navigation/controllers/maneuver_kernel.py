@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, D417, PLR0915
+# ruff: noqa: ANN001, ANN201, ANN202, D417
 """The compiled search for a way of turns and straight pieces; see `maneuver`."""
 
 from __future__ import annotations

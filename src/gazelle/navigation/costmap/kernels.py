@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, C901, PLR0915
+# ruff: noqa: ANN001, ANN201
 """The compiled loops of costmaps: rays, distances, outlines.
 
 Importing this module imports numba. Machine code is cached; kernels hold no Python object and

@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled searches of planners; see `gazelle.navigation.costmap.kernels`.
 
 Cells are numbered along rows. `table` has the cost of entering a cell by its cost in the costmap;

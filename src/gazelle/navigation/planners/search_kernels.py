@@ -1,5 +1,5 @@
 # mypy: ignore-errors
-# ruff: noqa: ANN001, ANN201, ANN202, C901, PLR0915
+# ruff: noqa: ANN001, ANN201, ANN202
 """The compiled searches from cell to cell: A* and Theta*; see `kernels`."""
 
 from __future__ import annotations
