@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan
-from gazelle.diagnostics.collecting import grouped
+from gazelle.diagnostics.collection import grouped
 
 
 def _found(*entries: tuple[str, int], severity: Severity | None = None, file: str = "r.urdf"):

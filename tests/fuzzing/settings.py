@@ -19,8 +19,8 @@ from gazelle.description.moveit.settings import Settings as MoveItSettings
 from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.diagnostics import Diagnostics
-from gazelle.doctor.launch_ros2.following import follow
-from gazelle.doctor.parameters.checking import check_parameter_file
+from gazelle.doctor.launch_ros2.launch_tree import follow
+from gazelle.doctor.parameters.check_parameters import check_parameter_file
 from gazelle.documents.yaml import load_yaml
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.launch.ros2.faults import diagnose

@@ -17,7 +17,7 @@ from gazelle.description.text_origin import TEXT_NAME, place_of_text, read_text
 from gazelle.description.urdf import read_urdf
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.diagnostics.collecting import grouped
+from gazelle.diagnostics.collection import grouped
 from gazelle.documents.files import exists, is_file, is_folder
 from gazelle.workspace import Resolved, Workspace
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from gazelle.diagnostics.collecting import grouped
+from gazelle.diagnostics.collection import grouped
 from gazelle.diagnostics.diagnostic import Diagnostic, Severity
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import nearest_names
-from gazelle.doctor.kinds import looks_like
+from gazelle.doctor.file_kinds import looks_like
 from gazelle.documents.files import is_file, is_folder
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.workspace import Package, Workspace

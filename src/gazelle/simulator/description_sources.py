@@ -10,7 +10,7 @@ from pathlib import Path
 from gazelle.description.model import Model, World
 from gazelle.description.xml import parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics
-from gazelle.diagnostics.nearest import nearest_names
+from gazelle.diagnostics.suggestions import nearest_names
 from gazelle.documents.files import exists, is_file
 from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace

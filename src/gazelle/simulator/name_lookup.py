@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from gazelle.diagnostics.nearest import nearest_names
+from gazelle.diagnostics.suggestions import nearest_names
 from gazelle.errors import NotFoundError
 
 __all__ = ["full_name"]

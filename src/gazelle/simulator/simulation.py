@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from gazelle.description.model import Model, World
 from gazelle.diagnostics import Diagnostics
-from gazelle.diagnostics.nearest import nearest_names
+from gazelle.diagnostics.suggestions import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.simulator.control_registry import ControlRegistry

@@ -30,9 +30,9 @@ from gazelle.control.sources.yaml_file import read_parameter_file
 from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.launch.parameter_places import parameter_places
-from gazelle.doctor.launch_ros2.xml_file import read_yaml_file
-from gazelle.doctor.parameters.checking import check_parameter_file
+from gazelle.doctor.launch_ros1.parameter_places import parameter_places
+from gazelle.doctor.launch_ros2.xml_yaml_file import read_yaml_file
+from gazelle.doctor.parameters.check_parameters import check_parameter_file
 from gazelle.documents.yaml import YamlError
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph.names import parse_command_line

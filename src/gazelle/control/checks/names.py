@@ -9,7 +9,7 @@ from gazelle.control.checks.configured import ConfiguredController
 from gazelle.control.checks.moveit import MoveItController
 from gazelle.control.robot import JointResource
 from gazelle.diagnostics import did_you_mean
-from gazelle.diagnostics.nearest import nearest_names
+from gazelle.diagnostics.suggestions import nearest_names
 
 __all__ = ["Disagreement", "disagreements", "table_text"]
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from gazelle.doctor.dry_start.bringup import dry_start
 from gazelle.doctor.dry_start.node import DryNode
-from gazelle.doctor.dry_start.records import ControllerStart, DryStart, Program, StartPlan
-from gazelle.doctor.dry_start.start import dry_start
+from gazelle.doctor.dry_start.plan import ControllerStart, DryStart, Program, StartPlan
 
 __all__ = ["ControllerStart", "DryNode", "DryStart", "Program", "StartPlan", "dry_start"]

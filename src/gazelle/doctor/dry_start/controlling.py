@@ -10,7 +10,7 @@ from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.errors import ControllerError
 from gazelle.control.sources.files import FileSource
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.doctor.dry_start.records import ControllerStart, Manager
+from gazelle.doctor.dry_start.plan import ControllerStart, Manager
 from gazelle.graph.names import resolve
 
 __all__ = ["managers_of", "start_controllers"]

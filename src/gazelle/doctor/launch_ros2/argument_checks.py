@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from gazelle.diagnostics import Diagnostics, Severity, did_you_mean, nearest_names
-from gazelle.doctor.launch_ros2.following import Followed
+from gazelle.doctor.launch_ros2.launch_tree import Followed
 
 __all__ = ["check_arguments"]
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from gazelle.description.xacro import expand_xacro, parse_xacro_arguments
 from gazelle.diagnostics import Diagnostics
-from gazelle.doctor.launch_ros2.following import Followed
+from gazelle.doctor.launch_ros2.launch_file import Command, RobotSource
+from gazelle.doctor.launch_ros2.launch_tree import Followed
 from gazelle.doctor.launch_ros2.locating import located
-from gazelle.doctor.launch_ros2.records import Command, RobotSource
 from gazelle.documents.files import is_file
 from gazelle.workspace import Workspace
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
-from gazelle.doctor.launch_ros2.following import Followed
+from gazelle.doctor.launch_ros2.launch_file import Use
+from gazelle.doctor.launch_ros2.launch_tree import Followed
 from gazelle.doctor.launch_ros2.locating import located, package_of
-from gazelle.doctor.launch_ros2.records import Use
 from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.packages.known_packages import known_packages
 from gazelle.doctor.packages.source import SourcePackage

@@ -8,7 +8,7 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.launch_ros2.records import (
+from gazelle.doctor.launch_ros2.launch_file import (
     Argument,
     Command,
     Include,

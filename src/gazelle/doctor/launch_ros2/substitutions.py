@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePath
 from typing import Any
 
-from gazelle.doctor.launch_ros2.records import Argument
+from gazelle.doctor.launch_ros2.launch_file import Argument
 from gazelle.workspace import Workspace
 from gazelle.workspace.static_python import Call
 

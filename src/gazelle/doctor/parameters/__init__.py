@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from gazelle.doctor.parameters.checking import check_package_parameters, check_parameter_file
+from gazelle.doctor.parameters.check_parameters import (
+    check_package_parameters,
+    check_parameter_file,
+)
 from gazelle.doctor.parameters.description_text import check_description_text
-from gazelle.doctor.parameters.names import check_names
+from gazelle.doctor.parameters.name_checks import check_names
 
 __all__ = [
     "check_description_text",

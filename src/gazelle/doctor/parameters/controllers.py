@@ -11,7 +11,7 @@ from gazelle.control.controllers.registry import controller_class
 from gazelle.control.parameters import controller_parameters
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.parameters.document import Document, plain
-from gazelle.doctor.parameters.layouts import MARK, Layout
+from gazelle.doctor.parameters.parameter_file import MARK, Layout
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, entries
 from gazelle.parameters.trees import flattened, nested
 

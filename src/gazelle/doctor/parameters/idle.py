@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.parameters.document import Document, plain
-from gazelle.doctor.parameters.layouts import MARK
+from gazelle.doctor.parameters.parameter_file import MARK
 from gazelle.documents.yaml import YamlMapping, YamlNode
 from gazelle.nodes.idle_parameters import idle_parameters, node_of_name
 

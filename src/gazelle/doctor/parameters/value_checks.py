@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor.parameters.document import Document, scalars
-from gazelle.doctor.parameters.layouts import MARK, Layout
+from gazelle.doctor.parameters.parameter_file import MARK, Layout
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, duplicates
 
 _MARK = "ros__parameters"

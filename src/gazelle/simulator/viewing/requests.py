@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.description.model import Model
 from gazelle.diagnostics import did_you_mean
-from gazelle.diagnostics.nearest import nearest_names
+from gazelle.diagnostics.suggestions import nearest_names
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.geometry import Pose
 from gazelle.simulator.inputs import InputRefusedError, Limit

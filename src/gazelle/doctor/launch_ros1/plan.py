@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.dry_start import ControllerStart, StartPlan
-from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
+from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.errors import LaunchError
 from gazelle.nodes.controller_spawner import is_ros2, spawner_parser
 from gazelle.nodes.controller_spawner_ros2 import spawner_options

@@ -13,8 +13,8 @@ from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.doctor.descriptions import examine_models
 from gazelle.doctor.dry_start import Program, StartPlan, dry_start
 from gazelle.doctor.examination import Examination
-from gazelle.doctor.kinds import Kind, is_semantic
-from gazelle.doctor.launch import examine_launch
+from gazelle.doctor.file_kinds import Kind, is_semantic
+from gazelle.doctor.launch_ros1 import examine_launch
 from gazelle.doctor.launch_ros2 import check_launch
 from gazelle.doctor.parameters import check_package_parameters, check_parameter_file
 from gazelle.doctor.probing import probe

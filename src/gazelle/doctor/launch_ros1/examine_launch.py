@@ -10,19 +10,19 @@ from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.doctor.descriptions import examine_models, examine_text
 from gazelle.doctor.dry_start import DryStart, dry_start
 from gazelle.doctor.examination import Examination
-from gazelle.doctor.launch.clock_checks import check_clock
-from gazelle.doctor.launch.frame_checks import check_frames, frames_section
-from gazelle.doctor.launch.frames import frames_of
-from gazelle.doctor.launch.launched import Launched, Role, launched_from
-from gazelle.doctor.launch.name_checks import check_descriptions, check_remaps, check_topics
-from gazelle.doctor.launch.node_checks import (
+from gazelle.doctor.launch_ros1.clock_checks import check_clock
+from gazelle.doctor.launch_ros1.frame_checks import check_frames, frames_section
+from gazelle.doctor.launch_ros1.frames import frames_of
+from gazelle.doctor.launch_ros1.launched_nodes import Launched, Role, launched_from
+from gazelle.doctor.launch_ros1.name_checks import check_descriptions, check_remaps, check_topics
+from gazelle.doctor.launch_ros1.node_checks import (
     check_idle_parameters,
     check_nodes,
     nodes_section,
 )
-from gazelle.doctor.launch.node_topics import topics_of
-from gazelle.doctor.launch.parameter_places import placed
-from gazelle.doctor.launch.plan import start_plan
+from gazelle.doctor.launch_ros1.parameter_places import placed
+from gazelle.doctor.launch_ros1.plan import start_plan
+from gazelle.doctor.launch_ros1.topics import topics_of
 from gazelle.doctor.probing import probe
 from gazelle.doctor.simulated import simulation_sections
 from gazelle.doctor.text_files import texts_known

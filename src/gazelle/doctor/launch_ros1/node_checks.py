@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
+from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.report import Section
 from gazelle.nodes.idle_parameters import idle_parameters
 

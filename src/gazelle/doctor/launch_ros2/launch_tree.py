@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.launch_ros2.launch_file import Include, LaunchFile
 from gazelle.doctor.launch_ros2.locating import located
 from gazelle.doctor.launch_ros2.python_file import read_python_file
-from gazelle.doctor.launch_ros2.records import Include, LaunchFile
-from gazelle.doctor.launch_ros2.xml_file import read_xml_file, read_yaml_file
+from gazelle.doctor.launch_ros2.xml_yaml_file import read_xml_file, read_yaml_file
 from gazelle.documents.files import is_file
 from gazelle.workspace import Workspace
 

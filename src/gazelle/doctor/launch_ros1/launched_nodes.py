@@ -11,7 +11,7 @@ from typing import Any
 
 from gazelle.diagnostics import SourceSpan
 from gazelle.doctor.dry_start import Program
-from gazelle.doctor.launch.parameter_places import parameter_places
+from gazelle.doctor.launch_ros1.parameter_places import parameter_places
 from gazelle.graph.names import parse_command_line, remap, resolve
 from gazelle.graph.parameter_tree import ParameterTree
 from gazelle.launch.config import LaunchConfig, NodeTag

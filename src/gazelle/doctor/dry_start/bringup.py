@@ -9,8 +9,8 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.dry_start.controlling import managers_of, start_controllers
 from gazelle.doctor.dry_start.first_moments import FirstMoments
 from gazelle.doctor.dry_start.node import DryNode
-from gazelle.doctor.dry_start.records import DryStart, StartPlan
-from gazelle.doctor.dry_start.spawning import Spawning
+from gazelle.doctor.dry_start.plan import DryStart, StartPlan
+from gazelle.doctor.dry_start.spawners import Spawning
 from gazelle.doctor.text_files import texts_known
 from gazelle.documents.files import is_folder
 from gazelle.errors import GazelleError, NotFoundError, UserFileError

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from gazelle.doctor.launch.launched import Launched, LaunchedNode
+from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode
 from gazelle.graph.names import resolve
 from gazelle.node_specs.patterns import ValueOf, expanded, holds
 from gazelle.node_specs.spec import Direction, Interface, NodeSpec

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gazelle.doctor.dry_start import DryStart
-from gazelle.doctor.launch.builtin_topics import builtin_topics
-from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
-from gazelle.doctor.launch.script_reading import read_script
+from gazelle.doctor.launch_ros1.builtin_topics import builtin_topics
+from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
+from gazelle.doctor.launch_ros1.script_reading import read_script
 from gazelle.graph.names import resolve
 from gazelle.node_specs.all_specs import node_specs
 from gazelle.node_specs.unavailable_package_rows import Sends

@@ -26,7 +26,7 @@ from gazelle.doctor.parameters.controllers import (
 )
 from gazelle.doctor.parameters.document import Document, plain, read_document
 from gazelle.doctor.parameters.hardware import check_claims, hardware_of
-from gazelle.doctor.parameters.layouts import Layout, layout_of
+from gazelle.doctor.parameters.parameter_file import Layout, layout_of
 from gazelle.doctor.parameters.srdf import check_srdf, group_names, srdf_names
 from gazelle.doctor.report import Section
 

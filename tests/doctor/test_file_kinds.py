@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.doctor.kinds import Kind, kind_of
+from gazelle.doctor.file_kinds import Kind, kind_of
 
 
 @pytest.mark.parametrize(

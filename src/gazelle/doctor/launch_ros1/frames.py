@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from gazelle.description.model import Joint, JointType, Model
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.dry_start import DryStart
-from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
-from gazelle.doctor.launch.node_topics import NodeTopics
-from gazelle.doctor.launch.script_reading import read_script
+from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
+from gazelle.doctor.launch_ros1.script_reading import read_script
+from gazelle.doctor.launch_ros1.topics import NodeTopics
 from gazelle.errors import LaunchError
 from gazelle.nodes.static_transform_publisher import parse_arguments
 from gazelle.nodes.tree import read_description

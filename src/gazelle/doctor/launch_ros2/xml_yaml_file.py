@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
-from gazelle.doctor.launch_ros2.records import (
+from gazelle.doctor.launch_ros2.launch_file import (
     Argument,
     Command,
     Include,

@@ -7,7 +7,7 @@ from pathlib import Path
 from tests.doctor.conftest import Examine, Write
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan
-from gazelle.doctor.condensing import condensed
+from gazelle.doctor.merged_findings import condensed
 
 WORLD = """<sdf version="1.6"><world name="w"><model name="m"><static>true</static><link name="l">
 <visual name="v"><geometry><mesh><uri>model://crane/meshes/crane.dae</uri></mesh></geometry>

@@ -6,8 +6,8 @@ import re
 from collections.abc import Mapping, Sequence
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
-from gazelle.doctor.launch.node_topics import NodeTopics
+from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
+from gazelle.doctor.launch_ros1.topics import NodeTopics
 from gazelle.graph.names import resolve
 
 __all__ = ["check_descriptions", "check_remaps", "check_topics"]

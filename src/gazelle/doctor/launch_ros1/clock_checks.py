@@ -7,7 +7,7 @@ from difflib import SequenceMatcher
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.dry_start import DryStart
-from gazelle.doctor.launch.launched import Launched, LaunchedNode, Role
+from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 
 __all__ = ["check_clock"]
 

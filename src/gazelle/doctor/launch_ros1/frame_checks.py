@@ -8,8 +8,8 @@ from gazelle.description.model import JointType, Model, PluginTag
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor.dry_start import DryStart
-from gazelle.doctor.launch.frames import Edge, Frames, StatePublisher
-from gazelle.doctor.launch.launched import Launched
+from gazelle.doctor.launch_ros1.frames import Edge, Frames, StatePublisher
+from gazelle.doctor.launch_ros1.launched_nodes import Launched
 from gazelle.doctor.report import Section
 
 __all__ = ["check_frames", "frames_section"]

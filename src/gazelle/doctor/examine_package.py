@@ -10,8 +10,8 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.examination import Examination
-from gazelle.doctor.files import examine_file
-from gazelle.doctor.kinds import Kind, kind_of, looks_like
+from gazelle.doctor.examine_file import examine_file
+from gazelle.doctor.file_kinds import Kind, kind_of, looks_like
 from gazelle.doctor.packages import check_package
 from gazelle.doctor.parameters import check_package_parameters
 from gazelle.workspace import Package

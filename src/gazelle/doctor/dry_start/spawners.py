@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.doctor.dry_start.records import Program
+from gazelle.doctor.dry_start.plan import Program
 from gazelle.errors import GazelleError
 from gazelle.graph.gazebo_names import world_names
 from gazelle.graph.names import is_hidden, remap, resolve
