@@ -114,4 +114,9 @@ def __getattr__(name: str) -> Any:
         found = getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
         globals()[name] = found
         return found
+    if name == "Generation":
+        from gazelle.deprecation import warn_renamed
+
+        warn_renamed(f"{__name__}.Generation", "RosVersion", gone_in="0.3.0")
+        return RosVersion
     raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

@@ -11,6 +11,7 @@ from gazelle.control.interface_values import Indices
 from gazelle.control.ports import Ports
 from gazelle.control.robot import JointResource, Robot
 from gazelle.control.table import ControllerTable
+from gazelle.deprecation import warn_renamed
 from gazelle.diagnostics import did_you_mean
 from gazelle.parameters.reader import ParameterReader
 
@@ -43,6 +44,12 @@ class ControllerContext:
     def ros_version(self) -> int:
         """1 for ros_control, 2 for ros2_control."""
         return self.robot.ros_version
+
+    @property
+    def generation(self) -> int:
+        """The old name of `ros_version`."""
+        warn_renamed("ControllerContext.generation", "ros_version", gone_in="0.3.0")
+        return self.ros_version
 
     def joint(self, name: str) -> JointResource:
         """Return a joint of the hardware.
