@@ -2,7 +2,62 @@
 
 Problems in a user's files travel as `gazelle.diagnostics.Diagnostic` values; `UserFileError`
 carries all of them at once. Everything else raised here is a mistake in a call or in the
-environment, and says what to do about it in its message.
+environment, and says what to do about it in its message. Errors that one subpackage raises are
+defined there:
+
+    GazelleError
+        BagError
+        BodyError
+        BuildError
+        CodedError
+            MoveGroupError
+            PlanningError
+        ControllerError
+        EmbreeError
+        EngineError
+            SimulationDivergedError
+        ExtensionError
+        GraphError
+            FrameError
+            GoalStateError
+            IllegalNameError
+            NoGraphError
+            PortTakenError
+            RemoteError
+                RemoteRefusedError
+            ServiceCallError
+            ServiceRefusedError
+            ServiceTimeoutError
+            ServiceUnavailableError
+            TimeJumpError
+            TransformError
+                ConnectivityError
+                ExtrapolationError
+                InvalidFrameError
+                UnknownFrameError
+        GzError
+        InputRefusedError
+        InterfaceError
+        LaunchError
+            InvalidNamespaceError
+            InvalidNodeNameError
+        LimitError
+            ExpansionLimitError
+        MapWriteError
+        MassError
+        MeshError
+        NotFoundError
+        ReconfigureError
+        RosArgumentError
+        SavedGraphError
+        ScaffoldError
+        ScriptError
+        SpawnUsageError
+        StudioError
+        ToolError
+            FieldError
+        TreeError
+        UserFileError
 """
 
 from __future__ import annotations
