@@ -32,7 +32,7 @@ PAGES = {
     "plugins.md": "gazelle.simulator.plugins",
     "python_names.md": "gazelle.compat.refused_page",
     "slam.md": "gazelle.nodes.slam.page",
-    "worlds.md": "gazelle.workspace.originals",
+    "worlds.md": "gazelle.workspace.gazebo_models",
 }
 
 

@@ -29,7 +29,7 @@ WITH_TYPES = {
     "gazelle.launch.ros2.context",
     "gazelle.simulator.handles",
     "gazelle.simulator.plugins.named",
-    "gazelle.workspace.resolver",
+    "gazelle.workspace.uri_resolver",
 } - {"gazelle.launch.ros2.actions"}
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from gazelle.cli.catkin_create_pkg import main
-from gazelle.workspace.building.cmake import read_commands
-from gazelle.workspace.manifest import read_manifest
+from gazelle.workspace.building.cmake_syntax import read_commands
+from gazelle.workspace.package_xml import read_manifest
 
 Captured = pytest.CaptureFixture[str]
 

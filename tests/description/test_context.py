@@ -5,7 +5,7 @@ from typing import Any
 
 from gazelle.description.context import ReadContext
 from gazelle.diagnostics import Diagnostics
-from gazelle.workspace.resolved import Resolved
+from gazelle.workspace.file_lookup import Resolved
 
 
 def test_without_workspace_only_paths_are_found(tmp_path):

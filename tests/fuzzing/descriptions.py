@@ -30,7 +30,7 @@ from gazelle.interfaces.definition import RosVersion
 from gazelle.interfaces.parser import parse_message, split_parts
 from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.workspace import Workspace
-from gazelle.workspace.manifest import ManifestError, quick_name, read_manifest
+from gazelle.workspace.package_xml import ManifestError, quick_name, read_manifest
 
 __all__ = ["DESCRIPTIONS"]
 

@@ -54,7 +54,7 @@ from gazelle.studio.settings.perspectives import open_perspective
 from gazelle.studio.settings.rviz_files import open_rviz
 from gazelle.workspace import Workspace
 from gazelle.workspace.building.cmake_lists import read_cmake_lists
-from gazelle.workspace.building.setup_file import cfg_arguments, read_setup
+from gazelle.workspace.building.setup_py import cfg_arguments, read_setup
 from gazelle.workspace.entry_points import console_scripts
 
 __all__ = ["SETTINGS"]

@@ -16,7 +16,7 @@ from gazelle.node_specs.unavailable_packages import (
     replacement_of,
     what_it_sends,
 )
-from gazelle.workspace.search_path import builtin_package_names
+from gazelle.workspace.environment_paths import builtin_package_names
 
 # The words of the sentences that are packages, and have to be here.
 _NAMED = re.compile(r"`(\w+)`")

@@ -18,7 +18,7 @@ from gazelle.launch.ros2.launch_description_sources import (
 from gazelle.node_specs.all_specs import builtin_packages
 from gazelle.workspace import Workspace
 from gazelle.workspace.ament_index import get_package_share_directory
-from gazelle.workspace.search_path import BUILTIN
+from gazelle.workspace.environment_paths import BUILTIN
 
 # Gazelle's own types, and a package that every beginner makes.
 NOT_OF_ROS = {"gazelle_msgs", "beginner_tutorials"}

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 from tests.patience import stretched
 
-from gazelle.workspace.search_path import BUILTIN
+from gazelle.workspace.environment_paths import BUILTIN
 
 # What launch files written for gazebo_ros 2.9 may set.
 EMPTY_WORLD_ARGS = {

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.workspace.share import share_folder
+from gazelle.workspace.share_folder import share_folder
 
 TEMPLATE = '<robot name="@PROJECT_NAME@">@WINGS@${colour}</robot>\n'
 LISTS = """project(ibis)
@@ -80,9 +80,9 @@ def test_a_changed_template_makes_another_file(ibis: Path) -> None:
     first = shared(ibis, LISTS + INTO_SOURCE)
     (ibis / "ibis.xacro.in").write_text("@PROJECT_NAME@\n")
     share_folder.cache_clear()
-    from gazelle.workspace import installed
+    from gazelle.workspace import installed_files
 
-    installed._made.cache_clear()
+    installed_files._made.cache_clear()
     second = shared(ibis, LISTS + INTO_SOURCE)
     assert (second / "urdf/ibis.xacro").read_text() == "ibis\n"
     assert first != second

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.bag.opening import create_bag, open_bag, storage_of
-from gazelle.bag.records import (
+from gazelle.bag.storage import (
     BagError,
     BagMessage,
     BagReader,

@@ -14,9 +14,9 @@ from gazelle.bag.formats import (
     format_of_start,
     format_of_suffix,
 )
-from gazelle.bag.records import BagError, BagReader, BagWriter
 from gazelle.bag.ros1 import CHUNK_BYTES
 from gazelle.bag.rosbag2 import PackedFile, Rosbag2, Rosbag2Writer
+from gazelle.bag.storage import BagError, BagReader, BagWriter
 from gazelle.bag.zstandard import ZSTD_MAGIC
 from gazelle.diagnostics import did_you_mean
 from gazelle.documents.files import is_file, is_folder

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import count
 from typing import NamedTuple
 
-from gazelle.bag.records import BagMessage
+from gazelle.bag.storage import BagMessage
 
 __all__ = ["Piece", "by_time"]
 

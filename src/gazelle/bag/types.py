@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
-from gazelle.bag.records import BagError, Connection, Encoding
 from gazelle.bag.rosbag2.metadata import offered_qos
+from gazelle.bag.storage import BagError, Connection, Encoding
 from gazelle.errors import GazelleError
 from gazelle.interfaces import (
     RosVersion,

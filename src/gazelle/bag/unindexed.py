@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.bag.formats import format_of_name
-from gazelle.bag.records import BagReader
+from gazelle.bag.storage import BagReader
 from gazelle.diagnostics import Diagnostics, SourceSpan, render
 
 __all__ = ["tell_of_unindexed"]

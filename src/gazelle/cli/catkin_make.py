@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, did_you_mean, render
-from gazelle.workspace.building.building import Outcome
+from gazelle.workspace.building.build import Outcome
 from gazelle.workspace.building.catkin_space import (
     CatkinSpaces,
     build_catkin_package,

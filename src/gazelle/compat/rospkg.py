@@ -11,7 +11,7 @@ from typing import ClassVar, NamedTuple, Self, cast
 from gazelle.errors import NotFoundError
 from gazelle.folders import ros_home, ros_log_folder
 from gazelle.workspace import Workspace
-from gazelle.workspace.manifest import read_manifest
+from gazelle.workspace.package_xml import read_manifest
 
 __all__ = [
     "MANIFEST_FILE",

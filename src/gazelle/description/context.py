@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle.documents.files import exists
-from gazelle.workspace.resolved import Resolved
+from gazelle.workspace.file_lookup import Resolved
 
 if TYPE_CHECKING:
     from gazelle.diagnostics import Diagnostics, SourceSpan

@@ -1,6 +1,6 @@
 """Paths in the trees of links that stand for share folders, told as the user's own files.
 
-`gazelle.workspace.share` lays such trees out. Messages must name what the user wrote and can
+`gazelle.workspace.share_folder` lays such trees out. Messages must name what the user wrote and can
 correct, so every text that may hold such a path goes through `as_written`.
 """
 

@@ -21,7 +21,7 @@ from gazelle.doctor.probing import probe
 from gazelle.doctor.simulated import simulation_sections
 from gazelle.doctor.target import package_at
 from gazelle.documents.files import is_file
-from gazelle.workspace.search_path import BUILTIN
+from gazelle.workspace.environment_paths import BUILTIN
 
 __all__ = ["examine_file", "kind_word"]
 

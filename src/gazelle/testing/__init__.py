@@ -9,23 +9,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from gazelle.testing.isolated_graph import open_graph
     from gazelle.testing.launch import Launch, launched
     from gazelle.testing.messages import Messages
-    from gazelle.testing.own_graph import open_graph
 
 __all__ = ["Launch", "Messages", "launched", "open_graph"]
 
-_PLACES = {
+_MODULES = {
     "Launch": "gazelle.testing.launch",
     "Messages": "gazelle.testing.messages",
     "launched": "gazelle.testing.launch",
-    "open_graph": "gazelle.testing.own_graph",
+    "open_graph": "gazelle.testing.isolated_graph",
 }
 
 
 def __getattr__(name: str) -> Any:
-    if name in _PLACES:
+    if name in _MODULES:
         from importlib import import_module
 
-        return getattr(import_module(_PLACES[name]), name)
+        return getattr(import_module(_MODULES[name]), name)
     raise AttributeError(f"module 'gazelle.testing' has no attribute '{name}'")

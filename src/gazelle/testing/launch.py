@@ -14,8 +14,8 @@ from gazelle.graph import Entity, Graph, Kind, Node, Publisher, ServiceClient
 from gazelle.graph.keys import ANY_TYPE
 from gazelle.interfaces import fill, service_type
 from gazelle.interfaces.stamps import seconds_of
+from gazelle.testing.isolated_graph import open_graph
 from gazelle.testing.messages import Messages
-from gazelle.testing.own_graph import open_graph
 from gazelle.testing.process_tree import ProcessTree, launch_environment
 from gazelle.testing.waiting import Waiting, existing
 

@@ -7,21 +7,27 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from gazelle.workspace.manifest import Export
+    from gazelle.workspace.file_lookup import Resolved
     from gazelle.workspace.package import Package
-    from gazelle.workspace.resolved import Resolved
+    from gazelle.workspace.package_xml import Export
     from gazelle.workspace.workspace import Workspace
 
 __all__ = ["Export", "Package", "Resolved", "Workspace"]
 
+_MODULES = {
+    "Export": "gazelle.workspace.package_xml",
+    "Package": "gazelle.workspace.package",
+    "Resolved": "gazelle.workspace.file_lookup",
+    "Workspace": "gazelle.workspace.workspace",
+}
+
 
 def __getattr__(name: str) -> Any:
     """Import what is asked for: a node that needs one module of this package needs no other."""
-    if name in __all__:
+    if name in _MODULES:
         from importlib import import_module
 
-        module = "manifest" if name == "Export" else name.lower()
-        found = getattr(import_module(f"{__name__}.{module}"), name)
+        found = getattr(import_module(_MODULES[name]), name)
         globals()[name] = found
         return found
     raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

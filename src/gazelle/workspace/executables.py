@@ -31,7 +31,7 @@ def executables_named(
         _add(found, path / type_name)
         return tuple(found)
     from gazelle.workspace.entry_points import console_scripts
-    from gazelle.workspace.installed import installed_files
+    from gazelle.workspace.installed_files import installed_files
 
     installed = installed_files(path, package)
     spellings = _spellings(type_name)
@@ -59,7 +59,7 @@ def executable_names(package: str, path: Path, prefix: Path | None) -> tuple[str
     if prefix is not None:
         return tuple(sorted(file.name for file in _files_below(prefix / "lib" / package)))
     from gazelle.workspace.entry_points import console_scripts
-    from gazelle.workspace.installed import installed_files
+    from gazelle.workspace.installed_files import installed_files
 
     names = set(console_scripts(path))
     start = f"lib/{package}/"

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.documents.files import exists
-from gazelle.workspace.crawler import FoundPackage
 from gazelle.workspace.executables import executable_names, executables_named
-from gazelle.workspace.manifest import Export, Manifest
-from gazelle.workspace.share import share_folder
+from gazelle.workspace.package_discovery import FoundPackage
+from gazelle.workspace.package_xml import Export, Manifest
+from gazelle.workspace.share_folder import share_folder
 
 __all__ = ["Package", "package_from"]
 

@@ -9,19 +9,19 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.errors import NotFoundError
-from gazelle.workspace import resolver
-from gazelle.workspace.crawler import FoundPackage
-from gazelle.workspace.manifest import Manifest, ManifestError, read_manifest
-from gazelle.workspace.models import fuel_models, is_model_folder, models_in, newest_version
-from gazelle.workspace.package import Package, package_from
-from gazelle.workspace.resolved import Resolved, nearest_packages
-from gazelle.workspace.search_path import (
+from gazelle.workspace import uri_resolver
+from gazelle.workspace.environment_paths import (
     BUILTIN,
     PackageSource,
     ResourceFolders,
     package_sources,
     resource_folders,
 )
+from gazelle.workspace.file_lookup import Resolved, nearest_packages
+from gazelle.workspace.models import fuel_models, is_model_folder, models_in, newest_version
+from gazelle.workspace.package import Package, package_from
+from gazelle.workspace.package_discovery import FoundPackage
+from gazelle.workspace.package_xml import Manifest, ManifestError, read_manifest
 
 __all__ = ["Workspace"]
 
@@ -153,14 +153,14 @@ class Workspace:
                 address that is in a local cache, an absolute or a relative path.
             base_dir: folder of the file that holds the URI, for relative paths.
         """
-        return resolver.resolve(self, uri, None if base_dir is None else Path(base_dir))
+        return uri_resolver.resolve(self, uri, None if base_dir is None else Path(base_dir))
 
     def world_file(self, name: str, *, base_dir: str | os.PathLike[str] | None = None) -> Resolved:
         """Find a world file as Gazebo does: a path, or a name on the resource path.
 
         ``empty``, ``empty.world`` and ``worlds/empty.world`` mean the same.
         """
-        return resolver.resolve_world(self, name, None if base_dir is None else Path(base_dir))
+        return uri_resolver.resolve_world(self, name, None if base_dir is None else Path(base_dir))
 
     def _exported(self, *attributes: str) -> Iterator[Path]:
         for package in self.user_packages:

@@ -15,7 +15,7 @@ from tests.bridge.ros1.real import Ros1
 from tests.patience import stretched
 
 from gazelle.bag import open_bag
-from gazelle.bag.ros1.fields import Op, read_place
+from gazelle.bag.ros1.records import Op, read_place
 from gazelle.bridge.ros1 import Bridge
 from gazelle.graph import Graph
 from gazelle.interfaces import md5sum

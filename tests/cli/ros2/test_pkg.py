@@ -8,7 +8,7 @@ import pytest
 
 from gazelle.cli.ros2 import main
 from gazelle.diagnostics import Diagnostics
-from gazelle.workspace.building.building import BuildOptions, build_package
+from gazelle.workspace.building.build import BuildOptions, build_package
 from gazelle.workspace.building.packages import find_packages
 
 Captured = pytest.CaptureFixture[str]

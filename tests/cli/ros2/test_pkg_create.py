@@ -13,10 +13,10 @@ from gazelle.cli.ros2.pkg_create import main
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.packages import check_package
 from gazelle.workspace import Workspace
-from gazelle.workspace.building.building import BuildOptions, build_package
+from gazelle.workspace.building.build import BuildOptions, build_package
 from gazelle.workspace.building.packages import find_packages
 from gazelle.workspace.building.plan import site_packages
-from gazelle.workspace.manifest import read_manifest
+from gazelle.workspace.package_xml import read_manifest
 
 Captured = pytest.CaptureFixture[str]
 _WHO = ["--maintainer-name", "ann", "--maintainer-email", "ann@example.org"]

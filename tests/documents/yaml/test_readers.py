@@ -10,8 +10,8 @@ from typing import Any, NamedTuple, cast
 
 import pytest
 
-from gazelle.bag.records import BagError
 from gazelle.bag.rosbag2.metadata import read_metadata, read_qos
+from gazelle.bag.storage import BagError
 from gazelle.cli.catkin.profile import load_profile
 from gazelle.cli.dynparam import _from_yaml as read_dynparam_file
 from gazelle.cli.ros2.bag.converting import _outputs as read_output_bags

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.workspace.building.building import BuildOptions, Outcome, build_package
+from gazelle.workspace.building.build import BuildOptions, Outcome, build_package
 from gazelle.workspace.building.packages import find_packages, in_order
-from gazelle.workspace.building.setup_files import write_prefix_scripts
+from gazelle.workspace.building.setup_scripts import write_prefix_scripts
 
 Make = Callable[..., Path]
 Build = Callable[..., dict[str, Outcome]]

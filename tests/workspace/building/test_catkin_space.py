@@ -10,7 +10,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.workspace import Workspace
-from gazelle.workspace.building.building import Outcome
+from gazelle.workspace.building.build import Outcome
 from gazelle.workspace.building.catkin_space import (
     CatkinSpaces,
     build_catkin_package,

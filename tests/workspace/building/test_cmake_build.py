@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.workspace.building.building import Outcome
+from gazelle.workspace.building.build import Outcome
 from gazelle.workspace.building.plan import site_packages
 
 Make = Callable[..., Path]

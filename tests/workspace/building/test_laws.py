@@ -10,7 +10,7 @@ import pytest
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.workspace import Workspace
-from gazelle.workspace.building.building import BuildOptions, build_package
+from gazelle.workspace.building.build import BuildOptions, build_package
 from gazelle.workspace.building.packages import find_packages
 from gazelle.workspace.scaffold import KINDS, create_package
 

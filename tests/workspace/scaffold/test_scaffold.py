@@ -23,7 +23,7 @@ from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.sensors.picture_overlays import equivalent_box
 from gazelle.workspace import Workspace
 from gazelle.workspace.scaffold import KINDS, ScaffoldError, check_package_name, create_package
-from gazelle.workspace.scaffold.scaffold import FILES
+from gazelle.workspace.scaffold.create_package import FILES
 
 EVERY = [(kind, ros_version) for kind in KINDS for ros_version in (1, 2)]
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from gazelle.bag.export.pictures import IMAGE_TYPES, picture
 from gazelle.bag.export.rows import columns_of, reader_of, row_of
-from gazelle.bag.records import BagError, BagReader, Connection
+from gazelle.bag.storage import BagError, BagReader, Connection
 from gazelle.bag.types import bag_types
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.errors import GazelleError

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.bag.records import BagError
+from gazelle.bag.storage import BagError
 
 __all__ = ["IMAGE_TYPES", "picture"]
 

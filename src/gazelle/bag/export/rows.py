@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.bag.records import BagMessage, Connection, Encoding
+from gazelle.bag.storage import BagMessage, Connection, Encoding
 from gazelle.bag.types import message_class
 from gazelle.interfaces import Duration, Time, TypeStore, from_cdr, from_ros1
 from gazelle.interfaces.stamps import seconds_of

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from gazelle.bag import zstandard
-from gazelle.bag.mcap.fields import HEAD, Cursor, Op, records_in
-from gazelle.bag.records import BagError, Connection, Encoding
-from gazelle.bag.unpacking import unpacked
+from gazelle.bag.compression import unpacked
+from gazelle.bag.mcap.records import HEAD, Cursor, Op, records_in
+from gazelle.bag.storage import BagError, Connection, Encoding
 
 __all__ = ["Chunk", "Schema", "compress", "decompress", "message_head", "messages_in"]
 __all__ += ["read_channel", "read_schema"]

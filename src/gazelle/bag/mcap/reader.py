@@ -7,10 +7,10 @@ from functools import partial
 from pathlib import Path
 
 from gazelle.bag.mcap.chunks import Chunk, decompress, messages_in
-from gazelle.bag.mcap.fields import MAGIC
+from gazelle.bag.mcap.records import MAGIC
 from gazelle.bag.mcap.structure import LOOSE, Structure, read_structure
 from gazelle.bag.ordering import Piece, by_time
-from gazelle.bag.records import (
+from gazelle.bag.storage import (
     BagError,
     BagMessage,
     Connection,

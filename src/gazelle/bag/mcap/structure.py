@@ -13,8 +13,8 @@ from gazelle.bag.mcap.chunks import (
     read_channel,
     read_schema,
 )
-from gazelle.bag.mcap.fields import HEAD, MAGIC, Cursor, Op, Record, records_in
-from gazelle.bag.records import BagError, Connection
+from gazelle.bag.mcap.records import HEAD, MAGIC, Cursor, Op, Record, records_in
+from gazelle.bag.storage import BagError, Connection
 
 __all__ = ["LOOSE", "Structure", "read_structure"]
 

@@ -7,10 +7,10 @@ from array import array
 from dataclasses import replace
 from pathlib import Path
 
-from gazelle.bag.appending import AppendedFile
+from gazelle.bag.append_only_file import AppendedFile
 from gazelle.bag.mcap.chunks import Chunk, compress, message_head
-from gazelle.bag.mcap.fields import HEAD, MAGIC, Op, pack_map, pack_record, pack_string
-from gazelle.bag.records import Connection, Encoding, Storage
+from gazelle.bag.mcap.records import HEAD, MAGIC, Op, pack_map, pack_record, pack_string
+from gazelle.bag.storage import Connection, Encoding, Storage
 
 __all__ = ["McapWriter"]
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from queue import Queue
 from typing import Any, NamedTuple
 
-from gazelle.bag.records import BagMessage, BagReader, Connection, Encoding
+from gazelle.bag.storage import BagMessage, BagReader, Connection, Encoding
 from gazelle.bag.types import converter
 from gazelle.errors import GazelleError
 from gazelle.interfaces import TypeStore

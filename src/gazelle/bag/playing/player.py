@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle.bag.definition_sharing import TextShare
 from gazelle.bag.playing.controls import Controls
 from gazelle.bag.playing.messages import Outgoing, ahead, outgoing
 from gazelle.bag.playing.timeline import Timeline
-from gazelle.bag.records import BagReader, Connection
 from gazelle.bag.rosbag2.metadata import read_qos
-from gazelle.bag.texts import TextShare
+from gazelle.bag.storage import BagReader, Connection
 from gazelle.bag.types import bag_types, wire_name_of
 from gazelle.errors import GazelleError
 from gazelle.graph import Node, Publisher

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from gazelle.bag.records import BagWriter, Connection, Encoding
+from gazelle.bag.definition_sharing import fetch_text
 from gazelle.bag.rosbag2.metadata import offered_qos
-from gazelle.bag.texts import fetch_text
+from gazelle.bag.storage import BagWriter, Connection, Encoding
 from gazelle.bag.types import cdr_connection, ros1_connection
 from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE, Entity, Graph, Kind, MessageInfo, Node, RawMessage

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.bag.records import BagError, Connection, Encoding
-from gazelle.bag.ros1.fields import Op, read_fields, unpack_stamp
-from gazelle.bag.unpacking import unpacked
+from gazelle.bag.compression import unpacked
+from gazelle.bag.ros1.records import Op, read_fields, unpack_stamp
+from gazelle.bag.storage import BagError, Connection, Encoding
 
 __all__ = ["CHUNK_BYTES", "Chunk", "Compression", "Entry", "compress", "connection_of"]
 __all__ += ["connections_in", "decompress", "entries_in", "message_at"]

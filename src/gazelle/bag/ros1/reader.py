@@ -9,7 +9,10 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from gazelle.bag.records import (
+from gazelle.bag.ros1.chunks import Chunk, decompress, entries_in, message_at
+from gazelle.bag.ros1.index import Structure, read_structure
+from gazelle.bag.ros1.records import MAGIC, Op, read_place
+from gazelle.bag.storage import (
     BagError,
     BagMessage,
     Connection,
@@ -19,9 +22,6 @@ from gazelle.bag.records import (
     counts_of,
     packs_of,
 )
-from gazelle.bag.ros1.chunks import Chunk, decompress, entries_in, message_at
-from gazelle.bag.ros1.fields import MAGIC, Op, read_place
-from gazelle.bag.ros1.structure import Structure, read_structure
 
 __all__ = ["Ros1Bag"]
 

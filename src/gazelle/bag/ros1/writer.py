@@ -7,11 +7,11 @@ from array import array
 from dataclasses import replace
 from pathlib import Path
 
-from gazelle.bag.appending import AppendedFile
-from gazelle.bag.records import BagError, Connection, Encoding, Storage
+from gazelle.bag.append_only_file import AppendedFile
 from gazelle.bag.ros1.chunks import CHUNK_BYTES, Chunk, Compression, compress
-from gazelle.bag.ros1.fields import MAGIC, Op, pack_fields, pack_stamp
-from gazelle.bag.ros1.structure import Structure, read_structure
+from gazelle.bag.ros1.index import Structure, read_structure
+from gazelle.bag.ros1.records import MAGIC, Op, pack_fields, pack_stamp
+from gazelle.bag.storage import BagError, Connection, Encoding, Storage
 
 __all__ = ["Ros1Writer"]
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from gazelle.bag.rosbag2.compression_modes import PackedFile
 from gazelle.bag.rosbag2.folder import Rosbag2, Rosbag2Writer, reindex
 from gazelle.bag.rosbag2.metadata import Metadata, read_metadata, write_metadata
-from gazelle.bag.rosbag2.packed import PackedFile
 
 __all__ = [
     "Metadata",

@@ -17,7 +17,9 @@ from gazelle.bag.formats import (
     format_of_suffix,
     problems_of_added,
 )
-from gazelle.bag.records import (
+from gazelle.bag.rosbag2.compression_modes import SUFFIX, PackedFile, PackedMessages
+from gazelle.bag.rosbag2.metadata import FileSummary, read_metadata, write_metadata
+from gazelle.bag.storage import (
     BagError,
     BagMessage,
     BagReader,
@@ -28,8 +30,6 @@ from gazelle.bag.records import (
     Summary,
     Wanted,
 )
-from gazelle.bag.rosbag2.metadata import FileSummary, read_metadata, write_metadata
-from gazelle.bag.rosbag2.packed import SUFFIX, PackedFile, PackedMessages
 from gazelle.documents.files import is_file
 
 __all__ = ["Rosbag2", "Rosbag2Writer", "reindex"]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from gazelle.bag.records import BagError, Connection, Summary
+from gazelle.bag.storage import BagError, Connection, Summary
 from gazelle.documents.yaml import YamlError, YamlStyle, dump_yaml, load_yaml, load_yaml_file
 from gazelle.graph import Qos
 

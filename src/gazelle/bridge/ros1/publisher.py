@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
-from gazelle.bag.texts import fetch_text
+from gazelle.bag.definition_sharing import fetch_text
 from gazelle.bridge.ros1.frames import send_all, write_header
 from gazelle.bridge.ros1.link import Link
 from gazelle.bridge.ros1.types import Frame, MessageKind, message_kind

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from gazelle.bag import BagError, BagReader, create_bag, open_bag, storage_of
-from gazelle.bag.copying import copy_bag
+from gazelle.bag.conversion import copy_bag
 from gazelle.bag.export import FORMATS, export_bag
 from gazelle.bag.formats import MCAP, OWN_FORMATS, storage_names
 from gazelle.bag.unindexed import tell_of_unindexed

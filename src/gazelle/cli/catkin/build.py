@@ -12,7 +12,7 @@ from pathlib import Path
 from gazelle.cli.catkin.config import summary
 from gazelle.cli.catkin.profile import Profile, load_profile
 from gazelle.diagnostics import Diagnostics, did_you_mean, render
-from gazelle.workspace.building.building import Outcome, run_jobs
+from gazelle.workspace.building.build import Outcome, run_jobs
 from gazelle.workspace.building.catkin_space import build_catkin_package, write_space_scripts
 from gazelle.workspace.building.packages import (
     BuildError,

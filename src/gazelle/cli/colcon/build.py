@@ -16,9 +16,9 @@ from gazelle.cli.colcon.options import (
     parser_for,
     split_cmake_arguments,
 )
-from gazelle.workspace.building.building import BuildOptions, Outcome, build_package, run_jobs
+from gazelle.workspace.building.build import BuildOptions, Outcome, build_package, run_jobs
 from gazelle.workspace.building.packages import BuildError, SourcePackage
-from gazelle.workspace.building.setup_files import write_prefix_scripts
+from gazelle.workspace.building.setup_scripts import write_prefix_scripts
 
 __all__ = ["run"]
 

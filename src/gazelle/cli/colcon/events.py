@@ -8,7 +8,7 @@ from datetime import datetime
 from pathlib import Path
 
 from gazelle.diagnostics import did_you_mean
-from gazelle.workspace.building.building import Outcome
+from gazelle.workspace.building.build import Outcome
 
 __all__ = ["Console", "Log", "duration"]
 

@@ -12,7 +12,7 @@ from gazelle.cli.colcon.events import Console, Log
 from gazelle.cli.colcon.options import add_package_options, chosen_packages, parser_for
 from gazelle.cli.colcon.results import read_results
 from gazelle.cli.colcon.testing import package_environment, test_package
-from gazelle.workspace.building.building import Outcome, run_jobs
+from gazelle.workspace.building.build import Outcome, run_jobs
 
 __all__ = ["run"]
 

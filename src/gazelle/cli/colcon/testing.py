@@ -13,7 +13,7 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostics, SourceSpan, render_text
 from gazelle.launch.environment import node_environment
 from gazelle.workspace import Workspace
-from gazelle.workspace.building.building import Outcome
+from gazelle.workspace.building.build import Outcome
 from gazelle.workspace.building.cmake_lists import read_cmake_lists
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import site_packages

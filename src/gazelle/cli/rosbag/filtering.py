@@ -19,7 +19,7 @@ from gazelle.bag import (
     ros1_name_of,
     storage_of,
 )
-from gazelle.bag.copying import copy_bag
+from gazelle.bag.conversion import copy_bag
 from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.cli.rosbag.progress import ProgressMeter
 from gazelle.cli.tool import ToolError, option_parser

@@ -7,7 +7,7 @@ from optparse import OptionParser, Values
 from pathlib import Path
 
 from gazelle.bag import BagMessage, BagReader, create_bag, open_bag
-from gazelle.bag.copying import copy_bag
+from gazelle.bag.conversion import copy_bag
 from gazelle.bag.formats import ROS1
 from gazelle.cli.rosbag.progress import ProgressMeter
 from gazelle.cli.tool import add_flag, option_parser

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.bag import Connection, bag_types, converter, open_bag, wire_name_of
-from gazelle.bag.records import BagReader, Encoding
+from gazelle.bag.storage import BagReader, Encoding
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.graph.tf import TransformBuffer
 from gazelle.interfaces import from_cdr

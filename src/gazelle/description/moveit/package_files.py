@@ -11,7 +11,7 @@ from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace import Workspace
-from gazelle.workspace.search_path import BUILTIN
+from gazelle.workspace.environment_paths import BUILTIN
 
 __all__ = ["DEFAULT_CONFIGS", "PackageFiles", "find_package_files"]
 

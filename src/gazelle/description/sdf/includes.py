@@ -10,7 +10,7 @@ from gazelle.description.sdf.model_config import model_file_in
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.documents.files import is_folder
-from gazelle.workspace.resolved import Resolved
+from gazelle.workspace.file_lookup import Resolved
 
 __all__ = ["closes_circle", "included_file", "share_findings"]
 

@@ -31,7 +31,7 @@ from gazelle.documents import TEXT_BYTES, compile_limited, names_in_code, read_l
 from gazelle.documents.files import exists
 from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace
-from gazelle.workspace.installed import installed_source
+from gazelle.workspace.installed_files import installed_source
 
 __all__ = ["Console", "Session", "causes_of", "run_session"]
 

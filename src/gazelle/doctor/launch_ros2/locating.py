@@ -6,7 +6,7 @@ from pathlib import Path
 
 from gazelle.documents.files import exists
 from gazelle.workspace import Package, Workspace
-from gazelle.workspace.installed import installed_source
+from gazelle.workspace.installed_files import installed_source
 
 __all__ = ["located", "package_of"]
 

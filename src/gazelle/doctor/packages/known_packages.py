@@ -7,7 +7,7 @@ from pathlib import Path
 
 import gazelle.interfaces
 from gazelle.node_specs.unavailable_packages import packages_elsewhere
-from gazelle.workspace.search_path import builtin_package_names
+from gazelle.workspace.environment_paths import builtin_package_names
 
 __all__ = ["is_ros_package", "known_packages"]
 

@@ -13,7 +13,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.workspace import Package
 from gazelle.workspace.building.cmake_lists import CMakeLists, read_cmake_lists
 from gazelle.workspace.building.install_rules import InstallRules, cmake_rules
-from gazelle.workspace.building.setup_file import SetupFile, read_setup
+from gazelle.workspace.building.setup_py import SetupFile, read_setup
 
 __all__ = ["SourcePackage"]
 

@@ -29,7 +29,7 @@ from gazelle.nodes.navigation.frames import Frames
 from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.single_goal import SingleGoal
 from gazelle.parameters.reader import ParameterReader
-from gazelle.workspace.search_path import BUILTIN
+from gazelle.workspace.environment_paths import BUILTIN
 
 __all__ = ["run"]
 

@@ -9,7 +9,7 @@ from typing import TypedDict
 
 from gazelle.bag import open_bag
 from gazelle.bag.playing import Controls, Player, PlayOptions
-from gazelle.bag.records import BagReader
+from gazelle.bag.storage import BagReader
 from gazelle.graph import Graph, Node
 from gazelle.studio.errors import StudioError
 

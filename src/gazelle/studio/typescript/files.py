@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable
 
 from gazelle.bag.formats import OWN_FORMATS
-from gazelle.bag.records import Encoding
+from gazelle.bag.storage import Encoding
 from gazelle.studio.catalogue import STREAMS
 from gazelle.studio.displays.display import display_row
 from gazelle.studio.displays.registry import DISPLAYS

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan, render_text
-from gazelle.workspace.building.building import Outcome
+from gazelle.workspace.building.build import Outcome
 from gazelle.workspace.building.cmake_plan import (
     add_catkin,
     add_interfaces,
@@ -18,11 +18,11 @@ from gazelle.workspace.building.cmake_plan import (
     plan_cmake,
     read_lists,
 )
+from gazelle.workspace.building.install import install
 from gazelle.workspace.building.install_rules import cmake_rules
-from gazelle.workspace.building.installing import install
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import Layout, Plan, add_rules
-from gazelle.workspace.building.setup_files import underlays
+from gazelle.workspace.building.setup_scripts import underlays
 from gazelle.workspace.building.shell_text import (
     FUNCTIONS,
     HEADER,

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan
 from gazelle.documents.files import is_file, is_folder
-from gazelle.workspace.building.cmake import Command, SyntaxProblem, Word, read_commands
+from gazelle.workspace.building.cmake_syntax import Command, SyntaxProblem, Word, read_commands
 from gazelle.workspace.building.configured import configured_text
 
 __all__ = ["CMakeLists", "Step", "read_cmake_lists"]

@@ -17,7 +17,7 @@ from gazelle.workspace.building.python_plan import (
     add_python_folder,
     completed,
 )
-from gazelle.workspace.building.setup_file import read_setup
+from gazelle.workspace.building.setup_py import read_setup
 
 __all__ = ["add_catkin", "add_interfaces", "compiled_targets", "plan_cmake", "read_lists"]
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import GazelleError
-from gazelle.workspace.crawler import FoundPackage, crawl_source
-from gazelle.workspace.manifest import Manifest, ManifestError, read_manifest
+from gazelle.workspace.package_discovery import FoundPackage, crawl_source
+from gazelle.workspace.package_xml import Manifest, ManifestError, read_manifest
 
 __all__ = [
     "BuildError",

@@ -10,7 +10,7 @@ from gazelle.diagnostics import Severity, SourceSpan
 from gazelle.documents.files import is_file, is_folder, names_matching
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
-from gazelle.workspace.building.setup_file import SetupFile, read_setup, with_arguments
+from gazelle.workspace.building.setup_py import SetupFile, read_setup, with_arguments
 from gazelle.workspace.building.setup_run import SetupRunError, setup_arguments
 from gazelle.workspace.entry_points import console_scripts
 

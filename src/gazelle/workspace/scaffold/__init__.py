@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.workspace.scaffold.scaffold import (
+from gazelle.workspace.scaffold.create_package import (
     KINDS,
     ScaffoldError,
     check_package_name,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-from gazelle.workspace.scaffold.scaffold import PackageWriter, ScaffoldError
+from gazelle.workspace.scaffold.create_package import PackageWriter, ScaffoldError
 
 __all__ = ["CatkinPackage", "write_catkin_package"]
 

@@ -15,7 +15,7 @@ from gazelle.workspace.scaffold.cpp_text import (
     node_source,
     visibility_header,
 )
-from gazelle.workspace.scaffold.scaffold import PackageWriter
+from gazelle.workspace.scaffold.create_package import PackageWriter
 
 __all__ = ["BUILD_TYPES", "Ros2Package", "write_ros2_package"]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.bag import BagError, BagMessage, create_bag, open_bag
-from gazelle.bag.copying import copy_bag
+from gazelle.bag.conversion import copy_bag
 from gazelle.bag.formats import MCAP
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.documents.yaml import YamlError, load_yaml_file

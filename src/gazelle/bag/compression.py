@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.bag import zstandard
-from gazelle.bag.records import BagError
+from gazelle.bag.storage import BagError
 from gazelle.documents import HOW_TO_RAISE, scaled
 
 __all__ = ["unpack_file", "unpacked"]

@@ -18,7 +18,7 @@ from gazelle.bag import (
     message_class,
     open_bag,
 )
-from gazelle.bag.copying import copy_bag
+from gazelle.bag.conversion import copy_bag
 from gazelle.diagnostics import Diagnostics
 from gazelle.interfaces import exists, from_ros1, ros1_message_type
 

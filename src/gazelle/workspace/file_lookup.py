@@ -72,7 +72,7 @@ def locate(base: Path, relative: str) -> tuple[Path | None, str]:
     if exists(path):
         return path, ""
     # Only here: what reads build files is a third of what a node imports for its workspace.
-    from gazelle.workspace.installed import installed_source
+    from gazelle.workspace.installed_files import installed_source
 
     source = installed_source(path.absolute())
     if source is not None:

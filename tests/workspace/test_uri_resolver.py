@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.workspace.resolved import nearest_packages
+from gazelle.workspace.file_lookup import nearest_packages
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from gazelle.bag.records import BagError
+from gazelle.bag.storage import BagError
 
 __all__ = ["AppendedFile"]
 

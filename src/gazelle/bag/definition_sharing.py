@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from gazelle.bag.records import Connection, Encoding
+from gazelle.bag.storage import Connection, Encoding
 from gazelle.bag.types import learn_definitions
 from gazelle.errors import GazelleError
 from gazelle.graph.delivery import Mailbox

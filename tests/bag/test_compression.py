@@ -10,9 +10,9 @@ import lz4.frame
 import pytest
 
 from gazelle.bag import BagError, create_bag, open_bag, ros1_connection, zstandard
-from gazelle.bag.records import Storage
+from gazelle.bag.compression import unpack_file, unpacked
 from gazelle.bag.ros1 import Compression
-from gazelle.bag.unpacking import unpack_file, unpacked
+from gazelle.bag.storage import Storage
 
 PACK = {"bz2": bz2.compress, "lz4": lz4.frame.compress, "zstd": zstandard.compress}
 BOMB = bytes(100 << 20)

@@ -8,7 +8,7 @@ import pytest
 
 from gazelle.description.xacro.expander import expand_xacro
 from gazelle.diagnostics import Diagnostics
-from gazelle.workspace.installed import installed_source
+from gazelle.workspace.installed_files import installed_source
 
 LISTS = """cmake_minimum_required(VERSION 3.8)
 project(courier)  # install(DIRECTORY wrong DESTINATION share/courier)

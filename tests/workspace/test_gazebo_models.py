@@ -8,8 +8,8 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.simulator.description_sources import world_from
-from gazelle.workspace.originals import original_models, original_worlds, originals_markdown
-from gazelle.workspace.search_path import BUILTIN
+from gazelle.workspace.environment_paths import BUILTIN
+from gazelle.workspace.gazebo_models import original_models, original_worlds, originals_markdown
 
 ROOT = Path(__file__).parents[2]
 HERE = sorted(row.name for row in original_worlds().values() if row.is_here)
@@ -23,7 +23,7 @@ def test_the_list_and_the_folders_agree() -> None:
 
 def test_the_page_is_generated_from_the_list() -> None:
     page = (ROOT / "docs" / "worlds.md").read_text(encoding="utf-8")
-    assert page == originals_markdown(), "run: python -m gazelle.workspace.originals"
+    assert page == originals_markdown(), "run: python -m gazelle.workspace.gazebo_models"
 
 
 @pytest.mark.parametrize("name", HERE)

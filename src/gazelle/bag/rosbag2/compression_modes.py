@@ -6,7 +6,8 @@ import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from gazelle.bag.records import (
+from gazelle.bag.compression import unpack_file, unpacked
+from gazelle.bag.storage import (
     BagError,
     BagMessage,
     BagReader,
@@ -14,7 +15,6 @@ from gazelle.bag.records import (
     Summary,
     Wanted,
 )
-from gazelle.bag.unpacking import unpack_file, unpacked
 
 __all__ = ["SUFFIX", "PackedFile", "PackedMessages"]
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from gazelle.documents import read_limited
 from gazelle.documents.files import is_file
-from gazelle.workspace.manifest import MANIFEST_BYTES, quick_name
+from gazelle.workspace.package_xml import MANIFEST_BYTES, quick_name
 
 __all__ = ["FoundPackage", "crawl_prefix", "crawl_source", "manifest_in"]
 

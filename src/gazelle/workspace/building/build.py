@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan, render_text
 from gazelle.workspace.building.cmake_plan import plan_cmake
-from gazelle.workspace.building.installing import install
+from gazelle.workspace.building.install import install
 from gazelle.workspace.building.packages import SourcePackage, needed_by
 from gazelle.workspace.building.plan import Layout, Plan, site_packages
 from gazelle.workspace.building.python_plan import plan_python
-from gazelle.workspace.building.setup_files import add_package_scripts
+from gazelle.workspace.building.setup_scripts import add_package_scripts
 
 __all__ = ["BUILD_TYPES", "BuildOptions", "Outcome", "build_package", "run_jobs"]
 

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.workspace.manifest import ManifestError, read_manifest
+from gazelle.workspace.package_xml import ManifestError, read_manifest
 
 
 def read(tmp_path, text, name="package.xml"):

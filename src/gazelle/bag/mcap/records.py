@@ -7,7 +7,7 @@ import struct
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from gazelle.bag.records import BagError
+from gazelle.bag.storage import BagError
 
 __all__ = ["HEAD", "MAGIC", "Cursor", "Op", "Record", "pack_map", "pack_record", "pack_string"]
 __all__ += ["records_in"]

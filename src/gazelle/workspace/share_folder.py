@@ -35,7 +35,7 @@ def share_folder(folder: Path, name: str, *, has_devel_space: bool) -> Path:
         has_devel_space: built by catkin, whose look-ups find the source folder's places too, and
             first.
     """
-    from gazelle.workspace.installed import install_rules, installed_files, made_texts
+    from gazelle.workspace.installed_files import install_rules, installed_files, made_texts
 
     start = f"share/{name}/"
     texts = made_texts(folder, name)

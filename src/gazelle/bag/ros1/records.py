@@ -6,7 +6,7 @@ import enum
 import struct
 from typing import BinaryIO, NamedTuple
 
-from gazelle.bag.records import BagError
+from gazelle.bag.storage import BagError
 
 __all__ = ["MAGIC", "Op", "Place", "pack_fields", "pack_stamp", "read_fields", "read_place"]
 __all__ += ["unpack_stamp"]

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import NamedTuple
 
-from gazelle.workspace.search_path import BUILTIN
+from gazelle.workspace.environment_paths import BUILTIN
 
 __all__ = ["Original", "original_models", "original_worlds", "originals_markdown"]
 
@@ -98,7 +98,7 @@ What both Gazebos ship by name, and launch files refer to by name: `gz sim shape
 are here are Gazelle's own: names, places and sizes are the original's, shapes are plain. Nothing is
 downloaded; a model of that name on `GAZEBO_MODEL_PATH`, `GZ_SIM_RESOURCE_PATH`, in a package's
 `models` folder or in Fuel's cache comes first. The others are refused by name, with where they are.
-This page is generated: `python -m gazelle.workspace.originals > docs/worlds.md`.
+This page is generated: `python -m gazelle.workspace.gazebo_models > docs/worlds.md`.
 
 """
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from gazelle.bag.records import BagMessage, BagReader, BagWriter, Connection, Encoding
 from gazelle.bag.rosbag2.metadata import offered_qos
+from gazelle.bag.storage import BagMessage, BagReader, BagWriter, Connection, Encoding
 from gazelle.bag.types import (
     bag_types,
     cdr_connection,

@@ -13,8 +13,8 @@ from tests.graph.test_requests import HOSTILE
 from tests.patience import eventually, stretched
 
 from gazelle.bag import Connection, Encoding, Storage, create_bag, open_bag
+from gazelle.bag.definition_sharing import TextShare, fetch_text
 from gazelle.bag.playing import Controls, Player, PlayOptions
-from gazelle.bag.texts import TextShare, fetch_text
 from gazelle.graph import Graph
 from gazelle.interfaces import RosVersion, md5sum
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.bag.formats import ROS1, UNFINISHED
-from gazelle.bag.records import BagMessage, Connection
 from gazelle.bag.ros1 import CHUNK_BYTES, Compression, Ros1Writer
+from gazelle.bag.storage import BagMessage, Connection
 
 __all__ = ["Ros1Files", "default_stem"]
 

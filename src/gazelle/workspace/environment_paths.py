@@ -8,7 +8,12 @@ from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 
-from gazelle.workspace.crawler import FoundPackage, crawl_prefix, crawl_source, manifest_in
+from gazelle.workspace.package_discovery import (
+    FoundPackage,
+    crawl_prefix,
+    crawl_source,
+    manifest_in,
+)
 
 __all__ = [
     "BUILTIN",

@@ -9,9 +9,9 @@ from typing import BinaryIO
 
 import numpy as np
 
-from gazelle.bag.records import BagError, Connection
 from gazelle.bag.ros1.chunks import Chunk, connection_of, connections_in, decompress, entries_in
-from gazelle.bag.ros1.fields import MAGIC, Op, Place, read_place, unpack_stamp
+from gazelle.bag.ros1.records import MAGIC, Op, Place, read_place, unpack_stamp
+from gazelle.bag.storage import BagError, Connection
 
 __all__ = ["Structure", "read_structure"]
 

@@ -10,7 +10,7 @@ import hashlib
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from gazelle.bag.records import BagError, Connection
+from gazelle.bag.storage import BagError, Connection
 from gazelle.bag.types import split_texts
 from gazelle.errors import GazelleError
 from gazelle.interfaces import (

@@ -11,7 +11,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.bag import BagError, Connection, Encoding, Storage, create_bag, open_bag
-from gazelle.bag.migration import migration_of
+from gazelle.bag.type_migration import migration_of
 from gazelle.cli import rosbag
 from gazelle.interfaces import md5sum
 

@@ -18,9 +18,9 @@ from gazelle.documents.files import exists, is_file, is_folder
 from gazelle.workspace.building.cmake_lists import read_cmake_lists
 from gazelle.workspace.building.install_rules import InstallRule, cmake_rules
 from gazelle.workspace.building.plan import Plan, add_rules
-from gazelle.workspace.building.setup_file import read_setup
-from gazelle.workspace.crawler import manifest_in
-from gazelle.workspace.manifest import (
+from gazelle.workspace.building.setup_py import read_setup
+from gazelle.workspace.package_discovery import manifest_in
+from gazelle.workspace.package_xml import (
     MANIFEST_BYTES,
     ManifestError,
     quick_name,

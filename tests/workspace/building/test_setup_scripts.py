@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.workspace.building.building import Outcome
+from gazelle.workspace.building.build import Outcome
 from gazelle.workspace.building.plan import site_packages
-from gazelle.workspace.building.setup_files import underlays, write_prefix_scripts
+from gazelle.workspace.building.setup_scripts import underlays, write_prefix_scripts
 
 Make = Callable[..., Path]
 Build = Callable[..., dict[str, Outcome]]
