@@ -64,7 +64,7 @@ def test_what_waits_without_a_limit_of_items_has_one_of_bytes() -> None:
 def test_slow_callback_is_told_and_loses_the_oldest(
     graph: Graph, other: Graph, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("gazelle.graph.subscription._MOST_WAITING_BYTES", 100_000)
+    monkeypatch.setattr("gazelle.graph.subscription._MAX_WAITING_BYTES", 100_000)
     kind = message_type("std_msgs/msg/String")
     seen: list[str] = []
     begun, goes_on = threading.Event(), threading.Event()

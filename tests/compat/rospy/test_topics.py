@@ -253,7 +253,7 @@ _SLEEPING = """
 import rospy
 from std_msgs.msg import String
 import gazelle.graph.subscription as subscription
-subscription._MOST_WAITING_BYTES = 1 << 20
+subscription._MAX_WAITING_BYTES = 1 << 20
 rospy.init_node("slow")
 numbers, begun = [], []
 

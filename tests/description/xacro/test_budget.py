@@ -86,7 +86,7 @@ def test_devices_are_not_loaded(tmp_path: Path) -> None:
 
 
 def test_macros_that_double_are_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gazelle.description.xacro.budget._MOST_CALLS", 500)
+    monkeypatch.setattr("gazelle.description.xacro.budget._MAX_CALLS", 500)
     macros = "".join(
         f'<xacro:macro name="m{n}"><xacro:m{n + 1}/><xacro:m{n + 1}/></xacro:macro>'
         for n in range(40)

@@ -29,7 +29,7 @@ def test_million_links_are_refused_at_once() -> None:
 
 
 def test_limit_is_raised_by_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gazelle.description.xml.reader._MOST_ELEMENTS", 10)
+    monkeypatch.setattr("gazelle.description.xml.reader._MAX_ELEMENTS", 10)
     text = "<robot>" + "<link/>" * 20 + "</robot>"
     assert _errors(text)
     monkeypatch.setenv("GAZELLE_LIMITS", "2.1")
@@ -39,7 +39,7 @@ def test_limit_is_raised_by_the_environment(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_elements_in_utf_16_are_counted_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gazelle.description.xml.reader._MOST_ELEMENTS", 10)
+    monkeypatch.setattr("gazelle.description.xml.reader._MAX_ELEMENTS", 10)
     text = ("<robot>" + "<link/>" * 20 + "</robot>").encode("utf-16")
     assert "f.urdf:1:72: error: the document has more than 10 elements" in _errors(text)[0]
 
