@@ -23,12 +23,12 @@ _PICTURES = [str(_ROOT / ".ci" / "pictures.py")]
 
 # The page and the module that prints it.
 PAGES = {
-    "builtin_nodes.md": "gazelle.node_specs.page",
+    "builtin_nodes.md": "gazelle.node_specs.documentation",
     "controllers.md": "gazelle.control.controllers",
     "diagnostics.md": "gazelle.diagnostics.docs",
     "launch.md": "gazelle.launch.ros2.reference",
     "navigation.md": "gazelle.nodes.navigation.page",
-    "nodes.md": "gazelle.nodes.page",
+    "nodes.md": "gazelle.nodes.documentation",
     "plugins.md": "gazelle.simulator.plugins",
     "python_names.md": "gazelle.compat.refused_page",
     "slam.md": "gazelle.nodes.slam.page",

@@ -23,7 +23,7 @@ from gazelle.interfaces import (
     to_plain,
     to_ros1,
 )
-from gazelle.nodes.map_server.messages import grid_of_message
+from gazelle.nodes.map_server.occupancy_grid import grid_of_message
 from gazelle.nodes.navigation.observations import cloud_points
 from gazelle.studio.displays.pictures import PictureSettings, encoded_picture
 from gazelle.studio.displays.points import points_of

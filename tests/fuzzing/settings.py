@@ -30,23 +30,23 @@ from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterFile
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.localisation import AmclOptions
 from gazelle.navigation.planners import PLANNERS
-from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
-from gazelle.nodes.filters.ekf import config_of, matrix_of
+from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.filters.laser_filters import chain_of
-from gazelle.nodes.filters.tables import ekf_table
-from gazelle.nodes.joy.options import read_options
-from gazelle.nodes.nav2.behavior_trees.loading import read_trees
-from gazelle.nodes.nav2.collision.reading import read_sources, read_zones, report_others
-from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
-from gazelle.nodes.nav2.tables import controller_table, planner_table
-from gazelle.nodes.navigation.costmap_setup import assemble
+from gazelle.nodes.joy.parameters import read_options
+from gazelle.nodes.nav2.behavior_trees.xml_parsing import read_trees
+from gazelle.nodes.nav2.collision_monitor.parameters import COLLISION_MONITOR
+from gazelle.nodes.nav2.collision_monitor.reading import read_sources, read_zones, report_others
+from gazelle.nodes.nav2.parameters import controller_table, planner_table
+from gazelle.nodes.navigation.costmap_parameters import assemble
 from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.ros_gz.rows import read_file
-from gazelle.nodes.slam.lua.configuration import read_configuration
+from gazelle.nodes.robot_localization.ekf_node import config_of, matrix_of
+from gazelle.nodes.robot_localization.parameters import ekf_table
+from gazelle.nodes.ros_gz.bridge_config import read_file
+from gazelle.nodes.slam.cartographer.configuration import read_configuration
 from gazelle.nodes.slam.options import options_of
 from gazelle.nodes.slam.ros_packages import FLAVOURS
-from gazelle.nodes.teleop.joystick import read_driving
-from gazelle.nodes.twist_mux.inputs import read_inputs
+from gazelle.nodes.teleop.twist_joy import read_driving
+from gazelle.nodes.twist_mux.parameters import read_inputs
 from gazelle.parameters.trees import nested
 from gazelle.studio.params import Params
 from gazelle.studio.plugins.rqt.forms import form_layout, form_widgets

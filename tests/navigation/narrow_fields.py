@@ -38,7 +38,7 @@ from gazelle.navigation.costmap import (
     inflated,
 )
 from gazelle.navigation.planners import NavfnOptions, Plan, make_plan
-from gazelle.nodes.move_base.executive import Executive, Outcome, PlanPose, Timing, Trigger
+from gazelle.nodes.move_base.state_machine import Executive, Outcome, PlanPose, Timing, Trigger
 
 __all__ = ["DRIVERS", "ROBOTS", "Field", "Robot", "Run", "controller_for", "cross"]
 

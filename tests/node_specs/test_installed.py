@@ -11,7 +11,7 @@ from tests.installed_packages import code_of_page, installed
 from gazelle.diagnostics import Diagnostics
 from gazelle.extensions import ExtensionError
 from gazelle.launch.executables import find_executable
-from gazelle.node_specs.all_specs import builtin_executables, builtin_packages, node_spec
+from gazelle.node_specs.registry import builtin_executables, builtin_packages, node_spec
 from gazelle.workspace import Workspace
 
 _POINTS = {"gazelle.nodes": {"far_pkg/beat": "far_parts:BEAT", "far_pkg/odd": "far_parts:run"}}

@@ -18,7 +18,7 @@ from tests.patience import eventually, stretched
 from gazelle.errors import NotFoundError
 from gazelle.graph import Graph
 from gazelle.interfaces import service_type
-from gazelle.node_specs.all_specs import node_specs
+from gazelle.node_specs.registry import node_specs
 from gazelle.node_specs.spec import ROS_2, NodeRole, NodeSpec
 from gazelle.nodes.host import run_node
 

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from gazelle.errors import NotFoundError
-from gazelle.node_specs.all_specs import builtin_executables, builtin_packages, node_spec
+from gazelle.node_specs.registry import builtin_executables, builtin_packages, node_spec
 from gazelle.node_specs.unavailable_package_rows import PACKAGES, PROGRAMS, Sends
 from gazelle.node_specs.unavailable_packages import (
     missing_node,

@@ -12,7 +12,7 @@ from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_pose, unit_pose_of
-from gazelle.nodes.navigation.frames import Frames
+from gazelle.nodes.navigation.robot_pose import Frames
 
 _ODOMETRY = "nav_msgs/msg/Odometry"
 _POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"

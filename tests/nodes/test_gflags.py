@@ -8,7 +8,7 @@ import pytest
 
 from gazelle.errors import LaunchError
 from gazelle.nodes.gflags import Kind, read_flags
-from gazelle.nodes.slam.lua.configuration import flags_of
+from gazelle.nodes.slam.cartographer.configuration import flags_of
 
 _KINDS: dict[str, Kind] = {"name": "string", "x": "double", "allow_renaming": "bool"}
 

@@ -14,8 +14,8 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Node
 from gazelle.interfaces import message_type
 from gazelle.nodes import robot_state_publisher
+from gazelle.nodes.robot_description import joint_tree, read_description, segment_names
 from gazelle.nodes.robot_state_publisher import StateToTf
-from gazelle.nodes.tree import joint_tree, read_description, segment_names
 
 ROBOT = """<robot name="r">
   <link name="base"/><link name="arm"/><link name="slide"/><link name="cam"/><link name="twin"/>

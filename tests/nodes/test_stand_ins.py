@@ -15,7 +15,7 @@ from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.launch.ros2.launch_description_sources import (
     get_launch_description_from_any_launch_file,
 )
-from gazelle.node_specs.all_specs import builtin_packages
+from gazelle.node_specs.registry import builtin_packages
 from gazelle.workspace import Workspace
 from gazelle.workspace.ament_index import get_package_share_directory
 from gazelle.workspace.environment_paths import BUILTIN

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.node_specs.all_specs import node_spec
+from gazelle.node_specs.registry import node_spec
 
 
 @pytest.mark.parametrize("package", ["actionlib", "actionlib_tools"])

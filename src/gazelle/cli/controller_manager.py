@@ -9,7 +9,7 @@ import threading
 from gazelle.cli.error_text import error_text
 from gazelle.cli.tool import ToolError, joined
 from gazelle.graph.names import parse_command_line
-from gazelle.nodes.controller_manager_command import USAGE, command
+from gazelle.nodes.controller_manager.command import USAGE, command
 
 __all__ = ["main"]
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.extensions import ExtensionError
-from gazelle.node_specs.all_specs import builtin_executables, command_of, node_spec
+from gazelle.node_specs.registry import builtin_executables, command_of, node_spec
 from gazelle.node_specs.spec import NodeSpec
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.building.cmake_lists import read_cmake_lists

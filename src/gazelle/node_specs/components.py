@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from gazelle.node_specs.all_specs import builtin_executables
+from gazelle.node_specs.registry import builtin_executables
 
 __all__ = ["executable_of_component"]
 

@@ -149,10 +149,10 @@ DRIVING = (
     NodeSpec(
         package="twist_mux",
         executable="twist_marker",
-        entry="gazelle.nodes.twist_mux.marker:run",
+        entry="gazelle.nodes.twist_mux.twist_marker:run",
         does="shows a velocity command as an arrow",
         is_light=True,
-        parameters="gazelle.nodes.twist_mux.marker:PARAMETERS",
+        parameters="gazelle.nodes.twist_mux.twist_marker:PARAMETERS",
         topics=(
             publishes("marker", "visualization_msgs/msg/Marker"),
             listens("twist", "geometry_msgs/msg/Twist"),
@@ -161,10 +161,10 @@ DRIVING = (
     NodeSpec(
         package="twist_mux",
         executable="joystick_relay.py",
-        entry="gazelle.nodes.twist_mux.relay:run",
+        entry="gazelle.nodes.twist_mux.joystick_relay:run",
         does="makes velocities of a joystick's shares, in steps, while it has priority",
         is_light=True,
-        parameters="gazelle.nodes.twist_mux.relay:PARAMETERS",
+        parameters="gazelle.nodes.twist_mux.joystick_relay:PARAMETERS",
         aliases=(NodeName("twist_mux", "joystick_relay", ROS_2),),
         name="joystick_relay",
         topics=(
@@ -188,7 +188,7 @@ DRIVING = (
         entry="gazelle.nodes.joy.node:run",
         does="publishes what a joystick does",
         is_light=True,
-        parameters="gazelle.nodes.joy.options:PARAMETERS",
+        parameters="gazelle.nodes.joy.parameters:PARAMETERS",
         aliases=(NodeName("joy_linux", "joy_linux_node", ROS_2),),
         topics=(publishes("joy", "sensor_msgs/msg/Joy"),),
     ),
@@ -203,10 +203,10 @@ DRIVING = (
     NodeSpec(
         package="teleop_twist_joy",
         executable="teleop_node",
-        entry="gazelle.nodes.teleop.joystick:run",
+        entry="gazelle.nodes.teleop.twist_joy:run",
         does="drives any robot by a joystick",
         is_light=True,
-        parameters="gazelle.nodes.teleop.joystick:PARAMETERS",
+        parameters="gazelle.nodes.teleop.twist_joy:PARAMETERS",
         name="teleop_twist_joy_node",
         topics=(
             publishes("cmd_vel", "geometry_msgs/msg/Twist"),

@@ -24,7 +24,7 @@ NAVIGATION = (
         entry="gazelle.nodes.move_base.node:run",
         does="drives to goals around obstacles",
         is_light=False,
-        parameters="gazelle.nodes.move_base.tables:MOVE_BASE",
+        parameters="gazelle.nodes.move_base.parameters:MOVE_BASE",
         topics=(
             publishes("cmd_vel", "geometry_msgs/msg/Twist"),
             publishes("~NavfnROS/plan", "nav_msgs/msg/Path"),
@@ -97,7 +97,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.planner_server:run",
         does="plans paths (Nav2)",
         is_light=False,
-        parameters="gazelle.nodes.nav2.tables:PLANNER_SERVER",
+        parameters="gazelle.nodes.nav2.parameters:PLANNER_SERVER",
         topics=(
             publishes("plan", "nav_msgs/msg/Path"),
             *LIFECYCLE_TOPICS,
@@ -118,7 +118,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.controller_server:run",
         does="follows paths (Nav2)",
         is_light=False,
-        parameters="gazelle.nodes.nav2.tables:CONTROLLER_SERVER",
+        parameters="gazelle.nodes.nav2.parameters:CONTROLLER_SERVER",
         topics=(
             publishes("cmd_vel", "geometry_msgs/msg/Twist"),
             publishes("local_plan", "nav_msgs/msg/Path"),
@@ -137,7 +137,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.behavior_server:run",
         does="spins, backs up, waits (Nav2)",
         is_light=False,
-        parameters="gazelle.nodes.nav2.tables:BEHAVIOR_SERVER",
+        parameters="gazelle.nodes.nav2.parameters:BEHAVIOR_SERVER",
         aliases=(NodeName("nav2_recoveries", "recoveries_server", ROS_2),),
         topics=(
             publishes("cmd_vel", "geometry_msgs/msg/Twist"),
@@ -164,7 +164,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.bt_navigator:run",
         does="drives to poses by behaviour trees (Nav2)",
         is_light=False,
-        parameters="gazelle.nodes.nav2.tables:BT_NAVIGATOR",
+        parameters="gazelle.nodes.nav2.parameters:BT_NAVIGATOR",
         topics=(
             publishes("behavior_tree_log", "nav2_msgs/msg/BehaviorTreeLog"),
             listens("goal_pose", "geometry_msgs/msg/PoseStamped"),
@@ -185,7 +185,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.waypoint_follower:run",
         does="drives to one pose after another (Nav2)",
         is_light=False,
-        parameters="gazelle.nodes.nav2.tables:WAYPOINT_FOLLOWER",
+        parameters="gazelle.nodes.nav2.parameters:WAYPOINT_FOLLOWER",
         topics=(*LIFECYCLE_TOPICS,),
         services=(*LIFECYCLE_SERVICES,),
         actions=(
@@ -202,7 +202,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.smoother_server:run",
         does="smooths paths (Nav2)",
         is_light=False,
-        parameters="gazelle.nodes.nav2.tables:SMOOTHER_SERVER",
+        parameters="gazelle.nodes.nav2.parameters:SMOOTHER_SERVER",
         topics=(
             listens("{~costmap_topic|global_costmap/costmap_raw}", "nav2_msgs/msg/Costmap"),
             *LIFECYCLE_TOPICS,
@@ -217,7 +217,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.velocity_smoother:run",
         does="limits accelerations of commands (Nav2)",
         is_light=False,
-        parameters="gazelle.nodes.nav2.tables:VELOCITY_SMOOTHER",
+        parameters="gazelle.nodes.nav2.parameters:VELOCITY_SMOOTHER",
         topics=(
             publishes("cmd_vel_smoothed", "geometry_msgs/msg/Twist"),
             listens("cmd_vel", "geometry_msgs/msg/Twist"),
@@ -230,10 +230,10 @@ NAVIGATION = (
         package="nav2_collision_monitor",
         executable="collision_monitor",
         ros=ROS_2,
-        entry="gazelle.nodes.nav2.collision_monitor:run",
+        entry="gazelle.nodes.nav2.collision_monitor.node:run",
         does="slows or stops commands by what sensors see (Nav2)",
         is_light=False,
-        parameters="gazelle.nodes.nav2.collision.tables:COLLISION_MONITOR",
+        parameters="gazelle.nodes.nav2.collision_monitor.parameters:COLLISION_MONITOR",
         topics=(
             publishes("{~cmd_vel_out_topic|cmd_vel}", "geometry_msgs/msg/Twist"),
             listens("{~cmd_vel_in_topic|cmd_vel_smoothed}", "geometry_msgs/msg/Twist"),
@@ -252,7 +252,7 @@ NAVIGATION = (
         entry="gazelle.nodes.nav2.lifecycle_manager:run",
         does="brings managed nodes up and down (Nav2)",
         is_light=False,
-        parameters="gazelle.nodes.nav2.tables:LIFECYCLE_MANAGER",
+        parameters="gazelle.nodes.nav2.parameters:LIFECYCLE_MANAGER",
         services=(
             offers("~is_active", "std_srvs/srv/Trigger"),
             offers("~manage_nodes", "nav2_msgs/srv/ManageLifecycleNodes"),

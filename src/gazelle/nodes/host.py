@@ -13,7 +13,7 @@ from typing import Any, TextIO
 
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
-from gazelle.node_specs.all_specs import node_spec
+from gazelle.node_specs.registry import node_spec
 from gazelle.nodes.arguments import read_arguments
 
 __all__ = ["host"]

@@ -17,14 +17,14 @@ from gazelle.navigation.costmap.options import (
     VoxelOptions,
 )
 from gazelle.navigation.planners import PLANNERS
-from gazelle.node_specs.all_specs import node_specs
+from gazelle.node_specs.registry import node_specs
 from gazelle.node_specs.spec import resolved
-from gazelle.nodes.filters.tables import EKF, ekf_table
-from gazelle.nodes.move_base.local import local_planner_tables
-from gazelle.nodes.move_base.planner import planner_tables
-from gazelle.nodes.move_base.tables import CLEAR, ROTATE, SLOW
-from gazelle.nodes.nav2 import tables as nav2
-from gazelle.nodes.navigation.costmap_setup import costmap_table, layer_table
+from gazelle.nodes.move_base.global_planner import planner_tables
+from gazelle.nodes.move_base.local_planner import local_planner_tables
+from gazelle.nodes.move_base.parameters import CLEAR, ROTATE, SLOW
+from gazelle.nodes.nav2 import parameters as nav2
+from gazelle.nodes.navigation.costmap_parameters import costmap_table, layer_table
+from gazelle.nodes.robot_localization.parameters import EKF, ekf_table
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.trees import flattened, nested, values_only
 

@@ -21,7 +21,7 @@ from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node, ticks
-from gazelle.nodes.tree import published_robot_of, robot_of
+from gazelle.nodes.robot_description import published_robot_of, robot_of
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.coercion import number_of
 from gazelle.parameters.reader import ParameterReader

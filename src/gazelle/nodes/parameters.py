@@ -10,7 +10,7 @@ from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
 from gazelle.graph.node_parameters import Descriptor, NodeParameters, ParameterPolicy
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.log_file import keep_log
+from gazelle.nodes.log_output import keep_log
 from gazelle.nodes.ros2_console import print_ros2
 from gazelle.parameters.trees import flattened, nested, values_only
 

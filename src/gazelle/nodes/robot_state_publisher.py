@@ -18,7 +18,7 @@ from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.tree import (
+from gazelle.nodes.robot_description import (
     DESCRIPTION,
     TreeJoint,
     description_of,

@@ -11,7 +11,7 @@ from tests.browser.motion.motion_panel import MotionPanel
 from tests.nodes.conftest import Bench as NodeBench
 from tests.nodes.move_group.conftest import ArmBench
 
-from gazelle.nodes.move_group.planning import RequestPlanner
+from gazelle.nodes.move_group.request_planner import RequestPlanner
 
 _LOOK = "gazelle.look({kind: 'Orbit', focal: [0.2, 0, 0.4], distance: 2, yaw: -0.9, pitch: 0.4})"
 

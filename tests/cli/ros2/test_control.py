@@ -15,7 +15,7 @@ from gazelle.cli.ros2 import control
 from gazelle.cli.ros2 import main as ros2
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
-from gazelle.nodes import controller_manager_client
+from gazelle.nodes.controller_manager import client as controller_manager_client
 
 Run = Callable[..., tuple[int, str]]
 

@@ -21,7 +21,7 @@ from gazelle.compat.moveit.py.kinematic_constraints import construct_joint_const
 from gazelle.compat.moveit.py.robot import RobotState
 from gazelle.compat.moveit.py.scene import PlanningScene
 from gazelle.interfaces import fill, message_type, service_type
-from gazelle.nodes.move_group.execution import ExecutionStatus
+from gazelle.nodes.move_group.trajectory_execution_manager import ExecutionStatus
 
 
 @pytest.fixture

@@ -47,8 +47,8 @@ from gazelle.launch.ros2.nav2 import RewrittenYaml
 from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterFile, ParameterValue
 from gazelle.launch.ros2.utilities.type_utils import coerce_to_type
 from gazelle.mapping.grids.map_file import read_map_file
-from gazelle.nodes.controller_spawner import controllers_in_file
-from gazelle.nodes.ros_gz.rows import read_file as read_bridge_rows
+from gazelle.nodes.controller_manager.spawner import controllers_in_file
+from gazelle.nodes.ros_gz.bridge_config import read_file as read_bridge_rows
 from gazelle.simulator.parameter_input import give_parameters
 from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.forms import _yaml as read_form_field

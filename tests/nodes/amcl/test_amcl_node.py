@@ -14,9 +14,9 @@ from gazelle.graph.tf import StampedPose, StaticTransformBroadcaster, TransformB
 from gazelle.interfaces import message_type
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.localisation import AmclOptions
+from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.amcl.scans import scan_of_message
-from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
-from gazelle.nodes.map_server.messages import message_of_grid
+from gazelle.nodes.map_server.occupancy_grid import message_of_grid
 from gazelle.nodes.parameter_reading import node_reader
 
 _TRUE = (1.2, 2.0, 0.4)

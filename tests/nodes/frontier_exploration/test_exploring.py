@@ -15,7 +15,7 @@ from gazelle.graph.actions import ActionClient, ActionServer, ServerGoal
 from gazelle.graph.tf import StampedPose, StaticTransformBroadcaster
 from gazelle.interfaces import fill, message_type
 from gazelle.mapping.grids import OccupancyGrid
-from gazelle.nodes.map_server.messages import message_of_grid
+from gazelle.nodes.map_server.occupancy_grid import message_of_grid
 
 _COSTMAP = {
     "global_frame": "map",

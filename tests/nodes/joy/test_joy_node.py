@@ -12,7 +12,7 @@ import pytest
 from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.joy.device import devices
 from gazelle.nodes.joy.events import JoyState, read_event
-from gazelle.nodes.joy.options import read_options
+from gazelle.nodes.joy.parameters import read_options
 
 _BUTTON, _AXIS, _INIT = 1, 2, 0x80
 

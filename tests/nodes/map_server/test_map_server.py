@@ -12,7 +12,7 @@ import pytest
 from gazelle.errors import LaunchError
 from gazelle.mapping.grids import MapMode, OccupancyGrid, write_map
 from gazelle.nodes.host import run_node
-from gazelle.nodes.map_server.messages import grid_of_message, message_of_grid
+from gazelle.nodes.map_server.occupancy_grid import grid_of_message, message_of_grid
 from gazelle.nodes.map_server.saver import parse_cli, parse_saver
 
 _MAP = "nav_msgs/msg/OccupancyGrid"

@@ -10,10 +10,10 @@ import pytest
 import yaml
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.nav2 import tables
-from gazelle.nodes.nav2.collision.reading import read_sources, read_zones, report_others
-from gazelle.nodes.nav2.collision.tables import COLLISION_MONITOR
-from gazelle.nodes.navigation.costmap_setup import assemble
+from gazelle.nodes.nav2 import parameters as tables
+from gazelle.nodes.nav2.collision_monitor.parameters import COLLISION_MONITOR
+from gazelle.nodes.nav2.collision_monitor.reading import read_sources, read_zones, report_others
+from gazelle.nodes.navigation.costmap_parameters import assemble
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader

@@ -11,7 +11,7 @@ from gazelle.geometry import Pose
 from gazelle.graph.actions import ActionServer, ServerGoal
 from gazelle.graph.tf import StampedPose, StaticTransformBroadcaster
 from gazelle.mapping.grids import OccupancyGrid
-from gazelle.nodes.map_server.messages import message_of_grid
+from gazelle.nodes.map_server.occupancy_grid import message_of_grid
 
 
 class World:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from gazelle.errors import LaunchError, UserFileError
-from gazelle.nodes.slam.lua.configuration import read_configuration
+from gazelle.nodes.slam.cartographer.configuration import read_configuration
 
 USUAL = """
 include "map_builder.lua"

@@ -9,7 +9,7 @@ import pytest
 
 from gazelle.errors import LaunchError
 from gazelle.interfaces import message_type
-from gazelle.node_specs.all_specs import node_spec
+from gazelle.node_specs.registry import node_spec
 from gazelle.nodes.host import run_node
 from gazelle.nodes.turtlebot3.fake import FakeBase
 

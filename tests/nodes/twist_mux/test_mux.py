@@ -8,7 +8,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.interfaces import message_type
-from gazelle.nodes.twist_mux.inputs import Choice, Input, read_inputs
+from gazelle.nodes.twist_mux.parameters import Choice, Input, read_inputs
 
 _S = 1_000_000_000
 _TWIST: Any = message_type("geometry_msgs/msg/Twist")

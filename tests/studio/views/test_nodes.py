@@ -10,8 +10,8 @@ import pytest
 from tests.patience import eventually, stretched
 
 from gazelle.graph import Graph
-from gazelle.node_specs.all_specs import node_spec
-from gazelle.node_specs.windows import WINDOWS
+from gazelle.node_specs.guis import WINDOWS
+from gazelle.node_specs.registry import node_spec
 from gazelle.nodes.arguments import read_arguments
 from gazelle.studio.views import nodes
 

@@ -98,7 +98,7 @@ def _in_package(command: str, words: list[str], ros_version: int) -> Iterable[st
     package = Workspace.discover().packages.get(words[0])
     if command == "roslaunch":
         return {path.name for path in package.path.rglob("*.launch*")} if package else ()
-    from gazelle.node_specs.all_specs import builtin_executables, names_of_other_ros
+    from gazelle.node_specs.registry import builtin_executables, names_of_other_ros
 
     files = package.executable_names if package else ()
     others = names_of_other_ros(ros_version)

@@ -10,7 +10,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.interfaces import known_types
 from gazelle.launch.ros1.loader import load_launch_files
-from gazelle.node_specs.all_specs import names_of_other_ros
+from gazelle.node_specs.registry import names_of_other_ros
 from gazelle.workspace import Workspace
 
 __all__ = ["launch_arguments", "named", "package_names"]

@@ -16,7 +16,7 @@ from gazelle.cli.ros2.verbs import fail, guarded
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.launch.environment import is_own_command, node_environment
 from gazelle.launch.executables import find_executable
-from gazelle.node_specs.all_specs import builtin_executables
+from gazelle.node_specs.registry import builtin_executables
 from gazelle.process_exit import interrupts_held
 from gazelle.workspace import Workspace
 

@@ -14,7 +14,7 @@ from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.packages.known_packages import is_ros_package, known_packages
 from gazelle.interfaces import known_types as message_types
 from gazelle.launch.environment import drop_in_folder
-from gazelle.node_specs.all_specs import builtin_packages
+from gazelle.node_specs.registry import builtin_packages
 from gazelle.workspace import Workspace
 
 __all__ = ["Answer", "Kind", "judge"]

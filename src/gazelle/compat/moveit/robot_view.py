@@ -14,7 +14,7 @@ from gazelle.graph import Node
 from gazelle.motion.kinematics import Solver, link_poses
 from gazelle.motion.model import JointGroup, RobotModel
 from gazelle.motion.space import FloatArray
-from gazelle.nodes.move_group.state_monitor import StateMonitor
+from gazelle.nodes.move_group.current_state_monitor import StateMonitor
 from gazelle.workspace import Workspace
 
 __all__ = ["RobotView"]

@@ -12,8 +12,8 @@ from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Ro
 from gazelle.doctor.launch_ros1.script_reading import read_script
 from gazelle.doctor.launch_ros1.topics import NodeTopics
 from gazelle.errors import LaunchError
+from gazelle.nodes.robot_description import read_description
 from gazelle.nodes.static_transform_publisher import parse_arguments
-from gazelle.nodes.tree import read_description
 
 __all__ = ["Edge", "Frames", "StatePublisher", "frames_of"]
 

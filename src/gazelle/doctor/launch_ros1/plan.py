@@ -6,8 +6,8 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.dry_start import ControllerStart, StartPlan
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.errors import LaunchError
-from gazelle.nodes.controller_spawner import is_ros2, spawner_parser
-from gazelle.nodes.controller_spawner_ros2 import spawner_options
+from gazelle.nodes.controller_manager.spawner import is_ros2, spawner_parser
+from gazelle.nodes.controller_manager.spawner_ros2 import spawner_options
 
 __all__ = ["controller_start", "start_plan"]
 

@@ -10,7 +10,7 @@ from gazelle.doctor.launch_ros1.builtin_topics import builtin_topics
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.launch_ros1.script_reading import read_script
 from gazelle.graph.names import resolve
-from gazelle.node_specs.all_specs import node_specs
+from gazelle.node_specs.registry import node_specs
 from gazelle.node_specs.unavailable_package_rows import Sends
 from gazelle.node_specs.unavailable_packages import what_it_sends
 

@@ -13,7 +13,7 @@ from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.controllers import controllers_in
 from gazelle.doctor.parameters.document import read_document
 from gazelle.doctor.parameters.parameter_file import layout_of
-from gazelle.node_specs.all_specs import builtin_executables
+from gazelle.node_specs.registry import builtin_executables
 from gazelle.node_specs.unavailable_packages import missing_node
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.entry_points import console_scripts

@@ -20,15 +20,15 @@ from gazelle.interfaces.stamps import ns_of
 from gazelle.mapping.poses import between, compose, inverse
 from gazelle.navigation.localisation import MOTION_MODELS, Amcl, AmclOptions, Estimate
 from gazelle.nodes.amcl.outputs import Outputs
+from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.amcl.scans import scan_of_message
 from gazelle.nodes.amcl.spawned import SpawnHint
-from gazelle.nodes.amcl.tables import AMCL, NAV2_AMCL
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.lifecycle import Lifecycle
-from gazelle.nodes.map_server.messages import grid_of_message
-from gazelle.nodes.navigation.frames import Frames, PlanePose
-from gazelle.nodes.navigation.reconfigure import offer
+from gazelle.nodes.map_server.occupancy_grid import grid_of_message
+from gazelle.nodes.navigation.live_parameters import offer
+from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.parameters.reader import ParameterReader

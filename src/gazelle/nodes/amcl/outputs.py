@@ -13,7 +13,7 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_plane_pose
 from gazelle.interfaces.stamps import set_header
 from gazelle.navigation.localisation import Estimate
-from gazelle.nodes.navigation.frames import PlanePose
+from gazelle.nodes.navigation.robot_pose import PlanePose
 
 if TYPE_CHECKING:
     from gazelle.graph import Node

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.gazebo_names import world_names
 from gazelle.interfaces.poses import unit_pose_of
-from gazelle.nodes.navigation.frames import PlanePose
+from gazelle.nodes.navigation.robot_pose import PlanePose
 
 if TYPE_CHECKING:
     from gazelle.graph import Node

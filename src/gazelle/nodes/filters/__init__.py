@@ -1,1 +1,1 @@
-"""Nodes that make scans of pictures and clouds, and that clean scans."""
+"""Nodes that make scans of pictures and clouds, clean scans, and turn wrenches."""

@@ -23,7 +23,7 @@ from gazelle.navigation.filters import (
     apply_chain,
 )
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.navigation.frames import Frames
+from gazelle.nodes.navigation.robot_pose import Frames
 from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
 from gazelle.parameters import Parameter, ParameterTable, refused

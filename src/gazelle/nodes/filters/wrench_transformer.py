@@ -21,7 +21,7 @@ from gazelle.interfaces.poses import set_xyz, xyz_of
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters, start
-from gazelle.nodes.navigation.frames import Frames
+from gazelle.nodes.navigation.robot_pose import Frames
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 

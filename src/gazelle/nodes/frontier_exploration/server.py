@@ -17,17 +17,17 @@ from gazelle.interfaces.stamps import set_header
 from gazelle.mapping.frontiers import Frontier
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.frontier_exploration.area import Area, Corners
+from gazelle.nodes.frontier_exploration.bounded_explore_layer import Area, Corners
 from gazelle.nodes.frontier_exploration.services import Services
 from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
-from gazelle.nodes.navigation.frames import PlanePose
-from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.navigation.robot_pose import PlanePose
+from gazelle.nodes.navigation.simple_action_server import SingleGoal
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.parameters.reader import ParameterReader
 
 if TYPE_CHECKING:
-    from gazelle.nodes.navigation.live_costmap import LiveCostmap
+    from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
 
 __all__ = ["run"]
 

@@ -11,7 +11,7 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import set_plane_pose, unit_pose_of
 from gazelle.interfaces.stamps import set_header
 from gazelle.mapping.frontiers import Frontier
-from gazelle.nodes.frontier_exploration.area import Area, Corners
+from gazelle.nodes.frontier_exploration.bounded_explore_layer import Area, Corners
 
 if TYPE_CHECKING:
     from gazelle.graph import Node

@@ -21,7 +21,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.joy.device import devices, name_of, open_device
 from gazelle.nodes.joy.events import EVENT_BYTES, JoyState, read_event
-from gazelle.nodes.joy.options import JoyOptions, read_options
+from gazelle.nodes.joy.parameters import JoyOptions, read_options
 from gazelle.nodes.parameters import parameter_tree, start_node
 
 __all__ = ["list_devices", "run"]

@@ -14,7 +14,7 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.mapping.grids import MapFile, OccupancyGrid, read_map, read_map_image
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.map_server.messages import message_of_grid
+from gazelle.nodes.map_server.occupancy_grid import message_of_grid
 from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
 from gazelle.parameters import Parameter, ParameterTable

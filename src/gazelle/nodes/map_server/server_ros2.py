@@ -12,7 +12,7 @@ from gazelle.mapping.grids import read_map
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.lifecycle import Lifecycle
-from gazelle.nodes.map_server.messages import message_of_grid
+from gazelle.nodes.map_server.occupancy_grid import message_of_grid
 from gazelle.nodes.map_server.server import result_of
 from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node

@@ -18,19 +18,19 @@ from gazelle.interfaces.stamps import set_header
 from gazelle.navigation.planners import NoPlan
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.move_base.driving import Driver
-from gazelle.nodes.move_base.executive import Executive, Outcome, PlanPose, State, Timing
-from gazelle.nodes.move_base.local import LocalPlanner
-from gazelle.nodes.move_base.planner import GlobalPlanner
-from gazelle.nodes.move_base.recoveries import make_behaviours
+from gazelle.nodes.move_base.drive import Driver
+from gazelle.nodes.move_base.global_planner import GlobalPlanner
+from gazelle.nodes.move_base.local_planner import LocalPlanner
+from gazelle.nodes.move_base.parameters import MOVE_BASE
+from gazelle.nodes.move_base.recovery_behaviors import make_behaviours
 from gazelle.nodes.move_base.services import Services
-from gazelle.nodes.move_base.tables import MOVE_BASE
-from gazelle.nodes.navigation.costmap_setup import INHERITED, assemble
-from gazelle.nodes.navigation.frames import Frames, PlanePose
-from gazelle.nodes.navigation.live_costmap import LiveCostmap
-from gazelle.nodes.navigation.publishing import CostmapPublisher
-from gazelle.nodes.navigation.reconfigure import offer
-from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.move_base.state_machine import Executive, Outcome, PlanPose, State, Timing
+from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_parameters import INHERITED, assemble
+from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
+from gazelle.nodes.navigation.live_parameters import offer
+from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
+from gazelle.nodes.navigation.simple_action_server import SingleGoal
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.nodes.parameters import parameter_tree, start_node, ticks
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 from gazelle.graph import ServiceRefusedError
 from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import unit_pose_of
-from gazelle.nodes.move_base.planner import GlobalPlanner
-from gazelle.nodes.navigation.live_costmap import LiveCostmap
-from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.move_base.global_planner import GlobalPlanner
+from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.simple_action_server import SingleGoal
 from gazelle.parameters.reader import ParameterReader
 
 if TYPE_CHECKING:

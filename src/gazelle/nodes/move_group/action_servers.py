@@ -11,9 +11,9 @@ from gazelle.interfaces import action_type
 from gazelle.motion.planning.failure import ErrorCode
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
-from gazelle.nodes.move_group.execution import ExecutionStatus
 from gazelle.nodes.move_group.goals import Goal
-from gazelle.nodes.move_group.plan_and_execute import Attempt, Mover
+from gazelle.nodes.move_group.plan_execution import Attempt, Mover
+from gazelle.nodes.move_group.trajectory_execution_manager import ExecutionStatus
 
 __all__ = ["OneAtATime", "offer_execute_action", "offer_move_action"]
 

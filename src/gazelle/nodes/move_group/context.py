@@ -18,17 +18,17 @@ from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.space import FloatArray
 from gazelle.nodes.findings import log_findings
-from gazelle.nodes.move_group.controllers import FAKE_TYPES, controller_specs
+from gazelle.nodes.move_group.current_state_monitor import StateMonitor
 from gazelle.nodes.move_group.error_codes import MoveGroupError
-from gazelle.nodes.move_group.execution import TrajectoryExecutor
-from gazelle.nodes.move_group.fake_controllers import FakeControllers, initial_positions
+from gazelle.nodes.move_group.fake_controller_manager import FakeControllers, initial_positions
 from gazelle.nodes.move_group.parameters import MOVE_GROUP
-from gazelle.nodes.move_group.planning import RequestPlanner
+from gazelle.nodes.move_group.planning_problem import ProblemMaker
 from gazelle.nodes.move_group.planning_scene_messages import apply_scene
-from gazelle.nodes.move_group.problem import ProblemMaker
-from gazelle.nodes.move_group.robot_states import robot_state_message
-from gazelle.nodes.move_group.scene_monitor import SceneMonitor, told_topics
-from gazelle.nodes.move_group.state_monitor import StateMonitor
+from gazelle.nodes.move_group.planning_scene_monitor import SceneMonitor, told_topics
+from gazelle.nodes.move_group.request_planner import RequestPlanner
+from gazelle.nodes.move_group.robot_state_messages import robot_state_message
+from gazelle.nodes.move_group.simple_controller_manager import FAKE_TYPES, controller_specs
+from gazelle.nodes.move_group.trajectory_execution_manager import TrajectoryExecutor
 from gazelle.nodes.parameter_reading import node_reader
 
 __all__ = ["MoveGroupContext", "make_context"]

@@ -8,8 +8,8 @@ from typing import Any
 from gazelle.graph.actions import ClientGoal
 from gazelle.interfaces import action_type, message_type
 from gazelle.motion.planning.failure import ErrorCode
-from gazelle.nodes.move_group.controllers import ControllerKind, ControllerSpec
 from gazelle.nodes.move_group.error_codes import MoveGroupError
+from gazelle.nodes.move_group.simple_controller_manager import ControllerKind, ControllerSpec
 
 __all__ = ["GoalEnd", "controller_goal", "goal_end", "part_of"]
 

@@ -17,8 +17,8 @@ from gazelle.motion.space import FloatArray, Validity
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
+from gazelle.nodes.move_group.planning_problem import GroupProblem
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
-from gazelle.nodes.move_group.problem import GroupProblem
 from gazelle.nodes.move_group.shape_messages import pose_message
 
 __all__ = ["offer_kinematics"]

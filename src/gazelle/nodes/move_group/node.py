@@ -18,8 +18,8 @@ from gazelle.nodes.move_group.action_servers import offer_execute_action, offer_
 from gazelle.nodes.move_group.context import MoveGroupContext, make_context
 from gazelle.nodes.move_group.kinematics_services import offer_kinematics
 from gazelle.nodes.move_group.parameters import report_parameters
+from gazelle.nodes.move_group.planning_scene_services import offer_scene
 from gazelle.nodes.move_group.planning_services import offer_planning
-from gazelle.nodes.move_group.scene_interface import offer_scene
 from gazelle.nodes.move_group.sequences import offer_sequences
 from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.parameters.trees import nested

@@ -29,7 +29,7 @@ from gazelle.nodes.move_group.planning_pipeline import (
     PlanningJob,
     PlanningPipeline,
 )
-from gazelle.nodes.move_group.problem import GroupProblem
+from gazelle.nodes.move_group.planning_problem import GroupProblem
 
 __all__ = ["OMPL"]
 

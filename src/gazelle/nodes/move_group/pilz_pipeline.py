@@ -31,7 +31,7 @@ from gazelle.nodes.move_group.planning_pipeline import (
     SequenceJob,
     as_named,
 )
-from gazelle.nodes.move_group.problem import GroupProblem
+from gazelle.nodes.move_group.planning_problem import GroupProblem
 
 __all__ = ["PILZ"]
 

@@ -14,7 +14,7 @@ from gazelle.description.moveit import MoveItConfig, Pipeline
 from gazelle.motion.model import JointGroup
 from gazelle.motion.planning import PlannerSettings
 from gazelle.motion.timing import Trajectory
-from gazelle.nodes.move_group.problem import GroupProblem
+from gazelle.nodes.move_group.planning_problem import GroupProblem
 
 __all__ = ["Asked", "PlannerChoice", "PlanningJob", "PlanningPipeline", "SequenceJob", "as_named"]
 

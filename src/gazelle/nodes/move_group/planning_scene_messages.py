@@ -9,15 +9,15 @@ from typing import Any
 
 from gazelle.interfaces import message_type
 from gazelle.motion.scene import AllowedCollisions, PlanningScene
-from gazelle.nodes.move_group.error_codes import MoveGroupError
-from gazelle.nodes.move_group.robot_states import positions_of, robot_state_message
-from gazelle.nodes.move_group.scene_messages import (
+from gazelle.nodes.move_group.collision_object_messages import (
     FrameOf,
     apply_attached,
     apply_object,
     attached_message,
     object_message,
 )
+from gazelle.nodes.move_group.error_codes import MoveGroupError
+from gazelle.nodes.move_group.robot_state_messages import positions_of, robot_state_message
 
 __all__ = ["Components", "apply_robot_state", "apply_scene", "matrix_of_message", "scene_message"]
 

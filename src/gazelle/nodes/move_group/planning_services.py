@@ -9,13 +9,13 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.motion.model import JointKind
 from gazelle.motion.planning.failure import ErrorCode
 from gazelle.motion.timing import parameterise
-from gazelle.nodes.move_group.cartesian import JumpLimits, straight_path
+from gazelle.nodes.move_group.cartesian_interpolator import JumpLimits, straight_path
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.pipelines import pipeline_of, planning_pipeline
+from gazelle.nodes.move_group.planning_problem import GroupProblem
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
-from gazelle.nodes.move_group.problem import GroupProblem
 from gazelle.nodes.move_group.trajectories import robot_trajectory
 
 __all__ = ["offer_planning"]

@@ -19,10 +19,10 @@ from gazelle.nodes.move_group.action_servers import OneAtATime
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.pilz_pipeline import PILZ
-from gazelle.nodes.move_group.plan_and_execute import Attempt, Mover
-from gazelle.nodes.move_group.planning import Planned
+from gazelle.nodes.move_group.plan_execution import Attempt, Mover
 from gazelle.nodes.move_group.planning_pipeline import PlanningPipeline, SequenceJob
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
+from gazelle.nodes.move_group.request_planner import Planned
 from gazelle.nodes.move_group.trajectories import robot_trajectory
 
 __all__ = ["offer_sequences"]

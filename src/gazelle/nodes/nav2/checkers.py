@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from gazelle.nodes.navigation.frames import PlanePose
+from gazelle.nodes.navigation.robot_pose import PlanePose
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["GoalChecker", "ProgressChecker", "goal_checker", "progress_checker"]

@@ -32,15 +32,15 @@ from gazelle.nodes.nav2.checkers import (
 )
 from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
-from gazelle.nodes.nav2.tables import (
+from gazelle.nodes.nav2.parameters import (
     CONTROLLER_SERVER,
     GOAL_CHECKERS,
     PROGRESS_CHECKERS,
     controller_table,
 )
-from gazelle.nodes.navigation.frames import PlanePose, path_message
 from gazelle.nodes.navigation.odometry import Odometry
-from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.navigation.robot_pose import PlanePose, path_message
+from gazelle.nodes.navigation.simple_action_server import SingleGoal
 from gazelle.nodes.parameters import ticks
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader

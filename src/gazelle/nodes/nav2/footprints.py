@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.nodes.navigation.frames import Frames
+from gazelle.nodes.navigation.robot_pose import Frames
 
 __all__ = ["outline_in_base"]
 

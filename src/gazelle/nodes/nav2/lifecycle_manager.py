@@ -14,8 +14,8 @@ from gazelle.graph.errors import ServiceCallError
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.findings import log_findings
+from gazelle.nodes.nav2.parameters import LIFECYCLE_MANAGER
 from gazelle.nodes.nav2.starting import offer_parameters, start
-from gazelle.nodes.nav2.tables import LIFECYCLE_MANAGER
 from gazelle.nodes.parameter_reading import node_reader
 
 __all__ = ["run"]

@@ -25,9 +25,9 @@ from gazelle.navigation.planners import (
 )
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
-from gazelle.nodes.nav2.tables import PLANNER_SERVER, planner_table
-from gazelle.nodes.navigation.frames import PlanePose, path_message
-from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.nav2.parameters import PLANNER_SERVER, planner_table
+from gazelle.nodes.navigation.robot_pose import PlanePose, path_message
+from gazelle.nodes.navigation.simple_action_server import SingleGoal
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]

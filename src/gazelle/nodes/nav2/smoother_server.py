@@ -17,11 +17,11 @@ from gazelle.interfaces.poses import unit_pose_of
 from gazelle.interfaces.stamps import set_stamp
 from gazelle.navigation.costmap import INSCRIBED, UNKNOWN, CostGrid
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.costmaps import grid_of_costmap
+from gazelle.nodes.nav2.costmap_node import grid_of_costmap
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
-from gazelle.nodes.nav2.tables import SMOOTHER, SMOOTHER_SERVER
-from gazelle.nodes.navigation.frames import path_message
-from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.nav2.parameters import SMOOTHER, SMOOTHER_SERVER
+from gazelle.nodes.navigation.robot_pose import path_message
+from gazelle.nodes.navigation.simple_action_server import SingleGoal
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run", "smoothed"]

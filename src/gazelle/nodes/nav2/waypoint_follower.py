@@ -13,8 +13,8 @@ from gazelle.graph.actions import ActionClient, ServerGoal
 from gazelle.interfaces import action_type, message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
-from gazelle.nodes.nav2.tables import WAYPOINT_FOLLOWER
-from gazelle.nodes.navigation.single_goal import SingleGoal
+from gazelle.nodes.nav2.parameters import WAYPOINT_FOLLOWER
+from gazelle.nodes.navigation.simple_action_server import SingleGoal
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]

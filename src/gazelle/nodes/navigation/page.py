@@ -8,13 +8,13 @@ from collections.abc import Mapping
 from gazelle.navigation.controllers import CONTROLLERS, REFUSED_CONTROLLERS
 from gazelle.navigation.costmap import REFUSED_LAYERS
 from gazelle.navigation.planners import PLANNERS, REFUSED_PLANNERS
-from gazelle.nodes.move_base.local import local_planner_tables
-from gazelle.nodes.move_base.planner import planner_tables
-from gazelle.nodes.move_base.tables import CLEAR, MOVE_BASE, ROTATE, SLOW
-from gazelle.nodes.nav2 import tables as nav2
-from gazelle.nodes.nav2.behavior_trees.loading import NODE_TYPES
-from gazelle.nodes.nav2.collision.tables import BAND, COLLISION_MONITOR, SOURCE, ZONE
-from gazelle.nodes.navigation.costmap_setup import COSTMAP_TABLES
+from gazelle.nodes.move_base.global_planner import planner_tables
+from gazelle.nodes.move_base.local_planner import local_planner_tables
+from gazelle.nodes.move_base.parameters import CLEAR, MOVE_BASE, ROTATE, SLOW
+from gazelle.nodes.nav2 import parameters as nav2
+from gazelle.nodes.nav2.behavior_trees.xml_parsing import NODE_TYPES
+from gazelle.nodes.nav2.collision_monitor.parameters import BAND, COLLISION_MONITOR, SOURCE, ZONE
+from gazelle.nodes.navigation.costmap_parameters import COSTMAP_TABLES
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.markdown import table_section
 

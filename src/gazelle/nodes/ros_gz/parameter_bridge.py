@@ -16,9 +16,9 @@ from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.ros_gz.pairs import full_ros_type, is_pair, pair_error
+from gazelle.nodes.ros_gz.bridge_config import Direction, ServiceRow, TopicRow, read_file, read_word
+from gazelle.nodes.ros_gz.mappings import full_ros_type, is_pair, pair_error
 from gazelle.nodes.ros_gz.relay import End, Relay
-from gazelle.nodes.ros_gz.rows import Direction, ServiceRow, TopicRow, read_file, read_word
 from gazelle.nodes.ros_gz.services import offer
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.reader import ParameterReader

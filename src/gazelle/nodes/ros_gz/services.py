@@ -10,7 +10,7 @@ from gazelle.errors import GraphError
 from gazelle.graph import Node
 from gazelle.graph.gazebo_names import SHOWN_SPACE, offered_name
 from gazelle.interfaces import service_type
-from gazelle.nodes.ros_gz.rows import ServiceRow
+from gazelle.nodes.ros_gz.bridge_config import ServiceRow
 
 __all__ = ["KINDS", "offer"]
 

@@ -15,7 +15,7 @@ from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.rosbag.words import add_flag, option_parser
+from gazelle.nodes.rosbag.options import add_flag, option_parser
 from gazelle.nodes.workspace_types import learn_workspace_types
 
 __all__ = ["play", "play_options", "run"]

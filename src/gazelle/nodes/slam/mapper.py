@@ -14,8 +14,8 @@ from gazelle.interfaces import message_type
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.poses import Poses, between, compose, inverse
 from gazelle.mapping.slam import MapDrawer, Slam
-from gazelle.nodes.map_server.messages import message_of_grid
-from gazelle.nodes.navigation.frames import Frames
+from gazelle.nodes.map_server.occupancy_grid import message_of_grid
+from gazelle.nodes.navigation.robot_pose import Frames
 from gazelle.nodes.slam.options import SlamOptions
 from gazelle.nodes.slam.scan_messages import PlacedScan, ScanQueue
 

@@ -16,7 +16,7 @@ from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameter_reading import namespace_parameters
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.teleop.terminal import CTRL_C, Keys, say
+from gazelle.nodes.teleop.keyboard import CTRL_C, Keys, say
 from gazelle.nodes.teleop.twists import twist_sender
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterReader

@@ -17,7 +17,7 @@ from gazelle.nodes.parameter_reading import (
     private_parameters,
 )
 from gazelle.nodes.parameters import node_parameters, start_node
-from gazelle.nodes.teleop.terminal import Keys, say
+from gazelle.nodes.teleop.keyboard import Keys, say
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["PARAMETERS", "run"]

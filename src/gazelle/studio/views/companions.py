@@ -11,7 +11,7 @@ from gazelle.graph import Graph
 from gazelle.graph.names import resolve
 from gazelle.nodes import joint_state_publisher as joints
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.turtlesim import simulator
+from gazelle.nodes.turtlesim import turtlesim_node
 from gazelle.parameters.coercion import flag_of
 from gazelle.studio.views.page_owner import SERVICE, Request, is_switched_off, present, say
 
@@ -43,7 +43,7 @@ def joint_state_publisher_gui(arguments: NodeArguments, graph: Graph, stop: thre
 def turtlesim(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Let turtles draw, and show their canvas."""
     request = Request("turtlesim", {"node": arguments.name})
-    return _beside(simulator.run, request, arguments, graph, stop)
+    return _beside(turtlesim_node.run, request, arguments, graph, stop)
 
 
 def _wants_sliders(arguments: NodeArguments, graph: Graph) -> bool:

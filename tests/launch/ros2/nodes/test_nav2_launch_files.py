@@ -15,7 +15,7 @@ from gazelle.launch.ros2.launch_description_sources import PythonLaunchDescripti
 from gazelle.launch.ros2.nodes.actions import LoadComposableNodes, Node
 from gazelle.launch.ros2.nodes.resolving import node_command
 from gazelle.nodes.component_container import builtin_of_component
-from gazelle.nodes.nav2.behavior_trees.loading import read_trees
+from gazelle.nodes.nav2.behavior_trees.xml_parsing import read_trees
 from gazelle.workspace.ament_index import get_package_share_directory
 
 _SHARE = Path(get_package_share_directory("nav2_bringup"))

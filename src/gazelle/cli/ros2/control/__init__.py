@@ -9,7 +9,7 @@ from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
 from gazelle.cli.tool import ToolError, joined
 from gazelle.errors import GraphError
-from gazelle.nodes.controller_manager_client import ManagerClient
+from gazelle.nodes.controller_manager.client import ManagerClient
 from gazelle.ros_arguments import split_arguments
 
 __all__ = ["main"]

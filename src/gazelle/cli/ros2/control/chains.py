@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.cli.tool import ToolError
-from gazelle.nodes.controller_manager_client import ManagerClient
+from gazelle.nodes.controller_manager.client import ManagerClient
 
 __all__ = ["diagram", "view_controller_chains"]
 

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterable
 from typing import Any
 
-from gazelle.nodes.controller_manager_client import ManagerClient
+from gazelle.nodes.controller_manager.client import ManagerClient
 
 __all__ = [
     "list_controller_types",

@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.cli.tool import ToolError
 from gazelle.control.sources.files import FileSource
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.nodes.controller_manager_client import BEST_EFFORT, STRICT, ManagerClient
+from gazelle.nodes.controller_manager.client import BEST_EFFORT, STRICT, ManagerClient
 
 __all__ = [
     "cleanup_controller",

@@ -6,7 +6,7 @@ import argparse
 import sys
 
 from gazelle.cli.ros2.pkg.listing import named_package
-from gazelle.node_specs.all_specs import builtin_executables, builtin_packages
+from gazelle.node_specs.registry import builtin_executables, builtin_packages
 from gazelle.workspace import Package, Workspace
 
 __all__ = ["add_arguments", "run"]

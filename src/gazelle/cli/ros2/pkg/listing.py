@@ -7,7 +7,7 @@ import sys
 
 from gazelle.cli.tool import hint
 from gazelle.errors import GazelleError
-from gazelle.node_specs.all_specs import builtin_packages
+from gazelle.node_specs.registry import builtin_packages
 from gazelle.workspace import Package, Workspace
 
 __all__ = [

@@ -13,7 +13,7 @@ from gazelle.compat.told_once import warn_once
 from gazelle.interfaces import action_type, convert, message_type, service_type
 from gazelle.motion.timing import parameterise
 from gazelle.nodes.move_group.constraint_messages import pose_of
-from gazelle.nodes.move_group.robot_states import positions_of, robot_state_message
+from gazelle.nodes.move_group.robot_state_messages import positions_of, robot_state_message
 from gazelle.nodes.move_group.shape_messages import pose_message
 from gazelle.nodes.move_group.trajectories import robot_trajectory
 

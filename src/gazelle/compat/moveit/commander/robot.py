@@ -11,7 +11,7 @@ from gazelle.compat.moveit.commander.session import robot_of, ros1
 from gazelle.compat.moveit.robot_view import RobotView
 from gazelle.diagnostics import did_you_mean
 from gazelle.motion.model import JointGroup, JointKind, RobotJoint
-from gazelle.nodes.move_group.robot_states import robot_state_message
+from gazelle.nodes.move_group.robot_state_messages import robot_state_message
 
 __all__ = ["RobotCommander"]
 

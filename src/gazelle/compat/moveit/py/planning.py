@@ -22,8 +22,8 @@ from gazelle.motion.planning.failure import ErrorCode
 from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.move_group.context import MoveGroupContext, make_context
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
-from gazelle.nodes.move_group.execution import ExecutionStatus
-from gazelle.nodes.move_group.scene_interface import offer_scene_answers, offer_scene_topics
+from gazelle.nodes.move_group.planning_scene_services import offer_scene_answers, offer_scene_topics
+from gazelle.nodes.move_group.trajectory_execution_manager import ExecutionStatus
 from gazelle.parameters.trees import nested
 from gazelle.workspace import Workspace
 

@@ -17,6 +17,7 @@ from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.planning import FINE_STEP, ErrorCode
 from gazelle.motion.scene import PlanningScene as MotionScene
 from gazelle.motion.space import FloatArray
+from gazelle.nodes.move_group.collision_object_messages import apply_attached, apply_object
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.planning_scene_messages import (
@@ -24,7 +25,6 @@ from gazelle.nodes.move_group.planning_scene_messages import (
     apply_scene,
     scene_message,
 )
-from gazelle.nodes.move_group.scene_messages import apply_attached, apply_object
 
 __all__ = ["PlanningScene", "PlanningSceneMonitor"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from gazelle.nodes.nav2.behavior_trees.node import Leaf, Ports, Status, TreeNode
-from gazelle.nodes.nav2.behavior_trees.world import Call
+from gazelle.nodes.nav2.behavior_trees.ros_interface import Call
+from gazelle.nodes.nav2.behavior_trees.tree_node import Leaf, Ports, Status, TreeNode
 
 __all__ = ["ACTIONS"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from gazelle.nodes.nav2.behavior_trees.node import Decorator, Status
 from gazelle.nodes.nav2.behavior_trees.script import evaluate
+from gazelle.nodes.nav2.behavior_trees.tree_node import Decorator, Status
 
 __all__ = ["Conditioned", "conditions_of"]
 

@@ -10,8 +10,8 @@ from typing import Any, ClassVar
 
 from gazelle.interfaces.stamps import ns_of
 from gazelle.nodes.nav2.behavior_trees.messages import path_length_m, poses_of
-from gazelle.nodes.nav2.behavior_trees.node import Decorator, Status
 from gazelle.nodes.nav2.behavior_trees.script import evaluate
+from gazelle.nodes.nav2.behavior_trees.tree_node import Decorator, Status
 
 __all__ = ["DECORATORS"]
 

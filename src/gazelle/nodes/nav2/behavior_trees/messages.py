@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 from gazelle.interfaces.poses import pose_of
-from gazelle.nodes.nav2.behavior_trees.world import Pose2
+from gazelle.nodes.nav2.behavior_trees.ros_interface import Pose2
 
 __all__ = ["distance_m", "goals_of", "path_length_m", "plane_pose", "poses_of"]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.nodes.nav2.behavior_trees.node import Decorator, Status
+from gazelle.nodes.nav2.behavior_trees.tree_node import Decorator, Status
 
 __all__ = ["SubTree"]
 

@@ -1,0 +1,1 @@
+"""``controller_manager``: its spawners, its command and ``ros2_control_node``."""

@@ -1,0 +1,150 @@
+"""The costmap that is explored, and its frontiers inside of a polygon."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.mapping.frontiers import Frontier, are_inside, find_frontiers
+from gazelle.mapping.grids import OccupancyGrid
+from gazelle.navigation.costmap import CostGrid, ObstacleLayer, occupancy_of_costs
+from gazelle.nodes.frontier_exploration.tables import BOUNDED_EXPLORE, LAYER_TYPE
+from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_parameters import assemble
+from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
+from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
+from gazelle.nodes.parameter_reading import node_reader
+
+if TYPE_CHECKING:
+    from gazelle.graph import Node
+
+__all__ = ["Area"]
+
+_NAME = "explore_costmap"
+_LAYER = "explore_boundary"
+_TRAVEL_POINTS = ("closest", "middle", "centroid")
+# Single cells are no frontiers.
+_MIN_CELLS = 2
+_UNKNOWN, _OCCUPIED, _FREE_BELOW = -1, 100, 50
+
+Corners = NDArray[np.float64]
+
+
+class Area:
+    """What is explored.
+
+    Attributes:
+        costmap: its costs, in its own frame.
+        layer: the name of the layer with the polygon.
+        corners: the polygon, (n, 2) in the costmap's frame; empty for no limit.
+    """
+
+    def __init__(self, node: Node, tree: Mapping[str, Any], diagnostics: Diagnostics) -> None:
+        """Begin without a polygon; what is wrong with the parameters is reported."""
+        self._node, self._frames = node, Frames(node)
+        self._above = tree
+        below = tree.get(_NAME)
+        self._tree: dict[str, Any] = dict(below) if isinstance(below, Mapping) else {}
+        self.layer = self._take_layer()
+        own = self._tree.pop(self.layer, None)
+        name = f"{node.name}/{_NAME}/{self.layer}"
+        values = own if isinstance(own, Mapping) else {}
+        self.settings = node_reader(BOUNDED_EXPLORE, values, name, diagnostics)
+        self._travels_to = self._travel_point()
+        self.settings.report_unknown()
+        self.corners: Corners = np.zeros((0, 2))
+        self.costmap = self._made(self._tree, diagnostics)
+        self.costmap.start()
+
+    def limit(self, corners: Corners) -> None:
+        """Forget what was seen and explore a polygon of the costmap's frame from now on."""
+        self.corners = corners
+        if not (len(corners) and self.settings.flag("resize_to_boundary")):
+            self.costmap.reset()
+            return
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        size = high - low
+        place = {"width": size[0], "height": size[1], "origin_x": low[0], "origin_y": low[1]}
+        self.costmap.close()
+        resized = {**self._tree, **{key: float(value) for key, value in place.items()}}
+        self.costmap = self._made(resized, Diagnostics())
+        self.costmap.start()
+
+    def contains(self, place_m: tuple[float, float]) -> bool:
+        """Tell whether a place of the costmap's frame lies in the polygon."""
+        return not len(self.corners) or bool(are_inside([place_m], self.corners)[0])
+
+    def frontiers(self, robot_m: tuple[float, float]) -> list[Frontier]:
+        """Return what can be explored, the nearest first."""
+        with self.costmap.lock:
+            grid = self._limited(self.costmap.grid)
+        found = find_frontiers(
+            grid, robot_m, free_below=_FREE_BELOW, least_size_m=_MIN_CELLS * grid.resolution_m
+        )
+        return sorted(found, key=lambda one: one.distance_m)
+
+    def goal(self, frontier: Frontier, robot_m: tuple[float, float]) -> PlanePose:
+        """Return where to go for a frontier: the free place next to it, looking away from here."""
+        x, y = frontier.centroid_m if self._travels_to == "centroid" else frontier.nearest_m
+        with self.costmap.lock:
+            grid = self._limited(self.costmap.grid)
+        rows, columns = np.nonzero((grid.cells >= 0) & (grid.cells < _FREE_BELOW))
+        if len(rows):
+            u, v = grid.cell_to_world(columns, rows)
+            nearest = int(np.hypot(u - x, v - y).argmin())
+            x, y = float(u[nearest]), float(v[nearest])
+        return x, y, math.atan2(y - robot_m[1], x - robot_m[0])
+
+    def close(self) -> None:
+        """Stop listening."""
+        self.costmap.close()
+
+    def _limited(self, grid: CostGrid) -> OccupancyGrid:
+        """Return the costs as a map that ends at the polygon."""
+        cells = occupancy_of_costs(grid.costs).copy()
+        if self.settings.flag("explore_clear_space"):
+            cells[~self._seen(grid) & (cells < _OCCUPIED)] = _UNKNOWN
+        made = OccupancyGrid(cells, grid.resolution_m, (*grid.origin, 0.0))
+        if len(self.corners) and self.settings.flag("enabled"):
+            rows, columns = np.indices(cells.shape)
+            places = np.column_stack(made.cell_to_world(columns.ravel(), rows.ravel()))
+            cells[~are_inside(places, self.corners).reshape(cells.shape)] = _OCCUPIED
+        return made
+
+    def _seen(self, grid: CostGrid) -> NDArray[np.bool_]:
+        seen = np.zeros(grid.costs.shape, np.bool_)
+        for layer in self.costmap.assembly.costmap.layers:
+            if isinstance(layer, ObstacleLayer) and layer.grid is not None:
+                seen |= layer.grid.costs != 255
+        return seen
+
+    def _take_layer(self) -> str:
+        """Take the polygon's layer out of ``plugins`` and return its name."""
+        plugins = self._tree.get("plugins")
+        rows = plugins if isinstance(plugins, list) else []
+        own = [row for row in rows if isinstance(row, Mapping) and row.get("type") == LAYER_TYPE]
+        if not own:
+            return _LAYER
+        self._tree["plugins"] = [row for row in rows if row not in own]
+        return str(own[0].get("name", _LAYER))
+
+    def _travel_point(self) -> str:
+        point = self.settings.text("frontier_travel_point")
+        if point in _TRAVEL_POINTS:
+            return point
+        text = f"Invalid 'frontier_travel_point' parameter '{point}', falling back to 'closest'"
+        known = ", ".join(_TRAVEL_POINTS)
+        self.settings.report("parameter.bad-value", text, f"there are {known}")
+        return "closest"
+
+    def _made(self, tree: Mapping[str, Any], diagnostics: Diagnostics) -> LiveCostmap:
+        name = f"{self._node.name}/{_NAME}"
+        made = assemble({**tree}, name, diagnostics, above=self._above)
+        frame = made.costmap.options.global_frame.removeprefix("/")
+        publisher = CostmapPublisher(self._node, f"~/{_NAME}", frame)
+        return LiveCostmap(self._node, self._frames, made, publisher)

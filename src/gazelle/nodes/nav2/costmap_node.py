@@ -1,0 +1,115 @@
+"""The costmap nodes of Nav2's planner and controller servers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from gazelle.diagnostics import Diagnostics
+from gazelle.graph import Graph, Node
+from gazelle.graph.names import join
+from gazelle.interfaces import service_type
+from gazelle.navigation.costmap import CostGrid
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.nav2.starting import offer_parameters, tree_of_node
+from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_parameters import assemble
+from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
+from gazelle.nodes.navigation.robot_pose import Frames
+from gazelle.nodes.ros2_console import print_ros2
+
+__all__ = ["Nav2Costmap", "grid_of_costmap"]
+
+
+def grid_of_costmap(message: Any) -> CostGrid:
+    """Return the grid of a ``nav2_msgs/Costmap``."""
+    data = message.metadata
+    costs = np.asarray(message.data, np.uint8).reshape(int(data.size_y), int(data.size_x))
+    origin = (float(data.origin.position.x), float(data.origin.position.y))
+    # A float32 of 0.05 is 0.0500000007…
+    resolution_m = float(f"{float(data.resolution):.7g}")
+    return CostGrid(np.ascontiguousarray(costs), resolution_m, origin)
+
+
+class Nav2Costmap:
+    """``/local_costmap/local_costmap`` or its global sister, with topics and services.
+
+    Attributes:
+        node: the costmap's own.
+        live: the costmap.
+    """
+
+    def __init__(
+        self, name: str, arguments: NodeArguments, graph: Graph, diagnostics: Diagnostics
+    ) -> None:
+        """Make node and costmap; it is updated from `LiveCostmap.start` on."""
+        space = f"{arguments.namespace.rstrip('/')}/{name}"
+        self.node: Node = graph.create_node(
+            name,
+            namespace=space,
+            remappings=_rules(arguments.remappings, arguments.namespace),
+            is_ros2=True,
+        )
+        self.node.console = print_ros2
+        tree = tree_of_node(arguments, self.node.name)
+        if name == "local_costmap":
+            tree.setdefault("global_frame", "odom")
+        made = assemble(tree, self.node.name, diagnostics, ros_version=2)
+        frame = made.costmap.options.global_frame.removeprefix("/")
+        publisher = CostmapPublisher(
+            self.node, space, frame, raw=True, footprint="published_footprint"
+        )
+        self.live = LiveCostmap(
+            self.node, Frames(self.node), made, publisher,
+            topics_in=arguments.namespace, refuses_late=False,
+        )  # fmt: skip
+        self._parameters = offer_parameters(self.node, tree)
+        with self.node.announced_together():
+            self._offer(name, space)
+
+    def close(self) -> None:
+        """Take everything off the graph."""
+        self.live.close()
+        self._parameters.close()
+        self.node.shutdown()
+
+    def _offer(self, name: str, space: str) -> None:
+        for word, kind, handler in (
+            ("clear_entirely", "ClearEntireCostmap", self._on_clear_all),
+            ("clear_around", "ClearCostmapAroundRobot", self._on_clear_around),
+            ("clear_except", "ClearCostmapExceptRegion", self._on_clear_except),
+        ):
+            service = service_type(f"nav2_msgs/srv/{kind}")
+            self.node.create_service(f"{space}/{word}_{name}", service, handler)
+        service = service_type("nav2_msgs/srv/GetCostmap")
+        self.node.create_service(f"{space}/get_costmap", service, self._on_get)
+
+    def _on_clear_all(self, _request: Any) -> Any:
+        self.live.reset()
+        return service_type("nav2_msgs/srv/ClearEntireCostmap").Response()
+
+    def _on_clear_around(self, request: Any) -> Any:
+        self.live.clear_around(float(request.reset_distance), inside=True)
+        return service_type("nav2_msgs/srv/ClearCostmapAroundRobot").Response()
+
+    def _on_clear_except(self, request: Any) -> Any:
+        self.live.clear_around(float(request.reset_distance))
+        return service_type("nav2_msgs/srv/ClearCostmapExceptRegion").Response()
+
+    def _on_get(self, _request: Any) -> Any:
+        response = service_type("nav2_msgs/srv/GetCostmap").Response()
+        response.map = self.live.raw_message()
+        return response
+
+
+def _rules(remappings: Mapping[str, str], namespace: str) -> dict[str, str]:
+    """Return the rules of the server for its costmap, which is one namespace further down.
+
+    ``/tf:=tf`` means the transforms of the server's namespace.
+    """
+    return {
+        name: join(namespace, value) if name.startswith("/") else value
+        for name, value in remappings.items()
+    }

@@ -1,1 +1,0 @@
-"""Cartographer's configuration files: the Lua that they are written in, and what they say."""

@@ -1,0 +1,1 @@
+"""``topic_tools``: nodes that pass on, choose and change topics of any type."""
