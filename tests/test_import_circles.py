@@ -26,7 +26,7 @@ WITH_TYPES = {
     "gazelle.graph.actions.actionlib_wire",
     "gazelle.graph.clock",
     "gazelle.launch.ros2.action",
-    "gazelle.launch.ros2.context",
+    "gazelle.launch.ros2.launch_context",
     "gazelle.simulator.handles",
     "gazelle.simulator.plugins.named",
     "gazelle.workspace.uri_resolver",

@@ -23,10 +23,10 @@ from gazelle.doctor.launch_ros2.launch_tree import follow
 from gazelle.doctor.parameters.check_parameters import check_parameter_file
 from gazelle.documents.yaml import load_yaml
 from gazelle.errors import GazelleError, LaunchError
-from gazelle.launch.ros2.faults import diagnose
+from gazelle.launch.ros2.error_diagnostics import diagnose
 from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
-from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterFile
+from gazelle.launch.ros2.launch_ros.parameter_descriptions import ParameterFile
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.localisation import AmclOptions
 from gazelle.navigation.planners import PLANNERS

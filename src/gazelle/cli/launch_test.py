@@ -10,6 +10,6 @@ __all__ = ["main"]
 def main(argv: list[str]) -> int:
     """Run the tests of a file with a ``generate_test_description``."""
     surround_launch_files()
-    from gazelle.launch.ros2.testing.command import main as run_tests
+    from gazelle.launch.ros2.launch_testing.launch_test import main as run_tests
 
     return run_tests(argv)

@@ -13,7 +13,7 @@ from gazelle.errors import NotFoundError
 from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.console import dump_text
 from gazelle.launch.executables import find_executable
-from gazelle.launch.process import node_words
+from gazelle.launch.node_process import node_words
 from gazelle.launch.ros1.loader import load_launch_files, load_launch_text
 from gazelle.launch.roslaunch import LaunchOptions, launch
 from gazelle.launch.supervisor import StopTimes

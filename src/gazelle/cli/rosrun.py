@@ -10,7 +10,7 @@ from contextlib import nullcontext
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.launch.environment import is_own_command, node_environment
 from gazelle.launch.executables import find_executable
-from gazelle.launch.lockstep import is_simulator
+from gazelle.launch.spawner_sequence import is_simulator
 from gazelle.process_exit import interrupts_held
 from gazelle.workspace import Workspace
 

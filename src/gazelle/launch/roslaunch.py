@@ -28,15 +28,15 @@ from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.console import Console, summary
 from gazelle.launch.environment import node_environment
 from gazelle.launch.executables import Executable, find_executable
-from gazelle.launch.lockstep import (
+from gazelle.launch.real_ros import join, real_ros
+from gazelle.launch.run_log import RunLog, begin_log, run_log
+from gazelle.launch.spawner_sequence import (
     HeldStart,
     holds_time,
     is_simulator,
     starts_in_turn,
     with_simulator_words,
 )
-from gazelle.launch.real_ros import join, real_ros
-from gazelle.launch.run_log import RunLog, begin_log, run_log
 from gazelle.launch.supervisor import StopTimes, Supervisor
 from gazelle.workspace import Workspace
 

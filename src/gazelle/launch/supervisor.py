@@ -18,9 +18,8 @@ from typing import Any, Self
 from gazelle.launch.config import NodeTag
 from gazelle.launch.console import Console
 from gazelle.launch.executables import Executable
-from gazelle.launch.guard import Guard
-from gazelle.launch.host import HostEnded, NodeEnded, NodeHost, NodeReady
-from gazelle.launch.process import (
+from gazelle.launch.node_host import HostEnded, NodeEnded, NodeHost, NodeReady
+from gazelle.launch.node_process import (
     LaunchedProcess,
     code_text,
     end_text,
@@ -28,6 +27,7 @@ from gazelle.launch.process import (
     start_process,
 )
 from gazelle.launch.stopped_processes import StoppedProcess
+from gazelle.launch.watchdog import Guard
 
 __all__ = ["StopTimes", "Supervisor"]
 

@@ -15,8 +15,8 @@ from typing import Any
 import pytest
 
 from gazelle.launch.ros2 import LaunchContext, LaunchDescription, LaunchService
-from gazelle.launch.ros2.testing.actions import ReadyToTest
-from gazelle.launch.ros2.testing.loader import ready_actions
+from gazelle.launch.ros2.launch_testing.actions import ReadyToTest
+from gazelle.launch.ros2.launch_testing.loader import ready_actions
 
 __all__ = ["event_loop", "fixture", "launch_context", "launch_service"]
 

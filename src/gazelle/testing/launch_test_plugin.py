@@ -108,7 +108,7 @@ class LaunchTestItem(pytest.Item):
 
     def runtest(self) -> None:
         """Launch and test."""
-        from gazelle.launch.ros2.testing.runner import LaunchTestRunner
+        from gazelle.launch.ros2.launch_testing.test_runner import LaunchTestRunner
 
         given = [word for words in self.config.getoption("--launch-args") for word in words]
         is_verbose = self.config.get_verbosity() > 0
@@ -139,7 +139,7 @@ class LaunchTestModule(pytest.File):
 
     def collect(self) -> Iterator[LaunchTestItem]:
         """Yield the one item of the file."""
-        from gazelle.launch.ros2.testing.loader import LoadTestsFromPythonModule
+        from gazelle.launch.ros2.launch_testing.loader import LoadTestsFromPythonModule
 
         module = pytest.Module.from_parent(self.parent, path=self.path).obj
         name = module.__name__

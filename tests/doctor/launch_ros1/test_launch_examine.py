@@ -10,7 +10,7 @@ import pytest
 from tests.doctor.conftest import Examine, Write, codes
 
 from gazelle.doctor import Report
-from gazelle.doctor.dry_start import start as start_module
+from gazelle.doctor.dry_start import bringup as start_module
 from gazelle.errors import EngineError
 
 Launch = Callable[..., Report]

@@ -38,13 +38,13 @@ from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph.names import parse_command_line
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.ros1.loader import load_launch_text
-from gazelle.launch.ros2.actions.loops import ForEach
-from gazelle.launch.ros2.context import LaunchContext
-from gazelle.launch.ros2.faults import diagnose
+from gazelle.launch.ros2.actions.for_loop import ForEach
+from gazelle.launch.ros2.error_diagnostics import diagnose
 from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
-from gazelle.launch.ros2.nav2 import RewrittenYaml
-from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterFile, ParameterValue
+from gazelle.launch.ros2.launch_context import LaunchContext
+from gazelle.launch.ros2.launch_ros.parameter_descriptions import ParameterFile, ParameterValue
+from gazelle.launch.ros2.nav2_common import RewrittenYaml
 from gazelle.launch.ros2.utilities.type_utils import coerce_to_type
 from gazelle.mapping.grids.map_file import read_map_file
 from gazelle.nodes.controller_manager.spawner import controllers_in_file

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from gazelle.diagnostics import Diagnostic
-from gazelle.launch import guard
+from gazelle.launch import watchdog
 from gazelle.launch.ros2 import (
     LaunchContext,
     LaunchDescription,
@@ -49,7 +49,7 @@ class Ran:
 @pytest.fixture(autouse=True)
 def _own_logs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
-    monkeypatch.setattr(guard, "_PATIENCE_S", 0.2)
+    monkeypatch.setattr(watchdog, "_PATIENCE_S", 0.2)
     deprecation.TOLD.clear()
     for name in list(os.environ):
         if name.startswith("OVERRIDE_LAUNCH"):

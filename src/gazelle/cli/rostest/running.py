@@ -20,7 +20,7 @@ from gazelle.graph import Graph
 from gazelle.launch.config import LaunchConfig, TestTag
 from gazelle.launch.environment import node_environment
 from gazelle.launch.executables import find_executable
-from gazelle.launch.process import node_words
+from gazelle.launch.node_process import node_words
 from gazelle.parent_process import PARENT_VARIABLE
 from gazelle.workspace import Workspace
 

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.rclpy.parameter import Parameter as RosParameter
 from gazelle.errors import GraphError
-from gazelle.launch.ros2.nodes.parameter_descriptions import (
+from gazelle.launch.ros2.launch_ros.parameter_descriptions import (
     Parameter,
     ParameterFile,
     ParameterValue,
 )
-from gazelle.launch.ros2.nodes.utilities import parameter_values
+from gazelle.launch.ros2.launch_ros.utilities import parameter_values
 from gazelle.launch.ros2.substitution import (
     SomeSubstitutionsType,
     SomeSubstitutionsType_types_tuple,
@@ -21,7 +21,7 @@ from gazelle.launch.ros2.substitution import (
 )
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = [
     "EvaluatedParameterValue",

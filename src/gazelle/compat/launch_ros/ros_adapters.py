@@ -13,7 +13,7 @@ from gazelle.compat.rclpy.executors import SingleThreadedExecutor
 from gazelle.launch.ros2.event_handlers import OnShutdown
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["ROSAdapter", "get_ros_adapter", "get_ros_node"]
 

@@ -29,7 +29,7 @@ def expanded_parameter(file: Path, mappings: Mapping[Any, Any] | None) -> Any:
         return load_xacro(file, mappings)
     # Programs without a launch build their parameters here too, and have no use for it.
     from gazelle.compat.moveit_configs.xacro_substitution import Xacro
-    from gazelle.launch.ros2.nodes.parameter_descriptions import ParameterValue
+    from gazelle.launch.ros2.launch_ros.parameter_descriptions import ParameterValue
 
     raise_if_file_not_found(file)
     return ParameterValue(Xacro(str(file), mappings=mappings), value_type=str)

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.compat.moveit_configs.files import load_xacro
-from gazelle.launch.ros2.context import LaunchContext
 from gazelle.launch.ros2.frontend import expose_substitution
+from gazelle.launch.ros2.launch_context import LaunchContext
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
 from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,

@@ -9,10 +9,10 @@ from typing import Any, Literal, cast
 from gazelle.description.xml import Tag
 from gazelle.graph.names import resolve
 from gazelle.launch.config import ArgDeclaration, Machine, NodeTag, TestTag
+from gazelle.launch.ros1.element_reader import Reading, TagError
 from gazelle.launch.ros1.param_elements import param, rosparam
-from gazelle.launch.ros1.reading import Reading, TagError
 from gazelle.launch.ros1.scope import Scope
-from gazelle.launch.ros1.substitution import UNREADABLE
+from gazelle.launch.ros1.substitution_args import UNREADABLE
 
 __all__ = ["HANDLERS"]
 

@@ -11,10 +11,10 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.documents.files import is_file
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.environment import ros1_variables
+from gazelle.launch.ros1.element_reader import Reading, TagError
 from gazelle.launch.ros1.elements import HANDLERS
-from gazelle.launch.ros1.reading import Reading, TagError
 from gazelle.launch.ros1.scope import Scope
-from gazelle.launch.ros1.substitution import TOLD
+from gazelle.launch.ros1.substitution_args import TOLD
 from gazelle.launch.ros1.tables import ELEMENTS
 from gazelle.workspace import Workspace
 

@@ -15,7 +15,7 @@ from gazelle.documents.yaml import ROSPARAM, YamlError, YamlProblem, read_yaml
 from gazelle.graph.names import resolve
 from gazelle.launch.config import ParamDump
 from gazelle.launch.environment import node_environment
-from gazelle.launch.ros1.reading import Reading, TagError
+from gazelle.launch.ros1.element_reader import Reading, TagError
 from gazelle.launch.ros1.scope import Scope
 from gazelle.launch.ros1.values import param_value
 from gazelle.parameters.trees import leaves_at

@@ -20,21 +20,21 @@ from gazelle.launch.ros2 import (
 )
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.condition import Condition
-from gazelle.launch.ros2.context import LaunchContext
-from gazelle.launch.ros2.description import LaunchDescription
-from gazelle.launch.ros2.entity import (
+from gazelle.launch.ros2.event import Event
+from gazelle.launch.ros2.event_handler import BaseEventHandler, EventHandler
+from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
+from gazelle.launch.ros2.launch_context import LaunchContext
+from gazelle.launch.ros2.launch_description import LaunchDescription
+from gazelle.launch.ros2.launch_description_entity import (
     LaunchDescriptionEntity,
     SomeActionsType,
     SomeActionsType_types_tuple,
     SomeEntitiesType,
     SomeEntitiesType_types_tuple,
 )
-from gazelle.launch.ros2.event import Event
-from gazelle.launch.ros2.event_handler import BaseEventHandler, EventHandler
-from gazelle.launch.ros2.introspector import LaunchIntrospector
-from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
-from gazelle.launch.ros2.service import LaunchService
-from gazelle.launch.ros2.source import LaunchDescriptionSource
+from gazelle.launch.ros2.launch_description_source import LaunchDescriptionSource
+from gazelle.launch.ros2.launch_introspector import LaunchIntrospector
+from gazelle.launch.ros2.launch_service import LaunchService
 from gazelle.launch.ros2.substitution import (
     SomeSubstitutionsType,
     SomeSubstitutionsType_types_tuple,

@@ -6,11 +6,11 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.launch.ros2.condition import Condition
-from gazelle.launch.ros2.entity import LaunchDescriptionEntity
+from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
     from gazelle.launch.ros2.frontend import Entity, Parser
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["Action"]
 

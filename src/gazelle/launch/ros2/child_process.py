@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.launch.environment import is_own_command
-from gazelle.launch.guard import Guard
+from gazelle.launch.watchdog import Guard
 from gazelle.parent_process import PARENT_VARIABLE
 from gazelle.process_exit import interrupts_held
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["Condition"]
 

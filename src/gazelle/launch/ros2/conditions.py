@@ -14,7 +14,7 @@ from gazelle.launch.ros2.utilities import (
 )
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = [
     "VALID_FALSE_EXPRESSIONS",

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.launch.ros2.entity import LaunchDescriptionEntity, SomeEntitiesType
 from gazelle.launch.ros2.event import Event
+from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["BaseEventHandler", "EventHandler"]
 

@@ -6,15 +6,15 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.launch.ros2.action import Action
-from gazelle.launch.ros2.entity import LaunchDescriptionEntity, SomeEntitiesType
 from gazelle.launch.ros2.event import Event
 from gazelle.launch.ros2.event_handler import BaseEventHandler, EventHandler
 from gazelle.launch.ros2.events import ExecutionComplete, IncludeLaunchDescription, Shutdown
 from gazelle.launch.ros2.events.process import ProcessExited, ProcessIO, ProcessStarted
+from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
 from gazelle.launch.ros2.utilities import is_a_subclass
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = [
     "OnActionEventBase",

@@ -16,8 +16,8 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.documents.yaml import ProblemKind, PyYamlError, YamlProblem, problem_of
 from gazelle.launch.ros2.failing import kept_explanation
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
-from gazelle.launch.ros2.place import is_the_users
-from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
+from gazelle.launch.ros2.substitutions.substitution_failure import SubstitutionFailure
+from gazelle.launch.ros2.user_spans import is_the_users
 from gazelle.node_specs.unavailable_packages import replacement_of
 from gazelle.workspace.ament_index import PackageNotFoundError
 

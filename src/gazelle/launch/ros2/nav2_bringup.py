@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, Any
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import load_yaml
 from gazelle.launch.ros2.actions import DeclareLaunchArgument, LogInfo
-from gazelle.launch.ros2.nav2 import RewrittenYaml
-from gazelle.launch.ros2.nodes.actions import LoadComposableNodes, Node
-from gazelle.launch.ros2.nodes.descriptions import ComposableNode, ParameterFile
+from gazelle.launch.ros2.launch_ros.actions import LoadComposableNodes, Node
+from gazelle.launch.ros2.launch_ros.descriptions import ComposableNode, ParameterFile
+from gazelle.launch.ros2.nav2_common import RewrittenYaml
 from gazelle.launch.ros2.substitutions import LaunchConfiguration
 from gazelle.workspace.ament_index import get_package_share_directory
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = [
     "ABSENT",

@@ -15,16 +15,16 @@ from gazelle.launch.ros2 import (
     event_handlers,
     events,
     launch_description_sources,
-    nav2,
-    nodes,
+    launch_ros,
+    launch_testing,
+    nav2_common,
     ros_gz,
     substitutions,
-    testing,
 )
 from gazelle.launch.ros2.events import process
 from gazelle.launch.ros2.frontend.expose import action_parse_methods, substitution_parse_methods
-from gazelle.launch.ros2.testing import asserts, markers, tools
-from gazelle.launch.ros2.testing import event_handlers as test_handlers
+from gazelle.launch.ros2.launch_testing import asserts, markers, tools
+from gazelle.launch.ros2.launch_testing import event_handlers as test_handlers
 
 __all__ = ["reference_markdown"]
 
@@ -43,16 +43,16 @@ _SECTIONS: dict[str, ModuleType] = {
     "launch.events.process": process,
     "launch.launch_description_sources": launch_description_sources,
     "launch.descriptions": descriptions,
-    "launch_ros.actions": nodes.actions,
-    "launch_ros.substitutions": nodes.substitutions,
-    "launch_ros.descriptions": nodes.descriptions,
-    "launch_ros.event_handlers": nodes.event_handlers,
-    "launch_ros.events": nodes.events,
-    "launch_ros.events.lifecycle": nodes.events.lifecycle,
+    "launch_ros.actions": launch_ros.actions,
+    "launch_ros.substitutions": launch_ros.substitutions,
+    "launch_ros.descriptions": launch_ros.descriptions,
+    "launch_ros.event_handlers": launch_ros.event_handlers,
+    "launch_ros.events": launch_ros.events,
+    "launch_ros.events.lifecycle": launch_ros.events.lifecycle,
     "ros_gz_sim.actions, ros_gz_bridge.actions": ros_gz,
-    "nav2_common.launch": nav2,
-    "launch_testing": testing,
-    "launch_testing.actions": testing.actions,
+    "nav2_common.launch": nav2_common,
+    "launch_testing": launch_testing,
+    "launch_testing.actions": launch_testing.actions,
     "launch_testing.asserts": asserts,
     "launch_testing.event_handlers": test_handlers,
     "launch_testing.markers": markers,

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gazelle.diagnostics import did_you_mean
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.actions import IncludeLaunchDescription
-from gazelle.launch.ros2.entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
+from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.launch_description_sources import PythonLaunchDescriptionSource
 from gazelle.workspace.ament_index import get_package_share_directory
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["GzServer", "GzSpawnModel", "RosGzBridge"]
 

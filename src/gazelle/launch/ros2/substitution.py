@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import SourceSpan
-from gazelle.launch.ros2.place import calling_place
+from gazelle.launch.ros2.user_spans import calling_place
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = [
     "SomeSubstitutionsType",

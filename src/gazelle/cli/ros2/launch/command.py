@@ -133,12 +133,12 @@ def _no_file(first: str) -> str:
 
 def _show(path: Path, *, with_arguments: bool) -> int:
     """Print the tree of a launch file, or its arguments."""
-    from gazelle.launch.ros2.description import argument_lines
-    from gazelle.launch.ros2.faults import diagnose
-    from gazelle.launch.ros2.introspector import LaunchIntrospector
+    from gazelle.launch.ros2.error_diagnostics import diagnose
+    from gazelle.launch.ros2.launch_description import argument_lines
     from gazelle.launch.ros2.launch_description_sources import (
         get_launch_description_from_any_launch_file,
     )
+    from gazelle.launch.ros2.launch_introspector import LaunchIntrospector
 
     try:
         description = get_launch_description_from_any_launch_file(str(path))

@@ -3,30 +3,13 @@
 import sys as _sys
 
 from gazelle.launch.ros2 import *  # noqa: F403
-from gazelle.launch.ros2 import (
-    action,
-    actions,
-    condition,
-    conditions,
-    context,
-    description,
-    descriptions,
-    entity,
-    event,
-    event_handler,
-    event_handlers,
-    events,
-    frontend,
-    introspector,
-    invalid_launch_file_error,
-    launch_description_sources,
-    logging,
-    service,
-    source,
-    substitution,
-    substitutions,
-    utilities,
-)
+from gazelle.launch.ros2 import action, actions, condition, conditions, descriptions, event, event_handler, event_handlers, events, frontend, invalid_launch_file_error, launch_description_sources, logging, substitution, substitutions, utilities
+from gazelle.launch.ros2 import launch_context
+from gazelle.launch.ros2 import launch_description
+from gazelle.launch.ros2 import launch_description_entity
+from gazelle.launch.ros2 import launch_introspector
+from gazelle.launch.ros2 import launch_service
+from gazelle.launch.ros2 import launch_description_source
 from gazelle.launch.ros2.events import process as _process
 from gazelle.launch.ros2.frontend import entity as _frontend_entity
 from gazelle.launch.ros2.frontend import expose as _expose
@@ -171,17 +154,17 @@ _sys.modules.update(
             "frontend.parser": _parser,
             "frontend.type_utils": _frontend_type_utils,
             "invalid_launch_file_error": invalid_launch_file_error,
-            "launch_context": context,
-            "launch_description": description,
-            "launch_description_entity": entity,
-            "launch_description_source": source,
+            "launch_context": launch_context,
+            "launch_description": launch_description,
+            "launch_description_entity": launch_description_entity,
+            "launch_description_source": launch_description_source,
             "launch_description_sources": launch_description_sources,
-            "launch_introspector": introspector,
-            "launch_service": service,
+            "launch_introspector": launch_introspector,
+            "launch_service": launch_service,
             "logging": logging,
             "logging.handlers": _handlers,
-            "some_actions_type": entity,
-            "some_entities_type": entity,
+            "some_actions_type": launch_description_entity,
+            "some_entities_type": launch_description_entity,
             "some_substitutions_type": substitution,
             "substitution": substitution,
             "substitutions": substitutions,

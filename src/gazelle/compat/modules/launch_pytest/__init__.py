@@ -2,8 +2,8 @@
 
 import sys as _sys
 
-from gazelle.launch.ros2.testing import actions
-from gazelle.launch.ros2.testing import waiting as tools
+from gazelle.launch.ros2.launch_testing import actions
+from gazelle.launch.ros2.launch_testing import pytest_tools as tools
 from gazelle.testing import launch_pytest_plugin as plugin
 from gazelle.testing.launch_pytest_plugin import fixture
 

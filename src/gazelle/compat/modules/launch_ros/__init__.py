@@ -1,11 +1,11 @@
-"""launch_ros, by Gazelle: the classes of `gazelle.launch.ros2.nodes` where ROS 2 has them."""
+"""launch_ros, by Gazelle: the classes of `gazelle.launch.ros2.launch_ros` where ROS 2 has them."""
 
 import sys as _sys
 from types import ModuleType as _ModuleType
 
 from gazelle.compat.launch_ros import parameters as _parameters
 from gazelle.compat.launch_ros import ros_adapters
-from gazelle.launch.ros2.nodes import (
+from gazelle.launch.ros2.launch_ros import (
     actions,
     descriptions,
     event_handlers,
@@ -14,17 +14,17 @@ from gazelle.launch.ros2.nodes import (
     substitutions,
     utilities,
 )
-from gazelle.launch.ros2.nodes.actions import composable_nodes as _composable_nodes
-from gazelle.launch.ros2.nodes.actions import lifecycle_node as _lifecycle_node
-from gazelle.launch.ros2.nodes.actions import lifecycle_transition as _lifecycle_transition
-from gazelle.launch.ros2.nodes.actions import node as _node
-from gazelle.launch.ros2.nodes.actions import ros_timer as _ros_timer
-from gazelle.launch.ros2.nodes.actions import scope as _scope
-from gazelle.launch.ros2.nodes.events import lifecycle as _lifecycle
-from gazelle.launch.ros2.nodes.events import matchers as _matchers
-from gazelle.launch.ros2.nodes.utilities import evaluating as _evaluating
-from gazelle.launch.ros2.nodes.utilities import namespaces as _namespaces
-from gazelle.launch.ros2.nodes.utilities import normalizing as _normalizing
+from gazelle.launch.ros2.launch_ros.actions import composable_nodes as _composable_nodes
+from gazelle.launch.ros2.launch_ros.actions import lifecycle_node as _lifecycle_node
+from gazelle.launch.ros2.launch_ros.actions import lifecycle_transition as _lifecycle_transition
+from gazelle.launch.ros2.launch_ros.actions import node as _node
+from gazelle.launch.ros2.launch_ros.actions import ros_timer as _ros_timer
+from gazelle.launch.ros2.launch_ros.actions import scoped_settings as _scope
+from gazelle.launch.ros2.launch_ros.events import lifecycle as _lifecycle
+from gazelle.launch.ros2.launch_ros.events import matchers as _matchers
+from gazelle.launch.ros2.launch_ros.utilities import node_parameters as _evaluating
+from gazelle.launch.ros2.launch_ros.utilities import namespaces as _namespaces
+from gazelle.launch.ros2.launch_ros.utilities import normalizing as _normalizing
 
 __all__ = [
     "actions",

@@ -1,24 +1,16 @@
-"""launch_testing, by Gazelle: `gazelle.launch.ros2.testing` at the paths that ROS 2 has it."""
+"""launch_testing, by Gazelle: `gazelle.launch.ros2.launch_testing` where ROS 2 has it."""
 
 import sys as _sys
 
-from gazelle.launch.ros2.testing import *  # noqa: F403
-from gazelle.launch.ros2.testing import (
-    actions,
-    asserts,
-    command,
-    event_handlers,
-    handlers,
-    loader,
-    lookup,
-    markers,
-    matching,
-    proxy,
-    ready_aggregator,
-    results,
-    runner,
-    tools,
-)
+from gazelle.launch.ros2.launch_testing import *  # noqa: F403
+from gazelle.launch.ros2.launch_testing import actions, asserts, event_handlers, loader, markers, ready_aggregator, tools
+from gazelle.launch.ros2.launch_testing import launch_test
+from gazelle.launch.ros2.launch_testing import process_handlers
+from gazelle.launch.ros2.launch_testing import proc_lookup
+from gazelle.launch.ros2.launch_testing import output_text
+from gazelle.launch.ros2.launch_testing import process_proxy
+from gazelle.launch.ros2.launch_testing import test_result
+from gazelle.launch.ros2.launch_testing import test_runner
 
 _MODULES = {
     "actions": actions,
@@ -33,22 +25,22 @@ _MODULES = {
     "decorator": markers,
     "event_handlers": event_handlers,
     "event_handlers.stdout_ready_listener": event_handlers,
-    "io_handler": handlers,
-    "junitxml": results,
-    "launch_test": command,
+    "io_handler": process_handlers,
+    "junitxml": test_result,
+    "launch_test": launch_test,
     "loader": loader,
     "markers": markers,
-    "parse_arguments": runner,
-    "proc_info_handler": handlers,
+    "parse_arguments": test_runner,
+    "proc_info_handler": process_handlers,
     "ready_aggregator": ready_aggregator,
-    "test_result": results,
-    "test_runner": runner,
+    "test_result": test_result,
+    "test_runner": test_runner,
     "tools": tools,
     "tools.output": tools,
-    "tools.process": proxy,
-    "tools.text": matching,
-    "util": lookup,
-    "util.proc_lookup": lookup,
+    "tools.process": process_proxy,
+    "tools.text": output_text,
+    "util": proc_lookup,
+    "util.proc_lookup": proc_lookup,
 }
 try:
     from gazelle.testing import launch_test_plugin as _hooks

@@ -2,7 +2,7 @@
 
 import sys as _sys
 
-from gazelle.launch.ros2.nav2 import (
+from gazelle.launch.ros2.nav2_common import (
     HasNodeParams,
     LaunchConfigAsBool,
     ParseMultiRobotPose,

@@ -2,15 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.launch.ros2.actions.configurations import (
-    DeclareLaunchArgument,
-    PopLaunchConfigurations,
-    PushLaunchConfigurations,
-    ResetLaunchConfigurations,
-    SetLaunchConfiguration,
-    UnsetLaunchConfiguration,
-)
-from gazelle.launch.ros2.actions.environment import (
+from gazelle.launch.ros2.actions.environment_variables import (
     AppendEnvironmentVariable,
     PopEnvironment,
     PushEnvironment,
@@ -18,7 +10,7 @@ from gazelle.launch.ros2.actions.environment import (
     SetEnvironmentVariable,
     UnsetEnvironmentVariable,
 )
-from gazelle.launch.ros2.actions.events import (
+from gazelle.launch.ros2.actions.event_actions import (
     EmitEvent,
     RegisterEventHandler,
     Shutdown,
@@ -26,12 +18,20 @@ from gazelle.launch.ros2.actions.events import (
 )
 from gazelle.launch.ros2.actions.execute_local import ExecuteLocal
 from gazelle.launch.ros2.actions.execute_process import ExecuteProcess
-from gazelle.launch.ros2.actions.functions import OpaqueCoroutine, OpaqueFunction
-from gazelle.launch.ros2.actions.group import GroupAction
-from gazelle.launch.ros2.actions.include import IncludeLaunchDescription
+from gazelle.launch.ros2.actions.for_loop import ForEach, ForLoop
+from gazelle.launch.ros2.actions.group_action import GroupAction
+from gazelle.launch.ros2.actions.include_launch_description import IncludeLaunchDescription
+from gazelle.launch.ros2.actions.launch_configurations import (
+    DeclareLaunchArgument,
+    PopLaunchConfigurations,
+    PushLaunchConfigurations,
+    ResetLaunchConfigurations,
+    SetLaunchConfiguration,
+    UnsetLaunchConfiguration,
+)
 from gazelle.launch.ros2.actions.log import Log, LogDebug, LogError, LogInfo, LogWarning
-from gazelle.launch.ros2.actions.loops import ForEach, ForLoop
-from gazelle.launch.ros2.actions.timer import TimerAction
+from gazelle.launch.ros2.actions.opaque_function import OpaqueCoroutine, OpaqueFunction
+from gazelle.launch.ros2.actions.timer_action import TimerAction
 
 __all__ = [
     "AppendEnvironmentVariable",

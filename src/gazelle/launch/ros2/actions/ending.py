@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.action import Action
-from gazelle.launch.ros2.actions.events import EmitEvent
-from gazelle.launch.ros2.actions.functions import OpaqueFunction
-from gazelle.launch.ros2.actions.timer import TimerAction
+from gazelle.launch.ros2.actions.event_actions import EmitEvent
+from gazelle.launch.ros2.actions.opaque_function import OpaqueFunction
+from gazelle.launch.ros2.actions.timer_action import TimerAction
 from gazelle.launch.ros2.event_handler import BaseEventHandler, EventHandler
 from gazelle.launch.ros2.event_handlers import OnProcessStart
 from gazelle.launch.ros2.events import Shutdown, matches_action
@@ -19,7 +19,7 @@ from gazelle.launch.ros2.utilities import is_a_subclass, perform_substitutions
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.actions.execute_local import ExecuteLocal
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["ProcessEnding"]
 

@@ -13,7 +13,7 @@ from gazelle.launch.ros2.actions.ending import ProcessEnding
 from gazelle.launch.ros2.child_process import ChildProcess, start_child
 from gazelle.launch.ros2.conditions import evaluate_condition_expression
 from gazelle.launch.ros2.descriptions import Executable
-from gazelle.launch.ros2.entity import LaunchDescriptionEntity
+from gazelle.launch.ros2.error_diagnostics import not_started
 from gazelle.launch.ros2.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
 from gazelle.launch.ros2.events.process import (
     ProcessExited,
@@ -23,7 +23,7 @@ from gazelle.launch.ros2.events.process import (
     ProcessStdin,
     ProcessStdout,
 )
-from gazelle.launch.ros2.faults import not_started
+from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.output_lines import OutputLines
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType
 from gazelle.launch.ros2.substitutions import LaunchConfiguration
@@ -38,7 +38,7 @@ from gazelle.launch.ros2.utilities.type_utils import (
 from gazelle.launch.stopped_processes import StoppedProcess
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["ExecuteLocal"]
 

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from gazelle.launch.ros2.actions.events import Shutdown
+from gazelle.launch.ros2.actions.event_actions import Shutdown
 from gazelle.launch.ros2.actions.execute_local import ExecuteLocal
 from gazelle.launch.ros2.descriptions import Executable
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action

@@ -15,7 +15,7 @@ from gazelle.launch.ros2.utilities import (
 )
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["Log", "LogDebug", "LogError", "LogInfo", "LogWarning"]
 

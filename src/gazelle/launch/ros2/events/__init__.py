@@ -10,7 +10,7 @@ from gazelle.launch.ros2.events import process
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.action import Action
-    from gazelle.launch.ros2.description import LaunchDescription
+    from gazelle.launch.ros2.launch_description import LaunchDescription
 
 __all__ = [
     "ExecutionComplete",

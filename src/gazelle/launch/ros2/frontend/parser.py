@@ -21,11 +21,11 @@ from gazelle.launch.ros2.frontend.parse_substitution import (
     replace_escaped_characters,
 )
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
-from gazelle.launch.ros2.place import keep_place, written_at
 from gazelle.launch.ros2.substitution import Substitution
+from gazelle.launch.ros2.user_spans import keep_place, written_at
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.description import LaunchDescription
+    from gazelle.launch.ros2.launch_description import LaunchDescription
 
 __all__ = ["InvalidFrontendLaunchFileError", "Parser"]
 
@@ -56,8 +56,8 @@ class Parser:
         Parser.extensions_loaded = True
         importlib.import_module("gazelle.launch.ros2.actions")
         importlib.import_module("gazelle.launch.ros2.substitutions")
-        if importlib.util.find_spec("gazelle.launch.ros2.nodes") is not None:
-            importlib.import_module("gazelle.launch.ros2.nodes")
+        if importlib.util.find_spec("gazelle.launch.ros2.launch_ros") is not None:
+            importlib.import_module("gazelle.launch.ros2.launch_ros")
             importlib.import_module("gazelle.launch.ros2.ros_gz")
         _load(_EXTENSIONS)
 
@@ -102,7 +102,7 @@ class Parser:
         Raises:
             RuntimeError: the root is not ``launch``.
         """
-        from gazelle.launch.ros2.description import LaunchDescription
+        from gazelle.launch.ros2.launch_description import LaunchDescription
 
         try:
             if entity.type_name != "launch":

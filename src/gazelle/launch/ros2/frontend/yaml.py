@@ -11,7 +11,7 @@ from gazelle.documents.yaml import Dialect, YamlError, read_yaml
 from gazelle.launch.ros2.frontend.entity import Entity as BaseEntity
 from gazelle.launch.ros2.frontend.parser import Parser as BaseParser
 from gazelle.launch.ros2.frontend.type_utils import check_is_list_entity
-from gazelle.launch.ros2.place import keep_place
+from gazelle.launch.ros2.user_spans import keep_place
 from gazelle.launch.ros2.utilities.type_utils import is_instance_of
 
 __all__ = ["Entity", "Parser"]

@@ -14,10 +14,10 @@ from typing import Any
 from gazelle.diagnostics import SourceSpan, did_you_mean
 from gazelle.documents.files import exists, is_file, is_folder
 from gazelle.launch.environment import drop_in_folder
-from gazelle.launch.ros2.description import LaunchDescription
 from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
-from gazelle.launch.ros2.place import keep_place
+from gazelle.launch.ros2.launch_description import LaunchDescription
+from gazelle.launch.ros2.user_spans import keep_place
 
 __all__ = [
     "InvalidPythonLaunchFileError",

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from gazelle.launch.ros2.description import LaunchDescription
 from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.frontend.xml import Parser as XmlParser
 from gazelle.launch.ros2.frontend.yaml import Parser as YamlParser
+from gazelle.launch.ros2.launch_description import LaunchDescription
+from gazelle.launch.ros2.launch_description_source import LaunchDescriptionSource
 from gazelle.launch.ros2.launch_description_sources.files import (
     get_launch_description_from_any_launch_file,
     get_launch_description_from_frontend_launch_file,
     get_launch_description_from_python_launch_file,
 )
-from gazelle.launch.ros2.source import LaunchDescriptionSource
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType
 
 __all__ = [

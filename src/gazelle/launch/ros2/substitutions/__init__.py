@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.launch.ros2.substitution import TextSubstitution
-from gazelle.launch.ros2.substitutions.boolean import (
+from gazelle.launch.ros2.substitutions.boolean_substitution import (
     AllSubstitution,
     AndSubstitution,
     AnySubstitution,
@@ -15,8 +15,7 @@ from gazelle.launch.ros2.substitutions.choosing import (
     IfElseSubstitution,
     NotEqualsSubstitution,
 )
-from gazelle.launch.ros2.substitutions.computing import Command, PythonExpression
-from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure
+from gazelle.launch.ros2.substitutions.command_and_expression import Command, PythonExpression
 from gazelle.launch.ros2.substitutions.files import (
     FileContent,
     FindExecutable,
@@ -31,7 +30,8 @@ from gazelle.launch.ros2.substitutions.joined import (
     ForLoopIndex,
     StringJoinSubstitution,
 )
-from gazelle.launch.ros2.substitutions.values import (
+from gazelle.launch.ros2.substitutions.substitution_failure import SubstitutionFailure
+from gazelle.launch.ros2.substitutions.variables import (
     AnonName,
     EnvironmentVariable,
     LaunchConfiguration,

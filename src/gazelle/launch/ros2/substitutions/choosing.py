@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.launch.ros2.frontend import expose_substitution
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
-from gazelle.launch.ros2.substitutions.boolean import bool_text, truth
-from gazelle.launch.ros2.substitutions.failure import counted
+from gazelle.launch.ros2.substitutions.boolean_substitution import bool_text, truth
+from gazelle.launch.ros2.substitutions.substitution_failure import counted
 from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
@@ -17,7 +17,7 @@ from gazelle.launch.ros2.utilities import (
 from gazelle.launch.ros2.utilities.type_utils import is_substitution
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["EqualsSubstitution", "IfElseSubstitution", "NotEqualsSubstitution"]
 

@@ -13,14 +13,18 @@ from gazelle.launch.environment import ROS_COMMANDS
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.frontend import expose_substitution
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
-from gazelle.launch.ros2.substitutions.failure import SubstitutionFailure, counted, described
+from gazelle.launch.ros2.substitutions.substitution_failure import (
+    SubstitutionFailure,
+    counted,
+    described,
+)
 from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = [
     "FileContent",

@@ -9,7 +9,7 @@ from gazelle.launch.ros2.utilities.classes import (
     is_a_subclass,
     isclassinstance,
 )
-from gazelle.launch.ros2.utilities.normalizing import (
+from gazelle.launch.ros2.utilities.normalization import (
     normalize_to_list_of_entities,
     normalize_to_list_of_substitutions,
     perform_substitutions,

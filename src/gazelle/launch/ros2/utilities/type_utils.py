@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, List  # noqa: UP035
 from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
 from gazelle.launch.ros2.utilities.classes import ensure_argument_type
-from gazelle.launch.ros2.utilities.normalizing import (
+from gazelle.launch.ros2.utilities.normalization import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = [
     "AllowedTypesTuple",

@@ -5,11 +5,11 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Any
 
-from gazelle.launch.ros2.entity import LaunchDescriptionEntity
-from gazelle.launch.ros2.place import keep_place
+from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity
+from gazelle.launch.ros2.user_spans import keep_place
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.context import LaunchContext
+    from gazelle.launch.ros2.launch_context import LaunchContext
 
 __all__ = ["visit_all_entities_and_collect_futures"]
 

@@ -1,6 +1,6 @@
 """SLAM of a bag that is played."""
 
-from gazelle.launch.ros2.own_launch_files import slam_toolbox
+from gazelle.launch.ros2.builtin_launch_files import slam_toolbox
 
 
 def generate_launch_description():

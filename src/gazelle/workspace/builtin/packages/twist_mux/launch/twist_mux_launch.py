@@ -1,6 +1,6 @@
 """Choosing among velocity commands, with the joystick's relay."""
 
-from gazelle.launch.ros2.own_launch_files import twist_mux
+from gazelle.launch.ros2.builtin_launch_files import twist_mux
 
 
 def generate_launch_description():

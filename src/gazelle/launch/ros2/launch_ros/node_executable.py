@@ -1,0 +1,129 @@
+"""What runs a node of a launch file."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import stat
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan
+from gazelle.launch.environment import command_folder
+from gazelle.launch.executables import Executable, find_executable, script_command
+from gazelle.launch.ros2.error_diagnostics import with_diagnostic
+from gazelle.launch.ros2.substitutions import SubstitutionFailure
+from gazelle.node_specs.unavailable_packages import missing_node, replacement_of
+from gazelle.workspace.ament_index import PackageNotFoundError, known_workspace
+
+if TYPE_CHECKING:
+    from gazelle.launch.ros2.launch_context import LaunchContext
+
+__all__ = ["NodeCommand", "node_command", "wrapper_script"]
+
+_COMPILED = "launch.compiled-node"
+_NO_PACKAGE = "launch.package-missing"
+_BUILD = "build it with colcon and source its workspace, or write the node in Python with rclpy"
+
+
+class NodeCommand(NamedTuple):
+    """How a node is run.
+
+    Attributes:
+        words: of its command.
+        program: the name that its output begins with.
+        found: what it is; None for a path.
+    """
+
+    words: tuple[str, ...]
+    program: str
+    found: Executable | None = None
+
+
+def node_command(
+    context: LaunchContext, package: str | None, executable: str, place: SourceSpan | None = None
+) -> NodeCommand | None:
+    """Return what runs an executable of a package, or a path.
+
+    Args:
+        context: of the launch; findings are told to it.
+        package: None when `executable` is a path or a command.
+        executable: as written.
+        place: of the user's file, for messages.
+
+    Returns:
+        None when it is compiled code that is not built here, or a package of ROS that Gazelle
+        does not bring: the launch goes on without it.
+
+    Raises:
+        PackageNotFoundError: there is no such package.
+        SubstitutionFailure: the package has no such executable.
+    """
+    program = Path(executable).name
+    if package is None:
+        path = Path(executable)
+        words = script_command(path) if path.is_file() else (executable,)
+        return NodeCommand(words, program)
+    diagnostics = Diagnostics()
+    found = find_executable(
+        package,
+        executable,
+        workspace=known_workspace(),
+        diagnostics=diagnostics,
+        span=place,
+        environ=context.environment,
+        ros_version=2,
+    )
+    if found is not None:
+        for one in diagnostics:
+            context.tell(one)
+        return NodeCommand(found.command, program, found)
+    missing = diagnostics.errors[0]
+    if missing.code == _COMPILED:
+        context.tell(replace(missing, fix=_BUILD))
+        return None
+    what = replacement_of(package)
+    if missing.code == _NO_PACKAGE and what:
+        # A package of ROS that is not here: everybody else has it, so the others go on.
+        _tell_of_absence(context, missing, "ros2_launch.package-missing", what)
+        return None
+    what = missing_node(package, executable)
+    if what:
+        _tell_of_absence(context, missing, "ros2_launch.executable-missing", what)
+        return None
+    if missing.code == _NO_PACKAGE:
+        error: Exception = PackageNotFoundError(f"package '{package}' not found")
+        code, fix = "ros2_launch.package-missing", ""
+    else:
+        error = SubstitutionFailure(f"executable '{executable}' not found in package '{package}'")
+        code, fix = "ros2_launch.executable-missing", _near(missing)
+    raise with_diagnostic(error, code, missing.message, missing.span, fix=fix)
+
+
+def _tell_of_absence(context: LaunchContext, missing: Diagnostic, code: str, what: str) -> None:
+    found = Diagnostics()
+    message = f"{missing.message.partition(chr(10))[0].partition(';')[0]}; the others go on"
+    found.report(code, message, missing.span, fix=what)
+    context.tell(next(iter(found)))
+
+
+def _near(missing: Diagnostic) -> str:
+    """Return the names like the one that is missing, or nothing."""
+    return missing.fix if missing.fix.startswith("did you mean") else ""
+
+
+def wrapper_script(command: NodeCommand) -> Path:
+    """Return a file that runs a command, for where the path of an executable is wanted."""
+    if len(command.words) == 1:
+        return Path(command.words[0])
+    text = f'#!/bin/sh\nexec {shlex.join(command.words)} "$@"\n'
+    folder = command_folder() / "nodes" / command.words[-1].strip("/").replace("/", "-")
+    folder.mkdir(parents=True, exist_ok=True)
+    script = folder / command.program
+    if not script.is_file() or script.read_text(encoding="utf-8") != text:
+        part = script.with_suffix(f".{os.getpid()}")
+        part.write_text(text, encoding="utf-8")
+        part.chmod(part.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)
+        part.replace(script)
+    return script
