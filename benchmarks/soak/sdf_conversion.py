@@ -18,11 +18,11 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from tests.description.sdformat.comparing import differences
-from tests.description.sdformat.random_robots import random_robot
+from tests.description.sdformat_emulation.comparing import differences
+from tests.description.sdformat_emulation.random_robots import random_robot
 
-from gazelle.description.sdformat import Release
-from gazelle.description.sdformat.document import read_document, to_text
+from gazelle.description.sdformat_emulation import Release
+from gazelle.description.sdformat_emulation.gz_sdf import read_document, to_text
 
 _CRASHES = (-6, -11, 134, 139)
 

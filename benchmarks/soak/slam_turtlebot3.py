@@ -23,8 +23,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gazelle.description.conversion.shapes import mesh_of
 from gazelle.description.model import Cylinder, MeshShape
+from gazelle.description.writers.geometry_elements import mesh_of
 from gazelle.geometry import Pose
 from gazelle.interfaces.poses import twist_message
 from gazelle.mapping.poses import between, compose, transform_points

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from tests.shared_files import skip_module_without_shared
 
-from gazelle.description.context import ReadContext
 from gazelle.description.model import World
-from gazelle.description.sdf.document import read_model_file
-from gazelle.description.urdf import read_urdf
+from gazelle.description.read_context import ReadContext
+from gazelle.description.sdf_reader.document import read_model_file
+from gazelle.description.urdf_reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
 from gazelle.geometry import Pose

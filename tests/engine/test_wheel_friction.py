@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import pytest
 
-from gazelle.description.context import ReadContext
 from gazelle.description.model import World
-from gazelle.description.sdf import read_sdf
-from gazelle.description.urdf.reader import read_urdf
+from gazelle.description.read_context import ReadContext
+from gazelle.description.sdf_reader import read_sdf
+from gazelle.description.urdf_reader.reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
 from gazelle.engine.wheel_slip import MAX_WHEEL_MU, with_wheel_grip

@@ -15,17 +15,17 @@ from tests.fuzzing.kind import SCOUT, Kind
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.sources.files import FileSource
 from gazelle.control.sources.yaml_file import read_parameter_file
-from gazelle.description.context import ReadContext
-from gazelle.description.materials.ogre import parse_material_script
-from gazelle.description.sdf import read_sdf
-from gazelle.description.sdf.model_config import read_model_config
-from gazelle.description.urdf import read_urdf
-from gazelle.description.urdfdom import urdfdom_verdict
+from gazelle.description.materials.ogre_scripts import parse_material_script
+from gazelle.description.read_context import ReadContext
+from gazelle.description.sdf_reader import read_sdf
+from gazelle.description.sdf_reader.model_config import read_model_config
+from gazelle.description.urdf_reader import read_urdf
+from gazelle.description.urdfdom_emulation import urdfdom_verdict
 from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
-from gazelle.geometry.loading import load_mesh_reported
+from gazelle.geometry.mesh_files import load_mesh_reported
 from gazelle.interfaces.definition import RosVersion
 from gazelle.interfaces.parser import parse_message, split_parts
 from gazelle.launch.ros1.loader import load_launch_files

@@ -14,7 +14,7 @@ from scipy.optimize import least_squares
 from tests.shared_files import skip_module_without_shared
 
 from gazelle.description.model import CameraSpec, LidarSpec, World
-from gazelle.description.sdf import read_world_file
+from gazelle.description.sdf_reader import read_world_file
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.sensors import RayScene, depth_image, render, scan

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import Cylinder, MeshShape
-from gazelle.description.sdf.document import read_model_file
+from gazelle.description.sdf_reader.document import read_model_file
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import load_mesh
 from gazelle.mapping.grids import OccupancyGrid

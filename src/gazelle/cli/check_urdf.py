@@ -11,7 +11,7 @@ from gazelle.cli.urdf_file import (
     report_findings,
     robot_in,
 )
-from gazelle.description.urdfdom import EndlessTreeError, tree_text
+from gazelle.description.urdfdom_emulation import EndlessTreeError, tree_text
 
 __all__ = ["main"]
 

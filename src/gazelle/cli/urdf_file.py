@@ -6,10 +6,10 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from gazelle.description.context import ReadContext
+from gazelle.description.read_context import ReadContext
 from gazelle.description.source_maps import placed
-from gazelle.description.urdf import read_urdf
-from gazelle.description.urdfdom import Robot, urdfdom_verdict
+from gazelle.description.urdf_reader import read_urdf
+from gazelle.description.urdfdom_emulation import Robot, urdfdom_verdict
 from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.description.xml.reader import read_data

@@ -13,7 +13,7 @@ from gazelle.cli.urdf_file import (
     report_findings,
     robot_in,
 )
-from gazelle.description.urdfdom import EndlessTreeError, Robot, graphviz_text
+from gazelle.description.urdfdom_emulation import EndlessTreeError, Robot, graphviz_text
 
 __all__ = ["main"]
 

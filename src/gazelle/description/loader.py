@@ -8,13 +8,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
-from gazelle.description.context import ReadContext
-from gazelle.description.leniency import lenient_document, lenient_robot
+from gazelle.description.downgraded_errors import lenient_document, lenient_robot
 from gazelle.description.model import Model, World
-from gazelle.description.sdf import SdfDocument, read_model_file, read_sdf, read_world_file
+from gazelle.description.read_context import ReadContext
+from gazelle.description.robot_description import TEXT_NAME, place_of_text, read_text
+from gazelle.description.sdf_reader import SdfDocument, read_model_file, read_sdf, read_world_file
 from gazelle.description.source_maps import placed
-from gazelle.description.text_origin import TEXT_NAME, place_of_text, read_text
-from gazelle.description.urdf import read_urdf
+from gazelle.description.urdf_reader import read_urdf
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.diagnostics.collection import grouped

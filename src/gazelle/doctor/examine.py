@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from gazelle.description.leniency import strict
+from gazelle.description.downgraded_errors import strict
 from gazelle.diagnostics import Diagnostic
 from gazelle.doctor.descriptions import without_superseded
 from gazelle.doctor.examination import Examination

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from gazelle.description.text_origin import TEXT_FILES_VARIABLE
+from gazelle.description.robot_description import TEXT_FILES_VARIABLE
 
 __all__ = ["texts_known"]
 

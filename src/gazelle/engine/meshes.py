@@ -32,7 +32,7 @@ from gazelle.geometry import (
     mesh_volume_m3,
 )
 from gazelle.geometry.array_cache import keep_arrays, kept_arrays
-from gazelle.geometry.loading import MAX_MESH_BYTES
+from gazelle.geometry.mesh_files import MAX_MESH_BYTES
 
 __all__ = [
     "Decomposition",

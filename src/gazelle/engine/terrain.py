@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import Heightmap
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.documents.pictures import PictureError, opened_picture
+from gazelle.documents.images import PictureError, opened_picture
 
 __all__ = ["read_terrain"]
 

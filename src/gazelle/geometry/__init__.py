@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.geometry.convex import (
+from gazelle.geometry.convex_decomposition import (
     ConvexParts,
     announce,
     announcing,
@@ -11,8 +11,8 @@ from gazelle.geometry.convex import (
     is_splitting,
     without_splitting,
 )
-from gazelle.geometry.loading import MESH_SUFFIXES, load_mesh, load_mesh_reported
-from gazelle.geometry.mass import (
+from gazelle.geometry.heightmaps import heightmap_mesh, polyline_mesh
+from gazelle.geometry.mass_properties import (
     Inertia6,
     MassProperties,
     combined_mass_properties,
@@ -23,7 +23,8 @@ from gazelle.geometry.mass import (
     legalised_inertia,
 )
 from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart
-from gazelle.geometry.mesh_mass import (
+from gazelle.geometry.mesh_files import MESH_SUFFIXES, load_mesh, load_mesh_reported
+from gazelle.geometry.mesh_inertia import (
     MassError,
     is_closed,
     mesh_area_m2,
@@ -43,16 +44,7 @@ from gazelle.geometry.pose import (
     unit_quat_xyzw,
     yaw_from_quat_xyzw,
 )
-from gazelle.geometry.primitives import (
-    box_mesh,
-    capsule_mesh,
-    cone_mesh,
-    cylinder_mesh,
-    ellipsoid_mesh,
-    plane_mesh,
-    sphere_mesh,
-)
-from gazelle.geometry.solids import (
+from gazelle.geometry.primitive_inertia import (
     box_mass_properties,
     capsule_mass_properties,
     cone_mass_properties,
@@ -67,7 +59,15 @@ from gazelle.geometry.solids import (
     sphere_mass_properties,
     spherical_shell_mass_properties,
 )
-from gazelle.geometry.terrain import heightmap_mesh, polyline_mesh
+from gazelle.geometry.primitive_meshes import (
+    box_mesh,
+    capsule_mesh,
+    cone_mesh,
+    cylinder_mesh,
+    ellipsoid_mesh,
+    plane_mesh,
+    sphere_mesh,
+)
 
 __all__ = [
     "IDENTITY_POSE",

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.documents.archives import ArchiveError, read_arrays
+from gazelle.documents.npz_files import ArchiveError, read_arrays
 
 __all__ = ["keep_arrays", "keeps_arrays", "kept_arrays"]
 

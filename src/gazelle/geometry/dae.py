@@ -21,7 +21,7 @@ from gazelle.geometry.mesh import (
     Rgba,
     part_from_corners,
 )
-from gazelle.geometry.shading import group_points
+from gazelle.geometry.vertex_normals import group_points
 
 __all__ = ["read_dae"]
 

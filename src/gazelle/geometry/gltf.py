@@ -23,7 +23,7 @@ from gazelle.geometry.mesh import (
     part_from_corners,
 )
 from gazelle.geometry.pose import Pose
-from gazelle.geometry.shading import group_points, unit_rows
+from gazelle.geometry.vertex_normals import group_points, unit_rows
 
 __all__ = ["read_gltf"]
 

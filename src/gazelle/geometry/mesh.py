@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.errors import GazelleError
-from gazelle.geometry.shading import (
+from gazelle.geometry.vertex_normals import (
     face_normals,
     group_points,
     group_rows,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from gazelle.description.text_origin import (
+from gazelle.description.robot_description import (
     TEXT_FILES_VARIABLE,
     TEXT_NAME,
     copy_name,

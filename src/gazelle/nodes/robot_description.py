@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, JointType, Model
-from gazelle.description.sdf import read_sdf
-from gazelle.description.sdf.robot_frames import with_links_at_joints
-from gazelle.description.text_origin import place_of_text, read_text
-from gazelle.description.urdf import read_urdf
+from gazelle.description.read_context import ReadContext
+from gazelle.description.robot_description import place_of_text, read_text
+from gazelle.description.sdf_reader import read_sdf
+from gazelle.description.sdf_reader.robot_frames import with_links_at_joints
+from gazelle.description.urdf_reader import read_urdf
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GraphError, LaunchError

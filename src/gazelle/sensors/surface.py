@@ -31,7 +31,7 @@ from gazelle.description.model import (
     Sphere,
 )
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.documents.pictures import opened_picture
+from gazelle.documents.images import opened_picture
 from gazelle.geometry import Mesh, MeshMaterial, MeshPart, load_mesh_reported
 from gazelle.sensors.embree import SubScene, sub_scene
 from gazelle.sensors.tessellation import (
@@ -186,7 +186,7 @@ def _file_surface(
 
 
 def _made_part(shape: Heightmap | Polyline, diagnostics: Diagnostics) -> MeshPart | None:
-    from gazelle.geometry.terrain import heightmap_mesh, polyline_mesh
+    from gazelle.geometry.heightmaps import heightmap_mesh, polyline_mesh
 
     try:
         if isinstance(shape, Polyline):

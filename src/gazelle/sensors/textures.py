@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.documents.pictures import PictureError, opened_picture
+from gazelle.documents.images import PictureError, opened_picture
 
 if TYPE_CHECKING:
     from PIL.Image import Image

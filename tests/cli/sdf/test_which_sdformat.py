@@ -8,7 +8,7 @@ import pytest
 
 from gazelle.cli.main import main
 from gazelle.cli.sdf.which_sdformat import sdformat_release
-from gazelle.description.sdformat.release import Release
+from gazelle.description.sdformat_emulation.release import Release
 
 Capture = pytest.CaptureFixture[str]
 _MODEL = '<sdf version="1.6"><model name="m"><link name="l"/></model></sdf>\n'

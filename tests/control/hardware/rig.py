@@ -13,9 +13,9 @@ from gazelle.control.hardware.ros1_robot import RobotParameters, build_ros1_robo
 from gazelle.control.hardware.ros2_robot import build_ros2_robot
 from gazelle.control.robot import Robot
 from gazelle.control.sources.store import StoreSource
-from gazelle.description.context import ReadContext
 from gazelle.description.model import Model, World
-from gazelle.description.urdf.reader import read_urdf
+from gazelle.description.read_context import ReadContext
+from gazelle.description.urdf_reader.reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
 from gazelle.simulator.local_node import LocalParameters

@@ -14,8 +14,8 @@ from gazelle.description.checks.inertia import (
     check_inertia,
     check_mass_ratios,
 )
-from gazelle.description.checks.inertia_records import LinkRecord, joint_records_of, records_of
-from gazelle.description.checks.inertia_source import CheckedSource, read_checked_source
+from gazelle.description.checks.source_elements import CheckedSource, read_checked_source
+from gazelle.description.checks.written_inertials import LinkRecord, joint_records_of, records_of
 from gazelle.diagnostics import Diagnostic, Diagnostics
 
 BOX_TENSOR = (0.13, 0.1, 0.05)

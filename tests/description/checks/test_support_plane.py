@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from tests.description.checks.pain import FIXTURES, finding, place
 
-from gazelle.description.checks.inertia_shapes import Outlines
+from gazelle.description.checks.shape_volumes import Outlines
 from gazelle.description.checks.support_plane import stance_of
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model

@@ -12,10 +12,6 @@ import numpy as np
 import pytest
 
 import gazelle
-from gazelle.description.context import ReadContext
-from gazelle.description.conversion.beside import Beside
-from gazelle.description.conversion.markup import Markup
-from gazelle.description.conversion.shapes import add_sdf_geometry
 from gazelle.description.model import (
     SOLIDS,
     Box,
@@ -27,7 +23,11 @@ from gazelle.description.model import (
     Solid,
     Sphere,
 )
-from gazelle.description.sdf.shapes import read_shape
+from gazelle.description.read_context import ReadContext
+from gazelle.description.sdf_reader.shapes import read_shape
+from gazelle.description.writers.geometry_elements import add_sdf_geometry
+from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.xml_markup import Markup
 from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Mesh, mesh_mass_properties

@@ -8,9 +8,9 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from gazelle.description.checks.inertia_shapes import shape_body, shape_points_m
-from gazelle.description.conversion.shapes import as_mesh, urdf_pieces
+from gazelle.description.checks.shape_volumes import shape_body, shape_points_m
 from gazelle.description.model import Collision, Link, Model, Solid, Visual, World
+from gazelle.description.writers.geometry_elements import as_mesh, urdf_pieces
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.shapes import geom_shapes
 from gazelle.geometry import MassProperties, Mesh, MeshPart, Pose, mesh_mass_properties

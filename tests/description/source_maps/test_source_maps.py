@@ -11,8 +11,8 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.description.loader import load_models
+from gazelle.description.robot_description import TEXT_FILES_VARIABLE, copy_name, read_text
 from gazelle.description.source_maps import SourceMap, placed, remember, source_map_of
-from gazelle.description.text_origin import TEXT_FILES_VARIABLE, copy_name, read_text
 from gazelle.description.xacro import Expanded, expand_xacro
 from gazelle.diagnostics import Diagnostics, SourceSpan
 

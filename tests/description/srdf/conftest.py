@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import pytest
 
-from gazelle.description.context import ReadContext
 from gazelle.description.model import Link, Model
+from gazelle.description.read_context import ReadContext
 from gazelle.description.srdf import Srdf, load_srdf
-from gazelle.description.urdf import read_urdf
+from gazelle.description.urdf_reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 
 _JOINT = (

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from gazelle.description.context import ReadContext
 from gazelle.description.model import Model
+from gazelle.description.read_context import ReadContext
 from gazelle.description.srdf import (
     Chain,
     CollisionPair,
@@ -17,7 +17,7 @@ from gazelle.description.srdf import (
     link_names,
     load_srdf,
 )
-from gazelle.description.urdf import read_urdf
+from gazelle.description.urdf_reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 
 Reader = Callable[[str], Any]

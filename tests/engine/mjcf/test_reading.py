@@ -8,10 +8,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from gazelle.description.conversion import Beside, to_sdf, to_urdf
 from gazelle.description.forward_kinematics import posed_model
 from gazelle.description.loader import load_models, load_world
 from gazelle.description.model import Box, Capsule, JointType, MeshShape, Model, World
+from gazelle.description.writers import Beside, to_sdf, to_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf import is_mjcf, read_mjcf
 
@@ -243,7 +243,7 @@ def test_meshes_stand_where_mujoco_puts_them(read, tmp_path) -> None:
 
 
 def stl(path: Path, vertices: np.ndarray, faces: np.ndarray) -> None:
-    from gazelle.description.conversion.shapes import stl_bytes
+    from gazelle.description.writers.geometry_elements import stl_bytes
 
     path.write_bytes(stl_bytes(vertices, faces))
 

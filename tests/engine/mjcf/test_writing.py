@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from tests.shared_files import SHARED, shared_cases
 
-from gazelle.description.conversion import Beside
 from gazelle.description.loader import load_world
 from gazelle.description.model import (
     Box,
@@ -26,6 +25,7 @@ from gazelle.description.model import (
     Visual,
     World,
 )
+from gazelle.description.writers import Beside
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
 from gazelle.engine.mjcf import to_mjcf

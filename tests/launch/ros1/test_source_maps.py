@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.description.text_origin import read_text
+from gazelle.description.robot_description import read_text
 from gazelle.diagnostics import Diagnostics
 from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.workspace import Workspace

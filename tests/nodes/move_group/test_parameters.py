@@ -8,8 +8,8 @@ import pytest
 
 from gazelle.description.model import Model
 from gazelle.description.moveit.config import MoveItConfig
+from gazelle.description.moveit.parameter_reader import Settings
 from gazelle.description.moveit.pipelines import read_pipelines
-from gazelle.description.moveit.settings import Settings
 from gazelle.description.srdf import Group, Srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.move_group.parameters import report_parameters

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from gazelle.cli.convert.sources import is_source_mjcf, located, read_source_world
 from gazelle.cli.convert.targets import Target, as_sdformat, check_free, chosen_model, write
-from gazelle.description.conversion import Beside, Converted, to_sdf, to_urdf
 from gazelle.description.model import Model, World
-from gazelle.description.sdformat import Release
+from gazelle.description.sdformat_emulation import Release
+from gazelle.description.writers import Beside, Converted, to_sdf, to_urdf
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.workspace import Workspace
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from gazelle.description.conversion import Beside
 from gazelle.description.loader import load_world
 from gazelle.description.model import World
+from gazelle.description.writers import Beside
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import UserFileError
 from gazelle.workspace import Workspace

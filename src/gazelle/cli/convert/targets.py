@@ -10,10 +10,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from gazelle.description.conversion import Converted
 from gazelle.description.model import Model, World
-from gazelle.description.sdformat import Release
-from gazelle.description.sdformat.element import SdfElement
+from gazelle.description.sdformat_emulation import Release
+from gazelle.description.sdformat_emulation.element import SdfElement
+from gazelle.description.writers import Converted
 from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan, nearest_names
@@ -90,7 +90,7 @@ def as_sdformat(
     Raises:
         UserFileError: the library refuses the file; holds what it says.
     """
-    from gazelle.description.sdformat.document import (
+    from gazelle.description.sdformat_emulation.gz_sdf import (
         read_document,
         read_document_file,
         to_text,

@@ -6,7 +6,7 @@ from gazelle.cli.gz.new import front
 from gazelle.cli.gz.other_commands import IGN_INSTEAD
 from gazelle.cli.sdf.ign_sdf import run_sdf, usage, version_of
 from gazelle.cli.sdf.sdf_file import say
-from gazelle.description.sdformat.release import Release
+from gazelle.description.sdformat_emulation.release import Release
 
 __all__ = ["main", "without_version"]
 

@@ -17,8 +17,8 @@ from gazelle.description.checks.inertia import (
     check_mass_ratios,
 )
 from gazelle.description.checks.inertia_patch import Patch, make_patch
-from gazelle.description.checks.inertia_records import LinkRecord, joint_records_of, records_of
-from gazelle.description.checks.inertia_source import read_checked_source
+from gazelle.description.checks.source_elements import read_checked_source
+from gazelle.description.checks.written_inertials import LinkRecord, joint_records_of, records_of
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan, render
 from gazelle.workspace import Workspace
 

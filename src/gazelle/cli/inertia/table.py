@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from gazelle.description.checks.inertia import InertiaFinding
-from gazelle.description.checks.inertia_records import LinkRecord
 from gazelle.description.checks.inertia_units import box_fit
+from gazelle.description.checks.written_inertials import LinkRecord
 from gazelle.geometry import is_legal_inertia
 
 __all__ = ["link_rows", "table"]

@@ -8,20 +8,24 @@ from getopt import GetoptError, gnu_getopt
 from pathlib import Path
 
 from gazelle.cli.sdf.sdf_file import read_for, report_findings, say, take_quiet
-from gazelle.description.sdformat.document import Document, to_text
-from gazelle.description.sdformat.document.checking import load, name_problems
-from gazelle.description.sdformat.document.checking.attached import attached_graph
-from gazelle.description.sdformat.document.checking.relative import relative_graph
-from gazelle.description.sdformat.document.console import Code, SdfError, error_line
-from gazelle.description.sdformat.document.describing import described_specification
-from gazelle.description.sdformat.document.inertial_stats import inertial_stats
-from gazelle.description.sdformat.document.rewriting import (
+from gazelle.description.sdformat_emulation.gz_sdf import Document, to_text
+from gazelle.description.sdformat_emulation.gz_sdf.checks import load, name_problems
+from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_attached_to_graph import (
+    attached_graph,
+)
+from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph import (
+    relative_graph,
+)
+from gazelle.description.sdformat_emulation.gz_sdf.console import Code, SdfError, error_line
+from gazelle.description.sdformat_emulation.gz_sdf.describing import described_specification
+from gazelle.description.sdformat_emulation.gz_sdf.inertial_stats import inertial_stats
+from gazelle.description.sdformat_emulation.gz_sdf.rewriting import (
     Snap,
     with_angles_in_degrees,
     with_includes,
 )
-from gazelle.description.sdformat.document.specification import specification
-from gazelle.description.sdformat.release import Release
+from gazelle.description.sdformat_emulation.gz_sdf.specification import specification
+from gazelle.description.sdformat_emulation.release import Release
 
 __all__ = ["run_sdf", "usage", "version_of"]
 

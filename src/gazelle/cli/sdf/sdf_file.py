@@ -7,12 +7,12 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-from gazelle.description.context import ReadContext
-from gazelle.description.sdf import read_sdf
-from gazelle.description.sdformat.document import Document, read_document_file
-from gazelle.description.sdformat.release import Release
+from gazelle.description.read_context import ReadContext
+from gazelle.description.sdf_reader import read_sdf
+from gazelle.description.sdformat_emulation.gz_sdf import Document, read_document_file
+from gazelle.description.sdformat_emulation.release import Release
 from gazelle.description.source_maps import placed
-from gazelle.description.urdf import read_urdf
+from gazelle.description.urdf_reader import read_urdf
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.documents.files import exists

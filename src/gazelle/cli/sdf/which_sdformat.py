@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from gazelle.description.sdformat.release import Release
+from gazelle.description.sdformat_emulation.release import Release
 from gazelle.workspace import Workspace
 
 __all__ = ["sdformat_release"]

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from gazelle.description.context import ReadContext
 from gazelle.description.model import Joint, Model, Ros2ControlTag, TransmissionTag
-from gazelle.description.text_origin import read_text
-from gazelle.description.urdf.joints import read_joint
-from gazelle.description.urdf.transmissions import read_transmission
+from gazelle.description.read_context import ReadContext
+from gazelle.description.robot_description import read_text
+from gazelle.description.urdf_reader.joints import read_joint
+from gazelle.description.urdf_reader.transmissions import read_transmission
 from gazelle.diagnostics import Diagnostics
 
 __all__ = ["ControlDescription", "description_of", "read_description", "read_ros2_controls"]

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from gazelle.description.model import Model, Ros2ControlTag
-from gazelle.description.urdf.attributes import check_vocabulary
+from gazelle.description.urdf_reader.attributes import check_vocabulary
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import bool_from
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean

@@ -7,20 +7,20 @@ from pathlib import Path
 
 import numpy as np
 
-from gazelle.description.checks.cameras import check_cameras
+from gazelle.description.checks.camera_frames import check_cameras
+from gazelle.description.checks.contact_parameters import check_surfaces
+from gazelle.description.checks.fixed_joint_lumping import check_lumping
 from gazelle.description.checks.inertia import check_inertia, check_mass_ratios
-from gazelle.description.checks.inertia_records import joint_records_of, records_of
-from gazelle.description.checks.inertia_shapes import Outlines
-from gazelle.description.checks.inertia_source import CheckedSource, links_below
-from gazelle.description.checks.joint_values import check_joints
-from gazelle.description.checks.lumping import check_lumping
-from gazelle.description.checks.overlaps import check_overlaps
+from gazelle.description.checks.kinematic_tree import check_joints
 from gazelle.description.checks.preserved import check_preserved
 from gazelle.description.checks.roots import check_root
-from gazelle.description.checks.sizes import check_sizes
+from gazelle.description.checks.self_collisions import check_overlaps
+from gazelle.description.checks.shape_sizes import check_sizes
+from gazelle.description.checks.shape_volumes import Outlines
+from gazelle.description.checks.source_elements import CheckedSource, links_below
 from gazelle.description.checks.support_plane import check_stance
-from gazelle.description.checks.surfaces import check_surfaces
 from gazelle.description.checks.wheels import check_wheel_shapes, check_wheels
+from gazelle.description.checks.written_inertials import joint_records_of, records_of
 from gazelle.description.model import Model
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, Severity

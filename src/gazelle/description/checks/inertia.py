@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from gazelle.description.checks.inertia_blocks import inertial_block
-from gazelle.description.checks.inertia_records import JointRecord, LinkRecord
 from gazelle.description.checks.inertia_units import (
     DENSITY_RANGE_KG_M3,
     Fit,
@@ -16,6 +15,7 @@ from gazelle.description.checks.inertia_units import (
     guess_units,
     is_inside,
 )
+from gazelle.description.checks.written_inertials import JointRecord, LinkRecord
 from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan
 from gazelle.geometry import MassProperties, inertia_problems, legalised_inertia
 

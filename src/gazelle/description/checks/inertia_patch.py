@@ -13,7 +13,7 @@ from xml.parsers import expat
 
 from gazelle.description.checks.inertia import InertiaFinding
 from gazelle.description.checks.inertia_blocks import inertial_block
-from gazelle.description.checks.inertia_records import LinkRecord
+from gazelle.description.checks.written_inertials import LinkRecord
 from gazelle.diagnostics import SourceSpan
 from gazelle.geometry import MassProperties
 

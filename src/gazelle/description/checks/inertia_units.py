@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.checks.inertia_records import LinkRecord
+from gazelle.description.checks.written_inertials import LinkRecord
 from gazelle.geometry import MassProperties, inertia_matrix, is_legal_inertia
 
 __all__ = [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.description.model import Joint, JointType, Model
-from gazelle.description.urdf.lumped import lumped_links
+from gazelle.description.urdf_reader.fixed_joint_lumping import lumped_links
 from gazelle.diagnostics import Diagnostics
 
 __all__ = ["check_preserved"]

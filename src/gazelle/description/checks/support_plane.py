@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.checks.bodies import fixed_groups
-from gazelle.description.checks.inertia_shapes import Outline, Outlines
+from gazelle.description.checks.fixed_joint_groups import fixed_groups
+from gazelle.description.checks.shape_volumes import Outline, Outlines
 from gazelle.description.checks.wheels import Wheel, wheels_of
 from gazelle.description.model import JointType, Link, Model
 from gazelle.diagnostics import Diagnostics

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.checks.bodies import fixed_groups
+from gazelle.description.checks.fixed_joint_groups import fixed_groups
 from gazelle.description.model import Box, Cylinder, Joint, JointType, Link, Model, PluginTag
 from gazelle.diagnostics import Diagnostics, Severity
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from gazelle.description.materials.gazebo import (
+from gazelle.description.materials.gazebo_materials import (
     GAZEBO_MATERIAL_NAMES,
     gazebo_material,
     picture_colour,
 )
-from gazelle.description.materials.scripts import material_from_scripts
+from gazelle.description.materials.script_lookup import material_from_scripts
 
 __all__ = ["GAZEBO_MATERIAL_NAMES", "gazebo_material", "material_from_scripts", "picture_colour"]

@@ -10,23 +10,23 @@ from typing import ClassVar
 
 from gazelle.description.model.solid import Solid
 from gazelle.diagnostics import SourceSpan
-from gazelle.geometry.mass import MassProperties
+from gazelle.geometry.mass_properties import MassProperties
 from gazelle.geometry.mesh import MeshPart
-from gazelle.geometry.primitives import (
-    box_mesh,
-    capsule_mesh,
-    cone_mesh,
-    cylinder_mesh,
-    ellipsoid_mesh,
-    sphere_mesh,
-)
-from gazelle.geometry.solids import (
+from gazelle.geometry.primitive_inertia import (
     box_mass_properties,
     capsule_mass_properties,
     cone_mass_properties,
     cylinder_mass_properties,
     ellipsoid_mass_properties,
     sphere_mass_properties,
+)
+from gazelle.geometry.primitive_meshes import (
+    box_mesh,
+    capsule_mesh,
+    cone_mesh,
+    cylinder_mesh,
+    ellipsoid_mesh,
+    sphere_mesh,
 )
 
 __all__ = [

@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from dataclasses import fields
 from typing import Any, ClassVar, NamedTuple
 
-from gazelle.geometry.mass import MassProperties
+from gazelle.geometry.mass_properties import MassProperties
 from gazelle.geometry.mesh import MeshPart
 
 __all__ = ["Length", "Solid"]

@@ -17,13 +17,13 @@ from gazelle.description.moveit.controllers import (
 )
 from gazelle.description.moveit.joint_limits import JointLimit, read_joint_limits
 from gazelle.description.moveit.kinematics import KinematicsSettings, read_kinematics
+from gazelle.description.moveit.parameter_reader import Places, Settings
 from gazelle.description.moveit.pipelines import (
     CartesianLimits,
     Pipeline,
     read_cartesian_limits,
     read_pipelines,
 )
-from gazelle.description.moveit.settings import Places, Settings
 from gazelle.description.srdf import Srdf, link_names, load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.parameters.trees import nested

@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.description.moveit.rows import CONTROLLER, EXECUTION, keys_of
-from gazelle.description.moveit.settings import Settings
+from gazelle.description.moveit.parameter_reader import Settings
+from gazelle.description.moveit.parameter_tables import CONTROLLER, EXECUTION, keys_of
 from gazelle.diagnostics import SourceSpan
 
 __all__ = ["ControllerEntry", "ExecutionSettings", "read_controllers", "read_execution"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from gazelle.description.moveit.rows import KINEMATICS, keys_of
-from gazelle.description.moveit.settings import Settings
+from gazelle.description.moveit.parameter_reader import Settings
+from gazelle.description.moveit.parameter_tables import KINEMATICS, keys_of
 
 __all__ = ["KinematicsSettings", "read_kinematics"]
 

@@ -16,7 +16,7 @@ from gazelle.description.moveit.package_files import (
     PackageFiles,
     find_package_files,
 )
-from gazelle.description.moveit.settings import Settings
+from gazelle.description.moveit.parameter_reader import Settings
 from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.description.xml import read_xml

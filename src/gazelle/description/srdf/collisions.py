@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from gazelle.description.srdf.model import CollisionPair, LinkSpheres
 from gazelle.description.srdf.names import Names
-from gazelle.description.urdf.attributes import check_vocabulary, number_attribute, vector_attribute
+from gazelle.description.urdf_reader.attributes import (
+    check_vocabulary,
+    number_attribute,
+    vector_attribute,
+)
 from gazelle.description.xml import Tag
 
 __all__ = ["read_default_collisions", "read_pairs", "read_spheres"]

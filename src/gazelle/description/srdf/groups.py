@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from gazelle.description.model import Joint, JointType, Model
 from gazelle.description.srdf.model import Chain, Group, GroupState, VirtualJoint
 from gazelle.description.srdf.names import Names
-from gazelle.description.urdf.attributes import check_vocabulary
+from gazelle.description.urdf_reader.attributes import check_vocabulary
 from gazelle.description.xml import Tag, attribute_span, floats_from
 from gazelle.diagnostics import Diagnostics
 

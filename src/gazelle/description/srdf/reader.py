@@ -8,13 +8,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.model import Model
+from gazelle.description.robot_description import read_text
 from gazelle.description.source_maps import placed
 from gazelle.description.srdf.collisions import read_default_collisions, read_pairs, read_spheres
 from gazelle.description.srdf.groups import read_groups, read_states
 from gazelle.description.srdf.model import EndEffector, Srdf, VirtualJoint, VirtualJointType
 from gazelle.description.srdf.names import Names
-from gazelle.description.text_origin import read_text
-from gazelle.description.urdf.attributes import check_vocabulary
+from gazelle.description.urdf_reader.attributes import check_vocabulary
 from gazelle.description.xml import Tag, attribute_span, read_xml
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.workspace import Workspace

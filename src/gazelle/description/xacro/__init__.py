@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.description.xacro.arguments import (
+from gazelle.description.xacro.command_line import (
     XacroCommand,
     parse_xacro_arguments,
     read_xacro_arguments,

@@ -8,7 +8,7 @@ from types import FrameType
 from typing import Any, NamedTuple
 from xml.dom import expatbuilder, minidom
 
-from gazelle.description.xacro.repairs import Repairs
+from gazelle.description.xacro.rerun_patches import Repairs
 from gazelle.diagnostics import SourceSpan
 
 __all__ = ["EntityRefusedError", "Tracker", "node_in", "place_of"]

@@ -11,19 +11,19 @@ from types import ModuleType
 from typing import Any
 from xml.parsers.expat import ExpatError
 
-from gazelle.description.xacro.explaining import Finding
-from gazelle.description.xacro.failure import Failure
-from gazelle.description.xacro.leftovers import report_leftovers
-from gazelle.description.xacro.problems import (
+from gazelle.description.xacro.error_explanations import Finding
+from gazelle.description.xacro.error_reports import (
     found_failure,
     repaired,
     report_failure,
     report_left_out,
     report_printed,
 )
-from gazelle.description.xacro.repairs import Repairs
-from gazelle.description.xacro.session import Console, run_session
-from gazelle.description.xacro.writing import Written, written
+from gazelle.description.xacro.failure import Failure
+from gazelle.description.xacro.library_run import Console, run_session
+from gazelle.description.xacro.rerun_patches import Repairs
+from gazelle.description.xacro.silent_mistakes import report_leftovers
+from gazelle.description.xacro.xml_output import Written, written
 from gazelle.description.xml import Tag, parse_xml, with_places
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.diagnostics.share_links import written_file

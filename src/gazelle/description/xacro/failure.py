@@ -8,7 +8,7 @@ from types import FrameType, ModuleType, TracebackType
 from typing import Any
 
 from gazelle.description.xacro.dom import node_in, place_of
-from gazelle.description.xacro.session import Session, causes_of
+from gazelle.description.xacro.library_run import Session, causes_of
 from gazelle.description.xml import attribute_holding, attribute_span, text_span
 from gazelle.diagnostics import SourceSpan
 

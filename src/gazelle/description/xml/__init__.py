@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from gazelle.description.xml.numbers import bool_from, float_from, floats_from, int_from
-from gazelle.description.xml.positions import (
+from gazelle.description.xml.reader import parse_xml, read_xml
+from gazelle.description.xml.spans import (
     attribute_holding,
     attribute_span,
     text_span,
     with_places,
     written_attributes,
 )
-from gazelle.description.xml.reader import parse_xml, read_xml
 from gazelle.description.xml.tag import Tag
 
 __all__ = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gazelle.description.xml.positions import attribute_span
+from gazelle.description.xml.spans import attribute_span
 from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 

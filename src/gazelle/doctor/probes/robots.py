@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from gazelle.description.checks.inertia_shapes import Outlines
+from gazelle.description.checks.shape_volumes import Outlines
 from gazelle.description.model import JointType, Model, World
 from gazelle.geometry import Pose
 

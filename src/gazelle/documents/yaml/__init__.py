@@ -7,16 +7,6 @@ aliases are bounded, and nothing but plain values is made.
 from __future__ import annotations
 
 from gazelle.documents.yaml.dialects import RCL, ROSPARAM, YAML_1_1, Dialect, PlacedMapping
-from gazelle.documents.yaml.document import (
-    YamlDocument,
-    load_yaml,
-    load_yaml_documents,
-    load_yaml_file,
-    read_yaml,
-    read_yaml_documents,
-    read_yaml_file,
-    value_of,
-)
 from gazelle.documents.yaml.loader import MAX_CHARACTERS
 from gazelle.documents.yaml.nodes import (
     YamlEntry,
@@ -34,7 +24,17 @@ from gazelle.documents.yaml.problems import (
     YamlProblem,
     problem_of,
 )
-from gazelle.documents.yaml.writing import (
+from gazelle.documents.yaml.reader import (
+    YamlDocument,
+    load_yaml,
+    load_yaml_documents,
+    load_yaml_file,
+    read_yaml,
+    read_yaml_documents,
+    read_yaml_file,
+    value_of,
+)
+from gazelle.documents.yaml.writer import (
     MESSAGE_STYLE,
     PYTHON_STYLE,
     Layout,

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.description.conversion.plain_names import free_name
-from gazelle.description.conversion.single_axes import carried
 from gazelle.description.model import Inertial, Joint, JointAxis, JointType, Link
+from gazelle.description.writers.single_axis_joints import carried
+from gazelle.description.writers.unscoped_names import free_name
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf.compiled import CompiledMjcf, pose_from
 from gazelle.engine.mjcf.efforts import effort_limits

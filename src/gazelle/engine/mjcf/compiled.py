@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.conversion.plain_names import free_name
+from gazelle.description.writers.unscoped_names import free_name
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf.sources import MjcfSource, read_source
 from gazelle.engine.mujoco_library import compiled, drained_warnings, keep_warnings, mujoco

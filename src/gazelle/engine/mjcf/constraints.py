@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.description.conversion.plain_names import free_name, part_names
 from gazelle.description.model import Joint, JointType, Mimic, Model
+from gazelle.description.writers.unscoped_names import free_name, part_names
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf.compiled import CompiledMjcf
 from gazelle.engine.mujoco_library import mujoco

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from gazelle.description.conversion.beside import Beside
-from gazelle.description.conversion.shapes import stl_bytes
 from gazelle.description.model import (
     Box,
     Capsule,
@@ -22,6 +20,8 @@ from gazelle.description.model import (
     Surface,
     Visual,
 )
+from gazelle.description.writers.geometry_elements import stl_bytes
+from gazelle.description.writers.output_files import Beside
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf.compiled import CompiledMjcf, pose_from
 from gazelle.engine.mujoco_library import mujoco

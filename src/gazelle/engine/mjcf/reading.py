@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from gazelle.description.conversion.beside import Beside
-from gazelle.description.conversion.plain_names import free_name
 from gazelle.description.model import Joint, Link, Model, Physics, World
+from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.unscoped_names import free_name
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf.bodies import BodyReader
 from gazelle.engine.mjcf.compiled import CompiledMjcf, compiled_mjcf

@@ -9,8 +9,6 @@ from typing import Any, assert_never
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.conversion.beside import Beside
-from gazelle.description.conversion.shapes import mesh_of
 from gazelle.description.model import (
     Box,
     Capsule,
@@ -29,8 +27,10 @@ from gazelle.description.model import (
     Sphere,
     Visual,
 )
+from gazelle.description.writers.geometry_elements import mesh_of
+from gazelle.description.writers.output_files import Beside
 from gazelle.diagnostics import Diagnostics
-from gazelle.documents.pictures import PictureError, opened_picture
+from gazelle.documents.images import PictureError, opened_picture
 from gazelle.engine.bodies import SpecBuilder
 from gazelle.engine.mjcf.wavefront import obj_bytes
 from gazelle.engine.mujoco_library import mujoco

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.description.conversion.beside import Beside, Converted
-from gazelle.description.conversion.markup import Markup, head_comments, number, numbers
 from gazelle.description.model import Model, World
+from gazelle.description.writers.output_files import Beside, Converted
+from gazelle.description.writers.xml_markup import Markup, head_comments, number, numbers
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.compiler import Assembly, Compiled, assemble_world, compile_assembly

@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import did_you_mean
 from gazelle.documents import TEXT_BYTES, LimitError, read_limited, read_text_limited
-from gazelle.documents.commands import run_limited
+from gazelle.documents.command_output import run_limited
 from gazelle.documents.files import exists, is_file, is_folder
 from gazelle.documents.yaml import ROSPARAM, YamlError, YamlProblem, read_yaml
 from gazelle.graph.names import resolve

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.documents.pictures import PictureError, opened_picture
+from gazelle.documents.images import PictureError, opened_picture
 from gazelle.mapping.grids.grid import OccupancyGrid
 from gazelle.mapping.grids.map_file import (
     MapFile,

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.documents.archives import ArchiveError, read_arrays
+from gazelle.documents.npz_files import ArchiveError, read_arrays
 from gazelle.mapping.logs.record import LogRecord
 from gazelle.mapping.scans import Scan
 

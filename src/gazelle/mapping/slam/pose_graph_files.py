@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.documents.archives import read_arrays
+from gazelle.documents.npz_files import read_arrays
 from gazelle.documents.versions import refused_version
 from gazelle.errors import GazelleError
 from gazelle.mapping.pose_graph.constraints import Edges, doubtful

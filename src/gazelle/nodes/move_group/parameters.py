@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from gazelle.description.moveit import MoveItConfig, Pipeline
-from gazelle.description.moveit.rows import (
+from gazelle.description.moveit.parameter_tables import (
     CARTESIAN_LIMITS,
     CONTROLLER,
     EXECUTION,

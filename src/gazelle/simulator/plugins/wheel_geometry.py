@@ -122,7 +122,7 @@ def _outline_m(collision: Collision) -> tuple[NDArray[np.float64], float] | None
         signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
         return signs * np.array(shape.size_m) / 2, 0.0
     if isinstance(shape, MeshShape) and shape.path is not None:
-        from gazelle.geometry.loading import load_mesh
+        from gazelle.geometry.mesh_files import load_mesh
 
         try:
             return load_mesh(shape.path).vertices_m * np.array(shape.scale), 0.0

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from gazelle.documents import LimitError
-from gazelle.documents.commands import CommandResult, run_limited
+from gazelle.documents.command_output import CommandResult, run_limited
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.failing import keep_explanation
 from gazelle.launch.ros2.frontend import expose_substitution

@@ -1,8 +1,0 @@
-"""What the sdformat library does with robot descriptions, release by release."""
-
-from __future__ import annotations
-
-from gazelle.description.sdformat.element import SdfElement
-from gazelle.description.sdformat.release import Release
-
-__all__ = ["Release", "SdfElement"]

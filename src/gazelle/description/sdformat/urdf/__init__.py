@@ -1,8 +1,0 @@
-"""Robot descriptions turned into SDF exactly as sdformat's parser_urdf turns them."""
-
-from __future__ import annotations
-
-from gazelle.description.sdformat.urdf.conversion import urdf_to_sdf
-from gazelle.description.sdformat.urdf.survey import DroppedLink, dropped_links, lumped_links
-
-__all__ = ["DroppedLink", "dropped_links", "lumped_links", "urdf_to_sdf"]

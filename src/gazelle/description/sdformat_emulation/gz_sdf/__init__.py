@@ -1,0 +1,22 @@
+"""SDF documents read, upgraded, completed, printed and judged as sdformat does."""
+
+from __future__ import annotations
+
+from gazelle.description.sdformat_emulation.gz_sdf.console import Console, SdfError
+from gazelle.description.sdformat_emulation.gz_sdf.document_reader import (
+    normalised,
+    read_document,
+    read_document_file,
+)
+from gazelle.description.sdformat_emulation.gz_sdf.printer import to_text
+from gazelle.description.sdformat_emulation.gz_sdf.records import Document
+
+__all__ = [
+    "Console",
+    "Document",
+    "SdfError",
+    "normalised",
+    "read_document",
+    "read_document_file",
+    "to_text",
+]

@@ -1,0 +1,205 @@
+"""Documents of older SDF versions rewritten to a release's version, rule by rule.
+
+``upgrades.txt`` holds the rules of each step, nested as the elements they apply to; ``//name``
+means every descendant of that name. Rules of inner elements come first. A place is ``a/b@c``:
+attribute ``c`` of element ``b`` in ``a``.
+"""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.resources import files
+
+from gazelle.description.sdformat_emulation.element import SdfElement
+from gazelle.description.sdformat_emulation.gz_sdf.console import Console
+from gazelle.description.sdformat_emulation.gz_sdf.unflattening import unflatten
+
+__all__ = ["upgrade"]
+
+
+@dataclass(slots=True)
+class _Rules:
+    """What is done to one element: `inner` first, then `actions` in order."""
+
+    inner: list[tuple[str, _Rules]] = field(default_factory=list)
+    actions: list[tuple[str, ...]] = field(default_factory=list)
+
+
+def upgrade(root: SdfElement, version: tuple[int, int], console: Console) -> bool:
+    """Rewrite a document in place to a version and say so in its attribute ``version``.
+
+    Args:
+        root: ``<sdf version="…">``.
+        version: the one wanted.
+        console: hears of deprecated elements and of versions without a way there.
+
+    Returns:
+        False when there is no way from the document's version; it is read as it is then.
+    """
+    wanted = "{}.{}".format(*version)
+    current = original = root.attributes["version"]
+    root.attributes["version"] = wanted
+    while current != wanted:
+        step = _steps().get(current)
+        if step is None:
+            break
+        current, rules = step
+        _apply(root, rules, console)
+    if current != wanted:
+        console.error("convert", f"Unable to convert from SDF version {original} to {wanted}")
+    return current == wanted
+
+
+@cache
+def _steps() -> dict[str, tuple[str, _Rules]]:
+    text = (files(__package__) / "upgrades.txt").read_text(encoding="utf-8")
+    steps: dict[str, tuple[str, _Rules]] = {}
+    for block in text.split("== ")[1:]:
+        title, *lines = block.splitlines()
+        old, new = title.split()
+        steps[old] = (new, _rules_in(lines))
+    return steps
+
+
+def _rules_in(lines: list[str]) -> _Rules:
+    open_rules = [_Rules()]
+    for line in lines:
+        depth = len(line) - len(line.lstrip(" "))
+        del open_rules[depth + 1 :]
+        word = line.strip()
+        if word.startswith(":"):
+            open_rules[-1].actions.append(tuple(word[1:].split(" ")))
+        else:
+            rules = _Rules()
+            open_rules[-1].inner.append((word, rules))
+            open_rules.append(rules)
+    return open_rules[0]
+
+
+def _apply(element: SdfElement, rules: _Rules, console: Console) -> None:
+    for action in rules.actions:
+        if action[0] == "deprecated":
+            _warn_of_deprecated(element, action[1], console)
+    for name, inner in rules.inner:
+        if name.startswith("//"):
+            _apply_below(element, name[2:], inner, console)
+        else:
+            for child in element.find_all(name):
+                _apply(child, inner, console)
+    for action in rules.actions:
+        _act(element, *action)
+
+
+def _apply_below(element: SdfElement, name: str, rules: _Rules, console: Console) -> None:
+    # What is inside plug-ins and elements of other namespaces is the user's own.
+    if element.name == "plugin" or ":" in element.name:
+        return
+    for child in element.children:
+        if child.name == name:
+            _apply(child, rules, console)
+        _apply_below(child, name, rules, console)
+
+
+def _act(element: SdfElement, action: str, *words: str) -> None:
+    if action == "rename":
+        _rename(element, words[0], words[1])
+    elif action in ("move", "copy"):
+        _move(element, words[0], words[1], keeps=action == "copy")
+    elif action == "map":
+        _map(element, *words)
+    elif action == "add":
+        element.add(words[0], " ".join(words[1:]))
+    elif action == "remove":
+        element.children[:] = [child for child in element.children if child.name != words[0]]
+    elif action == "remove_empty":
+        name = words[0].removeprefix("@")
+        if element.attributes.get(name) == "":
+            del element.attributes[name]
+    elif action == "unflatten":
+        unflatten(element)
+
+
+def _rename(element: SdfElement, source: str, target: str) -> None:
+    name, _, attribute = source.partition("@")
+    child = element.find(name) if name else element
+    if child is None:
+        return
+    value = child.attributes.get(attribute) if attribute else child.text or None
+    if value is None:
+        return
+    renamed = SdfElement(target, text=value, line=child.line)
+    if name:
+        element.children[:] = [renamed if one is child else one for one in element.children]
+    else:
+        del element.attributes[attribute]
+        element.children.append(renamed)
+
+
+def _move(element: SdfElement, source: str, target: str, *, keeps: bool) -> None:
+    path, _, attribute = source.partition("@")
+    holder = _descend(element, path.split("/")[:-1]) if path else element
+    if holder is None:
+        return
+    to_path, _, to_attribute = target.partition("@")
+    names = to_path.split("/") if to_path else []
+    receiver = _descend(element, names if to_attribute else names[:-1], makes=True)
+    assert receiver is not None
+    if attribute:
+        if attribute in holder.attributes:
+            value = holder.attributes.pop(attribute)
+            receiver.attributes[to_attribute] = value
+        return
+    moved = holder.find(path.split("/")[-1])
+    if moved is None:
+        return
+    if to_attribute:
+        if not moved.text:
+            return
+        receiver.attributes[to_attribute] = moved.text
+    else:
+        clone = copy.deepcopy(moved)
+        clone.name = names[-1]
+        receiver.children.append(clone)
+    if not keeps:
+        holder.children[:] = [child for child in holder.children if child is not moved]
+
+
+def _map(element: SdfElement, source: str, values: str, target: str, results: str) -> None:
+    found = element.find(source)
+    words, meanings = values.split(","), results.split(",")
+    if found is None or found.text not in words:
+        return
+    # The last result counts for all values behind it.
+    meaning = meanings[min(words.index(found.text), len(meanings) - 1)]
+    *names, last = target.split("/")
+    receiver = _descend(element, names, makes=True)
+    if receiver is not None:
+        receiver.attributes[last.removeprefix("@")] = meaning
+
+
+def _descend(element: SdfElement, names: list[str], *, makes: bool = False) -> SdfElement | None:
+    """Return the element at the end of a path, made where it is missing if `makes`."""
+    for name in names:
+        child = element.find(name)
+        if child is None:
+            if not makes:
+                return None
+            child = element.add(name)
+        element = child
+    return element
+
+
+def _warn_of_deprecated(element: SdfElement, path: str, console: Console) -> None:
+    text = ""
+    found = element
+    for depth, name in enumerate(path.split("/")):
+        child = found.find(name)
+        if child is not None:
+            text += (">\n" if text else "") + "  " * depth + f"<{name}"
+            found = child
+        elif name in found.attributes:
+            text += f" {name}='{found.attributes[name]}'"
+            break
+    console.warn("deprecated", f"Deprecated SDF Values in original file:\n{text}\n")

@@ -1,7 +1,0 @@
-"""The URDF reader."""
-
-from __future__ import annotations
-
-from gazelle.description.urdf.reader import read_urdf
-
-__all__ = ["read_urdf"]

@@ -1,0 +1,102 @@
+"""``<transmission>`` in the syntax of the PR2 and in that of ROS Indigo and later."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from gazelle.description.model import ActuatorTag, TransmissionJoint, TransmissionTag
+from gazelle.description.read_context import ReadContext
+from gazelle.description.urdf_reader.attributes import check_vocabulary
+from gazelle.description.xml import Tag, float_from
+from gazelle.diagnostics import did_you_mean
+
+__all__ = ["read_transmission"]
+
+_CHILDREN = ("type", "joint", "actuator", "mechanicalReduction", "motorTorqueConstant")
+# Wrist and gripper transmissions of the PR2 have members of their own; control looks at them.
+_PR2_MEMBERS = (
+    "compensator",
+    "flexJoint",
+    "gap_joint",
+    "leftActuator",
+    "leftJoint",
+    "passive_joint",
+    "rightActuator",
+    "rightJoint",
+    "rollJoint",
+    "simulated_actuated_joint",
+    "use_simulated_gripper_joint",
+)
+
+
+def read_transmission(
+    tag: Tag, joints: Collection[str], context: ReadContext
+) -> TransmissionTag | None:
+    """Return a transmission; None (reported) when type or joints are missing.
+
+    A mechanical reduction beside the joint and actuator (PR2) is given to both kinds of member
+    that have none of their own.
+
+    Args:
+        tag: the ``<transmission>``.
+        joints: names of the robot's joints.
+        context: where to report.
+    """
+    check_vocabulary(
+        tag,
+        context.diagnostics,
+        attributes=("name", "type"),
+        children=_CHILDREN + _PR2_MEMBERS,
+        once=("type",),
+    )
+    name = tag.attributes.get("name", "").strip()
+    kind = tag.text_of("type") or tag.attributes.get("type", "").strip()
+    members = tuple(_read_joint(child, joints, name, context) for child in tag.find_all("joint"))
+    if not kind or not (members or any(child.name in _PR2_MEMBERS for child in tag.children)):
+        lacking = "a <type>" if not kind else "a <joint>"
+        message = f"transmission '{name}' lacks {lacking} and is left out"
+        context.diagnostics.report("urdf.transmission-incomplete", message, tag.span)
+        return None
+    reduction = float_from(tag.find("mechanicalReduction"), 1.0, context.diagnostics)
+    actuators = tuple(
+        _read_actuator(child, reduction, context) for child in tag.find_all("actuator")
+    )
+    return TransmissionTag(name, kind, members, actuators, span=tag.span)
+
+
+def _read_joint(
+    tag: Tag, joints: Collection[str], transmission: str, context: ReadContext
+) -> TransmissionJoint:
+    check_vocabulary(
+        tag,
+        context.diagnostics,
+        attributes=("name",),
+        children=("hardwareInterface", "role", "mechanicalReduction", "offset"),
+    )
+    name = tag.attributes.get("name", "").strip()
+    if name not in joints:
+        hint = did_you_mean(name, joints)
+        message = f"transmission '{transmission}' names joint '{name}', which does not exist"
+        context.diagnostics.report("urdf.transmission-joint", message, tag.span, fix=hint)
+    return TransmissionJoint(
+        name,
+        _interfaces(tag),
+        tag.text_of("role"),
+        float_from(tag.find("mechanicalReduction"), 1.0, context.diagnostics),
+        float_from(tag.find("offset"), 0.0, context.diagnostics),
+    )
+
+
+def _read_actuator(tag: Tag, reduction: float, context: ReadContext) -> ActuatorTag:
+    known = ("hardwareInterface", "role", "mechanicalReduction", "motorTorqueConstant")
+    check_vocabulary(tag, context.diagnostics, attributes=("name",), children=known)
+    return ActuatorTag(
+        tag.attributes.get("name", "").strip(),
+        float_from(tag.find("mechanicalReduction"), reduction, context.diagnostics),
+        _interfaces(tag),
+        tag.text_of("role"),
+    )
+
+
+def _interfaces(tag: Tag) -> tuple[str, ...]:
+    return tuple(child.text for child in tag.find_all("hardwareInterface") if child.text)

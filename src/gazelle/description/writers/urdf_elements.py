@@ -1,0 +1,153 @@
+"""``<link>`` and its looks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gazelle.description.model import (
+    Collision,
+    Inertial,
+    Link,
+    Material,
+    MeshShape,
+    Rgba,
+    Shape,
+    Visual,
+)
+from gazelle.description.writers.geometry_elements import add_urdf_geometry, as_mesh, urdf_pieces
+from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.unscoped_names import free_name
+from gazelle.description.writers.xml_markup import Markup, number, numbers, xyz_rpy
+from gazelle.diagnostics import Diagnostics
+from gazelle.geometry import IDENTITY_POSE, Pose
+
+__all__ = ["LinkWriter", "add_origin", "is_plain"]
+
+_TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+def add_origin(owner: Markup, pose: Pose) -> None:
+    """Append an ``<origin>``; nothing for the identity."""
+    xyz, rpy = xyz_rpy(pose)
+    if (xyz, rpy) != ("0 0 0", "0 0 0"):
+        owner.add("origin", xyz=xyz, rpy=rpy)
+
+
+def is_plain(material: Material) -> bool:
+    """Tell whether URDF's colour and texture say all of a look."""
+    colour = material.diffuse
+    return material == Material(
+        material.name, ambient=colour, diffuse=colour, texture=material.texture
+    )
+
+
+@dataclass(slots=True)
+class LinkWriter:
+    """Writes links and gathers the materials they use.
+
+    Attributes:
+        beside: names files and takes those that are made.
+        diagnostics: receives what cannot be said.
+        has_capsules: the source is a URDF, whose own capsules stay.
+        materials: rgba and texture by name, in the order of their first use.
+    """
+
+    beside: Beside
+    diagnostics: Diagnostics
+    has_capsules: bool
+    materials: dict[str, tuple[Rgba, str]] = field(default_factory=dict)
+
+    def write(self, robot: Markup, link: Link, T_new_link: Pose) -> None:
+        """Append a link.
+
+        Args:
+            robot: the ``<robot>``.
+            link: what to write.
+            T_new_link: the link's own frame in the one it gets.
+        """
+        item = robot.add("link", name=link.name)
+        if link.inertial is not None:
+            _add_inertial(item, link.inertial, T_new_link)
+        for visual in link.visuals:
+            self._add_visual(item, link, visual, T_new_link @ visual.T_link_visual)
+        for collision in link.collisions:
+            pose = T_new_link @ collision.T_link_collision
+            for suffix, shape, place in self._pieces(link, collision):
+                self._add_shape(item, collision.name + suffix, shape, pose @ place, "collision")
+
+    def _add_visual(self, item: Markup, link: Link, visual: Visual, pose: Pose) -> None:
+        material = "" if visual.material is None else self._material(link, visual)
+        for suffix, shape, place in self._pieces(link, visual):
+            part = self._add_shape(item, visual.name + suffix, shape, pose @ place, "visual")
+            if material:
+                part.add("material", name=material)
+
+    def _add_shape(self, item: Markup, name: str, shape: Shape, pose: Pose, word: str) -> Markup:
+        part = item.add(word, name=name)
+        add_origin(part, pose)
+        add_urdf_geometry(part, shape, self.beside)
+        return part
+
+    def _pieces(self, link: Link, owner: Collision | Visual) -> tuple[tuple[str, Shape, Pose], ...]:
+        pieces = urdf_pieces(owner.shape, has_capsules=self.has_capsules)
+        word = type(owner).__name__.lower()
+        kind = type(owner.shape).__name__.lower().removesuffix("shape")
+        if len(pieces) == 1:
+            return pieces
+        what = f"the {kind} of {word} '{owner.name}' of link '{link.name}'"
+        if pieces:
+            message = f"{what} is written as a cylinder and two spheres; URDF 1.0 has no capsule"
+            self.diagnostics.report("convert.approximated", message, owner.span)
+            return pieces
+        mesh = as_mesh(owner.shape)
+        address = None
+        if mesh is not None:
+            address = self.beside.add(f"{link.name}_{owner.name}.stl", mesh[1])
+        if address is None:
+            why = "" if mesh is None else "; a mesh in its place needs a file to be written beside"
+            message = f"{what} is left out: URDF has none{why}"
+            self.diagnostics.report("convert.left-out", message, owner.span)
+            return ()
+        message = f"{what} is written as the mesh '{address}'"
+        self.diagnostics.report("convert.approximated", message, owner.span)
+        return (("", MeshShape(address, None), IDENTITY_POSE),)
+
+    def _material(self, link: Link, visual: Visual) -> str:
+        """Return the name of a visual's look in the new file."""
+        assert visual.material is not None
+        material = visual.material
+        *rgb, alpha = material.diffuse
+        if len({other.transparency for other in link.visuals}) > 1:
+            alpha *= 1.0 - visual.transparency
+        texture = self.beside.address(material.texture) if material.texture is not None else ""
+        look = ((rgb[0], rgb[1], rgb[2], alpha), texture)
+        wanted = material.name or f"{link.name}_material"
+        if self.materials.get(wanted) == look:
+            return wanted
+        known = next((name for name, item in self.materials.items() if item == look), "")
+        if known and (not material.name or known.startswith(f"{wanted}_")):
+            return known
+        name = free_name(wanted, self.materials)
+        self.materials[name] = look
+        return name
+
+    def material_tags(self) -> list[Markup]:
+        """Return the ``<material>`` definitions of everything written so far."""
+        found = []
+        for name, (rgba, texture) in self.materials.items():
+            item = Markup("material", {"name": name})
+            item.add("color", rgba=numbers(rgba))
+            if texture:
+                item.add("texture", filename=texture)
+            found.append(item)
+        return found
+
+
+def _add_inertial(link: Markup, inertial: Inertial, T_new_link: Pose) -> None:
+    item = link.add("inertial")
+    if inertial.estimated:
+        item.comment("not in the source: estimated from the link's shapes")
+    add_origin(item, T_new_link @ inertial.T_link_com)
+    item.add("mass", value=number(inertial.mass_kg))
+    values = zip(_TENSOR, map(number, inertial.inertia_kg_m2), strict=True)
+    item.add("inertia", **dict(values))

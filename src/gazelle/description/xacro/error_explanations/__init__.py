@@ -1,0 +1,39 @@
+"""Why a run failed, in words: one module for each kind of cause."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from gazelle.description.xacro.error_explanations.calls import explain_call
+from gazelle.description.xacro.error_explanations.documents import explain_document
+from gazelle.description.xacro.error_explanations.elements import explain_element
+from gazelle.description.xacro.error_explanations.expressions import explain_expression
+from gazelle.description.xacro.error_explanations.files import explain_file
+from gazelle.description.xacro.error_explanations.finding import Finding, one_line
+from gazelle.description.xacro.error_explanations.limits import explain_limit
+from gazelle.description.xacro.error_explanations.names import explain_name
+from gazelle.description.xacro.error_explanations.substitutions import explain_substitution
+from gazelle.description.xacro.failure import Failure
+
+__all__ = ["Finding", "explain"]
+
+_EXPLAINERS: tuple[Callable[[Failure], Finding | None], ...] = (
+    explain_limit,
+    explain_document,
+    explain_file,
+    explain_substitution,
+    explain_name,
+    explain_call,
+    explain_expression,
+    explain_element,
+)
+
+
+def explain(failure: Failure) -> Finding:
+    """Return what is wrong, where and what to do about it."""
+    for explainer in _EXPLAINERS:
+        found = explainer(failure)
+        if found is not None:
+            return found
+    text = one_line(str(failure.error) or repr(failure.error))
+    return Finding("xacro.failed", text, failure.span)

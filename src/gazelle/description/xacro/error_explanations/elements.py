@@ -1,0 +1,90 @@
+"""xacro's own elements that are written wrongly."""
+
+from __future__ import annotations
+
+import re
+
+from gazelle.description.xacro.dom import place_of
+from gazelle.description.xacro.error_explanations.finding import Finding, one_line
+from gazelle.description.xacro.failure import Failure
+from gazelle.description.xacro.xml_output import UnwritableError
+from gazelle.diagnostics import did_you_mean
+
+__all__ = ["explain_element"]
+
+_MISSING = re.compile(r"(\S+): missing attribute '(.+?)'")
+_CONDITION = re.compile(r'Xacro conditional "(.*)" evaluated to "(.*)", which is not', re.DOTALL)
+
+
+def explain_element(failure: Failure) -> Finding | None:
+    """Explain missing attributes, conditions and names; None for other failures."""
+    text = str(failure.error)
+    if isinstance(failure.error, UnwritableError):
+        return _unwritable(failure.error, failure)
+    found = _MISSING.search(text)
+    if found is not None:
+        return _missing(found[1], found[2], failure)
+    found = _CONDITION.search(text)
+    if found is not None:
+        return _condition(found[1], found[2], failure)
+    if text.startswith("Property "):
+        return _property(text, failure)
+    if "empty name" in text or "Invalid use of macro name" in text or "macro names must" in text:
+        span = failure.attribute_place("name")
+        return Finding("xacro.bad-element", one_line(text), span, "give it another name")
+    return None
+
+
+def _unwritable(error: UnwritableError, failure: Failure) -> Finding:
+    tag, value = error.element.tagName, f"{error.name}={error.value!r}"
+    message = f"{error}: <xacro:attribute> gives <{tag}> the number {value}, and xacro can only"
+    message += " write texts"
+    fix = 'write value="${str(…)}" in <xacro:attribute>'
+    return Finding("xacro.failed", message, place_of(error.element) or failure.span, fix)
+
+
+def _missing(tag: str, attribute: str, failure: Failure) -> Finding:
+    written = list(failure.node.attributes.keys())
+    message = f"<{tag}> needs the attribute '{attribute}'"
+    fix = did_you_mean(attribute, written) and f"rename the attribute to '{attribute}'"
+    if tag == "xacro:arg" and attribute == "default":
+        message += "; an argument without a default is not declared at all"
+        fix = 'add default="…", or remove the element: $(arg …) works without it'
+    failure.text = ""
+    fix = fix or f'add {attribute}="…"'
+    return Finding("xacro.bad-element", message, failure.span, fix)
+
+
+def _condition(condition: str, value: str, failure: Failure) -> Finding:
+    shown = f"'{condition}' is '{value}', which" if condition != value else f"'{value}'"
+    message = f"{shown} is not a boolean expression: <{failure.node.tagName}> takes "
+    message += "true, false, 1, 0 or an expression in ${…}"
+    fix = ""
+    word = value.strip().lower()
+    if word in {"yes", "on"}:
+        fix = "write true"
+    elif word in {"no", "off", "none", ""}:
+        fix = "write false"
+    elif word in {"true", "false"}:
+        fix = f"write {word}"
+    elif re.search(r"==|!=|<|>|\b(and|or|not)\b", value):
+        fix = f"put it into braces: ${{{value}}}"
+    elif value.isidentifier():
+        fix = f"write ${{{value}}} for a property, $(arg {value}) for an argument"
+    elif re.fullmatch(r"-?\d*\.\d*", value):
+        fix = f"write ${{{value} != 0}}"
+    return Finding("xacro.bad-condition", message, failure.attribute_place("value"), fix)
+
+
+def _property(text: str, failure: Failure) -> Finding:
+    name = text.rpartition(":")[2].strip()
+    span = failure.attribute_place("name")
+    if "mutually exclusive" in text:
+        message = f"property '{name}' has more than one of value, default and remove"
+        return Finding("xacro.bad-element", message, span, "keep one of them", name)
+    fixed = re.sub(r"\W", "_", name)
+    fixed = f"_{fixed}" if fixed[:1].isdigit() else fixed
+    fix = f"write '{fixed}'" if fixed.isidentifier() and fixed != name else "use another name"
+    if "double underscore" not in text:
+        text = f"Property names must be valid python identifiers: '{name}' is none"
+    return Finding("xacro.bad-element", one_line(text), span, fix, name)

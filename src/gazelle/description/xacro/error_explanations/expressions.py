@@ -1,0 +1,160 @@
+"""Expressions that Python refuses, with the values of the names in them."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from gazelle.description.xacro.error_explanations.finding import Finding, one_line, short_place
+from gazelle.description.xacro.failure import Failure
+from gazelle.diagnostics import did_you_mean
+
+__all__ = ["explain_expression"]
+
+_COMMA_VALUE = re.compile(r"\s*[-+]?\d+,\d+\s*")
+_COMMA = re.compile(r"(?<![\w.,\[])\d+,\d+(?![\w.,\]])")
+_WITH_UNIT = re.compile(r"\s*([-+]?\d*\.?\d+)\s*([a-zA-Z°]+)\s*")
+_MAX_LENGTH = 60
+
+
+def explain_expression(failure: Failure) -> Finding | None:
+    """Explain why an expression has no value; None for other failures."""
+    if "circular variable definition" in str(failure.error):
+        return _circular(failure)
+    if "invalid expression: " in str(failure.error) and not failure.part:
+        return _unclosed(failure)
+    if not failure.expression:
+        return None
+    cause = failure.causes[-1]
+    expression = f"${{{failure.expression}}}"
+    what = failure.part or expression
+    inner = "" if expression == what else f" in '{expression}'"
+    message = f"cannot evaluate '{what}'{inner}: {_reason(cause)}"
+    values = _values(failure)
+    if values:
+        shown = ", ".join(
+            f"{name} = {_shown(value)}{_where(name, failure)}" for name, value in values
+        )
+        message += f"; here {shown}"
+    comma = _decimal_comma(failure.expression, values) if isinstance(cause, TypeError) else ""
+    if comma:
+        fix = f"write the decimal sign as a dot: {comma.replace(',', '.')}"
+        return Finding("xacro.decimal-comma", message, failure.span, fix, _text_in(values, cause))
+    fix = _remedy(failure, cause, values)
+    return Finding("xacro.bad-expression", message, failure.span, fix, _text_in(values, cause))
+
+
+def _reason(cause: BaseException) -> str:
+    if isinstance(cause, SyntaxError):
+        return str(cause.msg)
+    if isinstance(cause, KeyError):
+        return f"there is no key {cause}"
+    return one_line(str(cause)) or type(cause).__name__
+
+
+def _values(failure: Failure) -> list[tuple[str, Any]]:
+    """Return the names in an expression with their values, functions left out."""
+    try:
+        tree = ast.parse(failure.expression.strip(), mode="eval")
+    except (SyntaxError, ValueError):
+        return []
+    names = [node.id for node in ast.walk(tree) if isinstance(node, ast.Name)]
+    found: list[tuple[str, Any]] = []
+    for name in dict.fromkeys(names):
+        try:
+            value = failure.symbols[name]
+        # Evaluating a property may fail as the expression did; then there is no value to show.
+        except Exception:  # noqa: BLE001, S112
+            continue
+        if not callable(value) and name not in {"True", "False", "pi", "e", "python", "xacro"}:
+            found.append((name, value))
+    return found
+
+
+def _shown(value: Any) -> str:
+    text = one_line(repr(value))
+    return text if len(text) <= _MAX_LENGTH else f"{text[: _MAX_LENGTH - 1]}…"
+
+
+def _where(name: str, failure: Failure) -> str:
+    place = failure.session.properties.get(name)
+    return f" ({short_place(place)})" if place is not None else ""
+
+
+def _text_in(values: list[tuple[str, Any]], cause: BaseException) -> str:
+    """Return the name of the text that stands where a number is needed, empty when none does."""
+    if not isinstance(cause, TypeError):
+        return ""
+    return next((name for name, value in values if isinstance(value, str)), "")
+
+
+def _decimal_comma(expression: str, values: list[tuple[str, Any]]) -> str:
+    """Return the number that is written with a comma, empty when there is none."""
+    for _, value in values:
+        if isinstance(value, str) and _COMMA_VALUE.fullmatch(value):
+            return value.strip()
+    found = _COMMA.search(expression)
+    return found[0] if found else ""
+
+
+def _remedy(failure: Failure, cause: BaseException, values: list[tuple[str, Any]]) -> str:
+    if isinstance(cause, ZeroDivisionError):
+        zeros = [name for name, value in values if value in (0, 0.0)]
+        return f"give {' or '.join(zeros)} a value other than 0" if zeros else ""
+    if isinstance(cause, SyntaxError):
+        return _syntax_remedy(failure, cause)
+    if isinstance(cause, KeyError):
+        keys = [str(key) for _, value in values if isinstance(value, dict) for key in _keys(value)]
+        return did_you_mean(str(cause.args[0]), keys)
+    for name, value in values:
+        unit = _WITH_UNIT.fullmatch(value) if isinstance(value, str) else None
+        if unit is not None:
+            return f"{name} is a text; write the number alone: {unit[1]}"
+        if name == _text_in(values, cause):
+            return f"{name} is a text and no number; correct its value"
+    return ""
+
+
+def _keys(table: dict[Any, Any]) -> Iterator[Any]:
+    for key, value in table.items():
+        yield key
+        yield from _keys(value) if isinstance(value, dict) else ()
+
+
+def _syntax_remedy(failure: Failure, cause: SyntaxError) -> str:
+    text = failure.expression
+    if text.count("{") > text.count("}"):
+        return (
+            "xacro ends ${…} at the first '}': write dict(a=1) for {'a': 1}, '%.2f' % x for format"
+        )
+    if re.search(r"&&|\|\|", text):
+        return "Python writes 'and' and 'or'"
+    if re.search(r"!\s*\w", text):
+        return "Python writes 'not'"
+    if "?" in text:
+        return "Python writes 'A if CONDITION else B'"
+    if re.fullmatch(r"\s*", text):
+        return "write an expression between the braces"
+    found = _WITH_UNIT.search(text)
+    if found is not None and "invalid decimal literal" in str(cause.msg):
+        return f"write the number alone, without '{found[2]}'"
+    return ""
+
+
+def _circular(failure: Failure) -> Finding:
+    text = str(failure.error)
+    found = re.search(r"circular variable definition: (.*)", text)
+    chain = found[1].strip() if found else ""
+    message = f"circular variable definition: {chain}: the properties need each other"
+    fix = 'break the circle, or evaluate one at once with lazy_eval="false"'
+    return Finding("xacro.recursion", message, failure.span, fix)
+
+
+def _unclosed(failure: Failure) -> Finding:
+    rest = str(failure.error).partition("invalid expression: ")[2]
+    close = "}" if rest.startswith("${") else ")"
+    failure.part = rest
+    message = f"'{one_line(rest)}' has no closing '{close}'"
+    return Finding("xacro.bad-expression", message, failure.span, f"add '{close}'")
