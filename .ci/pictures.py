@@ -72,14 +72,17 @@ SCAN = (
         "node of the user",
         (
             Step("gazelle.graph.subscription", "takes the bytes from the link"),
-            Step("gazelle.graph.delivery", "keeps them in a queue of the size that was asked for"),
+            Step(
+                "gazelle.graph.callback_queue",
+                "keeps them in a queue of the size that was asked for",
+            ),
             Step("gazelle.compat.rospy.topics", "makes the message, calls the user's callback"),
         ),
     ),
     Lane(
         "page",
         (
-            Step("gazelle.studio.taps", "takes the bytes, while a display of it is open"),
+            Step("gazelle.studio.subscriptions", "takes the bytes, while a display of it is open"),
             Step("gazelle.studio.displays.points", "makes points and colours, as the display says"),
             Step("gazelle.studio.streams", "sends a binary frame when the page has room"),
         ),

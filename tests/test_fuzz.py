@@ -17,8 +17,8 @@ from tests.fuzzing.kinds import KINDS, SCOUT
 from tests.fuzzing.mutations import damaged
 from tests.fuzzing.run import is_error, read_damaged, read_one
 
-from gazelle.bridge.ros1.frames import read_frame
-from gazelle.graph.keys import Entity
+from gazelle.bridge.ros1.tcpros import read_frame
+from gazelle.graph.key_expressions import Entity
 from gazelle.workspace import Workspace
 
 COUNT = 35

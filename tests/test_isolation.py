@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.bag import Connection, Encoding, learn_definitions
-from gazelle.graph.wire import hash_of
+from gazelle.graph.type_support import hash_of
 from gazelle.interfaces import (
     RosVersion,
     add_package,

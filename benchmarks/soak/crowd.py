@@ -32,7 +32,7 @@ from launched_scout import launched_scout
 from marked_processes import pids_of
 
 from gazelle.graph import Graph
-from gazelle.graph.keys import Entity
+from gazelle.graph.key_expressions import Entity
 
 _MARK = "GAZELLE_CROWD"
 _FAST, _WATCHERS, _SLEEPERS, _NEIGHBOURS, _TOPICS_EACH = 6, 5, 5, 44, 4

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.graph.reconfigure import DynamicGroup, DynamicParameter, ReconfigureServer
+from gazelle.graph.dynamic_reconfigure import DynamicGroup, DynamicParameter, ReconfigureServer
 from gazelle.interfaces import action_type
 
 pytestmark = pytest.mark.slow

@@ -11,14 +11,14 @@ import pytest
 from gazelle.cli import dynparam
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
-from gazelle.graph.node_parameters import NodeParameters
-from gazelle.graph.reconfigure import (
+from gazelle.graph.dynamic_reconfigure import (
     DynamicGroup,
     DynamicParameter,
     EnumConstant,
     ReconfigureServer,
     enum_edit_method,
 )
+from gazelle.graph.ros2_node_parameters import NodeParameters
 from gazelle.launch.executables import find_executable
 from gazelle.workspace import Workspace
 

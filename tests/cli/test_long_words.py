@@ -10,7 +10,7 @@ import pytest
 from gazelle.cli import dynparam
 from gazelle.cli.error_text import error_text
 from gazelle.graph import Node
-from gazelle.graph.node_parameters import NodeParameters
+from gazelle.graph.ros2_node_parameters import NodeParameters
 from gazelle.interfaces import ros1_service_type, service_type
 
 _DEPTH = "lists and mappings are nested deeper than 64"

@@ -14,7 +14,7 @@ from typing import Any
 
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Kind, Node
-from gazelle.graph.keys import control_key, parameter_key, service_key, topic_key
+from gazelle.graph.key_expressions import control_key, parameter_key, service_key, topic_key
 from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.definition import Array, attribute_name
 

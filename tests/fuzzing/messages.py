@@ -12,7 +12,7 @@ from tests.fuzzing.kind import Kind
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
-from gazelle.graph.parameter_values import value_from_message, value_message
+from gazelle.graph.ros2_parameter_values import value_from_message, value_message
 from gazelle.interfaces import (
     from_cdr,
     from_ros1,
@@ -25,7 +25,7 @@ from gazelle.interfaces import (
 )
 from gazelle.nodes.map_server.occupancy_grid import grid_of_message
 from gazelle.nodes.navigation.observations import cloud_points
-from gazelle.studio.displays.pictures import PictureSettings, encoded_picture
+from gazelle.studio.displays.image_encodings import PictureSettings, encoded_picture
 from gazelle.studio.displays.points import points_of
 from gazelle.workspace import Workspace
 

@@ -48,9 +48,9 @@ from gazelle.nodes.slam.ros_packages import FLAVOURS
 from gazelle.nodes.teleop.twist_joy import read_driving
 from gazelle.nodes.twist_mux.parameters import read_inputs
 from gazelle.parameters.trees import nested
-from gazelle.studio.params import Params
-from gazelle.studio.plugins.rqt.forms import form_layout, form_widgets
-from gazelle.studio.settings.perspectives import open_perspective
+from gazelle.studio.plugins.rqt.ui_files import form_layout, form_widgets
+from gazelle.studio.request_params import Params
+from gazelle.studio.settings.rqt_perspectives import open_perspective
 from gazelle.studio.settings.rviz_files import open_rviz
 from gazelle.workspace import Workspace
 from gazelle.workspace.building.cmake_lists import read_cmake_lists

@@ -20,14 +20,13 @@ from gazelle.bridge.foxglove.assets import read_asset
 from gazelle.bridge.foxglove.client_publishers import Speech
 from gazelle.bridge.foxglove.parameters import Parameters
 from gazelle.bridge.foxglove.values import plain_value
-from gazelle.bridge.ros1.frames import read_frame, read_header, write_header
 from gazelle.bridge.ros1.master import Master
+from gazelle.bridge.ros1.tcpros import read_frame, read_header, write_header
 from gazelle.bridge.ros1.xmlrpc_call import read_answer
 from gazelle.bridge.ros1.xmlrpc_server import serve_calls
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError, GraphError
-from gazelle.graph.control import answer_in, read_query
-from gazelle.graph.keys import (
+from gazelle.graph.key_expressions import (
     Attachment,
     Entity,
     Qos,
@@ -35,14 +34,15 @@ from gazelle.graph.keys import (
     topic_key,
     type_in_key,
 )
-from gazelle.graph.keys import (
+from gazelle.graph.key_expressions import (
     Kind as EntityKind,
 )
+from gazelle.graph.parameter_server import ParameterShare, ParameterStore
 from gazelle.graph.parameter_tree import from_json, to_json
-from gazelle.graph.parameters import ParameterShare, ParameterStore
+from gazelle.graph.process_queries import answer_in, read_query
 from gazelle.interfaces import from_ros1, ros1_message_type, to_cdr, to_ros1
 from gazelle.studio.connection import Connection
-from gazelle.studio.session import Studio
+from gazelle.studio.studio import Studio
 from gazelle.workspace import Workspace
 
 __all__ = ["WIRES"]

@@ -10,7 +10,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.graph import Graph, Kind
-from gazelle.graph.node_parameters import NodeParameters
+from gazelle.graph.ros2_node_parameters import NodeParameters
 from gazelle.interfaces import service_type
 
 EMPTY = service_type("std_srvs/srv/Empty")

@@ -10,7 +10,7 @@ import zenoh
 
 from gazelle.graph import Entity, Graph, Kind
 from gazelle.graph.discovery import Discovery
-from gazelle.graph.keys import token
+from gazelle.graph.key_expressions import token
 from gazelle.interfaces import message_type, service_type
 
 Empty = service_type("std_srvs/srv/Empty")

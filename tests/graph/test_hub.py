@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.graph import Graph, config, locators
+from gazelle.graph import Graph, locators, sessions
 from gazelle.interfaces import message_type
 
 String = message_type("std_msgs/msg/String")
@@ -46,10 +46,10 @@ def test_who_comes_while_the_hub_closes_waits_for_its_place(
 ) -> None:
     import zenoh
 
-    monkeypatch.setattr("gazelle.graph.parameters._NO_OWNER_S", 0.0)
+    monkeypatch.setattr("gazelle.graph.parameter_server._NO_OWNER_S", 0.0)
     release = locators.claim_hub(port)
     assert release is not None
-    hub: Any = zenoh.open(config.hub_config(port))
+    hub: Any = zenoh.open(sessions.hub_config(port))
     closed = threading.Event()
     refused: list[int] = []
 

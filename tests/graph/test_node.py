@@ -17,7 +17,7 @@ from gazelle.graph import (
     offer_loggers,
 )
 from gazelle.graph import node as node_module
-from gazelle.graph.control import ask_process, shut_down_node
+from gazelle.graph.process_queries import ask_process, shut_down_node
 from gazelle.interfaces import (
     message_type,
     ros1_message_type,

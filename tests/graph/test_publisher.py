@@ -11,7 +11,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import GraphError
-from gazelle.graph import Graph, MessageInfo, Node, RawMessage, wire
+from gazelle.graph import Graph, MessageInfo, Node, RawMessage, type_support
 from gazelle.interfaces import from_cdr, message_type, ros1_message_type
 
 String = message_type("std_msgs/msg/String")
@@ -128,7 +128,7 @@ def test_of_two_threads_the_same_one_has_the_last_word_here_and_elsewhere(
 ) -> None:
     publisher = talker.create_publisher("map", String, latch=True)
     second = threading.Thread(target=lambda: publisher.publish(String(data="second")))
-    encode = wire.encode
+    encode = type_support.encode
 
     def encode_behind_the_second(message: Any) -> bytes:
         if message.data == "first":
@@ -136,7 +136,7 @@ def test_of_two_threads_the_same_one_has_the_last_word_here_and_elsewhere(
             second.join(0.3)
         return encode(message)
 
-    monkeypatch.setattr(wire, "encode", encode_behind_the_second)
+    monkeypatch.setattr(type_support, "encode", encode_behind_the_second)
     publisher.publish(String(data="first"))
     second.join(stretched())
     local, remote = make_inbox(), make_inbox()

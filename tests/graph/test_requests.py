@@ -14,9 +14,16 @@ from tests.patience import stretched
 
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import Graph, Kind
-from gazelle.graph.control import answer_in, read_query
-from gazelle.graph.keys import Entity, Qos, control_key, parameter_key, service_key, token
+from gazelle.graph.key_expressions import (
+    Entity,
+    Qos,
+    control_key,
+    parameter_key,
+    service_key,
+    token,
+)
 from gazelle.graph.parameter_tree import ParameterTree, from_json
+from gazelle.graph.process_queries import answer_in, read_query
 from gazelle.interfaces import service_type
 
 KINDS = {"op": str, "count": int}

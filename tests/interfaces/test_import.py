@@ -8,7 +8,7 @@ def test_import_leaves_heavy_modules_alone():
     code = (
         "import sys, gazelle.interfaces as i; "
         "late = {'yaml', 'numpy', 'hashlib', 'rich', 'difflib', "
-        "'gazelle.interfaces.writer', 'gazelle.diagnostics'} & set(sys.modules); "
+        "'gazelle.interfaces.codec_writer', 'gazelle.diagnostics'} & set(sys.modules); "
         "print(sorted(late)); "
         "i.to_cdr(i.message_type('sensor_msgs/LaserScan')()); "
         "print(sorted({'yaml', 'gazelle.diagnostics'} & set(sys.modules)))"

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.graph.parameter_values import value_message
+from gazelle.graph.ros2_parameter_values import value_message
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import ABSENT_NODES
 from gazelle.nodes.component_container import builtin_of_component

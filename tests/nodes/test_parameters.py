@@ -11,7 +11,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.graph import Graph, Kind
-from gazelle.graph.parameter_values import value_from_message, value_message
+from gazelle.graph.ros2_parameter_values import value_from_message, value_message
 from gazelle.interfaces import message_type
 from gazelle.nodes.parameters import ticks
 

@@ -15,14 +15,14 @@ from tests.patience import eventually, stretched
 from tests.studio.page import Page, RefusedError
 
 from gazelle.graph import Graph, Node, offer_loggers
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
-from gazelle.graph.reconfigure import (
+from gazelle.graph.dynamic_reconfigure import (
     DynamicGroup,
     DynamicParameter,
     EnumConstant,
     ReconfigureServer,
     enum_edit_method,
 )
+from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters
 from gazelle.interfaces import service_type
 from gazelle.studio import Server
 

@@ -19,8 +19,8 @@ from websockets.sync.client import ClientConnection, connect
 from gazelle import __version__
 from gazelle.graph import Graph
 from gazelle.studio import Server, Studio
-from gazelle.studio.catalogue import METHODS, STREAMS
-from gazelle.studio.params import Params
+from gazelle.studio.protocol import METHODS, STREAMS
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream, StreamKind
 
 
@@ -213,10 +213,10 @@ def test_many_pages_at_once(connected: Callable[..., Page], talk: Talk) -> None:
 
 
 def test_calls_that_hang_are_bounded(page: Page, server: Server, monkeypatch: Any) -> None:
-    from gazelle.studio import catalogue, connection
+    from gazelle.studio import connection, protocol
 
     going = threading.Event()
-    methods = {**catalogue.METHODS, "slow": lambda _studio, _params: going.wait(stretched())}
+    methods = {**protocol.METHODS, "slow": lambda _studio, _params: going.wait(stretched())}
     monkeypatch.setattr(connection, "METHODS", methods)
     for number in range(256):
         page.expect(1000 + number)

@@ -66,9 +66,9 @@ def test_unchanged_files_are_not_sent_again(server: Server) -> None:
 def test_long_files_are_packed_for_those_who_take_it(
     server: Server, monkeypatch: Any, tmp_path: Any
 ) -> None:
-    from gazelle.studio import files
+    from gazelle.studio import http_answers
 
-    monkeypatch.setattr(files, "_PAGE", tmp_path)
+    monkeypatch.setattr(http_answers, "_PAGE", tmp_path)
     (tmp_path / "app.js").write_text("let a = 1;\n" * 1000)
     answer = get(server, "/app.js", Accept_Encoding="gzip")
     assert answer.headers["Content-Encoding"] == "gzip"

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.bag.storage import Connection, Encoding
 from gazelle.bag.types import learn_definitions
 from gazelle.errors import GazelleError
-from gazelle.graph.delivery import Mailbox
+from gazelle.graph.callback_queue import Mailbox
 from gazelle.interfaces import RosVersion, TypeStore, default_types, keep_text
 
 if TYPE_CHECKING:

@@ -26,9 +26,9 @@ from gazelle.interfaces import (
     to_ros1,
 )
 from gazelle.interfaces.definition import Array, attribute_name
-from gazelle.interfaces.naming import ros1_name, split_name
 from gazelle.interfaces.parser import parse_message
-from gazelle.interfaces.translate import definition_text
+from gazelle.interfaces.ros1_conversion import definition_text
+from gazelle.interfaces.type_names import ros1_name, split_name
 
 __all__ = ["Change", "Migration", "migration_of"]
 

@@ -21,7 +21,7 @@ from gazelle.interfaces import (
     to_ros1,
     wire_type,
 )
-from gazelle.interfaces.naming import canonical_name
+from gazelle.interfaces.type_names import canonical_name
 
 __all__ = [
     "BagTypes",

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Generic
 
-from gazelle.bridge.mirror import M, Mirror, S, Traits
+from gazelle.bridge.node_mirrors import M, Mirror, S, Traits
 from gazelle.graph import Kind, Publisher
 from gazelle.graph.names import is_legal, is_legal_base, split
 

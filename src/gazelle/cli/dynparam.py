@@ -19,9 +19,9 @@ from gazelle.graph import (
     ServiceTimeoutError,
     ServiceUnavailableError,
 )
+from gazelle.graph.dynamic_reconfigure import ReconfigureClient, ReconfigureError, server_names
+from gazelle.graph.dynamic_reconfigure.messages import config_tree, group_states
 from gazelle.graph.names import CommandLine, parse_command_line
-from gazelle.graph.reconfigure import ReconfigureClient, ReconfigureError, server_names
-from gazelle.graph.reconfigure.messages import config_tree, group_states
 
 __all__ = ["main"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from gazelle.graph import Entity, Graph, Kind
-from gazelle.graph.control import ask_process
+from gazelle.graph.process_queries import ask_process
 
 __all__ = ["Processes"]
 

@@ -15,10 +15,10 @@ from gazelle.graph.errors import (
     TimeJumpError,
 )
 from gazelle.graph.graph import Graph
-from gazelle.graph.introspection import Endpoint, NodeInfo, ServiceInfo, TopicInfo
-from gazelle.graph.keys import ANY_TYPE, Entity, Kind, Qos
+from gazelle.graph.graph_info import Endpoint, NodeInfo, ServiceInfo, TopicInfo
+from gazelle.graph.key_expressions import ANY_TYPE, Entity, Kind, Qos
 from gazelle.graph.node import Node
-from gazelle.graph.parameters import ParameterStore
+from gazelle.graph.parameter_server import ParameterStore
 from gazelle.graph.publisher import Publisher
 from gazelle.graph.service import ServiceClient, ServiceServer
 from gazelle.graph.subscription import MessageInfo, RawMessage, Subscription

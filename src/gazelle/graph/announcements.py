@@ -55,7 +55,7 @@ class Announcements:
         """Announce an entity by its token, at the end of the thread's `together` if there is one.
 
         Args:
-            text: see `gazelle.graph.keys.token`.
+            text: see `gazelle.graph.key_expressions.token`.
         """
         made = Announcement(self._session, text)
         waiting: list[Announcement] | None = getattr(self._here, "waiting", None)

@@ -14,7 +14,7 @@ from gazelle.errors import GraphError
 from gazelle.graph.clock_sharing import ClockFinder
 from gazelle.graph.clock_waits import Waits
 from gazelle.graph.errors import TimeJumpError
-from gazelle.graph.wire import resolve_type
+from gazelle.graph.type_support import resolve_type
 from gazelle.interfaces.stamps import ns_of
 
 if TYPE_CHECKING:

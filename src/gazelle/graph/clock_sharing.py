@@ -15,9 +15,9 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from gazelle.graph.callback_queue import Mailbox
 from gazelle.graph.clock_page import ClockPage, PageView, machine_name
-from gazelle.graph.delivery import Mailbox
-from gazelle.graph.keys import Entity, Kind, clock_key
+from gazelle.graph.key_expressions import Entity, Kind, clock_key
 from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
-from gazelle.graph.keys import Entity, Kind, entity_gid, token_selector
+from gazelle.graph.key_expressions import Entity, Kind, entity_gid, token_selector
 from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:

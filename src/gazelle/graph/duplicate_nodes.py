@@ -6,8 +6,8 @@ import threading
 import time
 from typing import TYPE_CHECKING, NamedTuple
 
-from gazelle.graph.control import shut_down_node
-from gazelle.graph.keys import Entity, Kind
+from gazelle.graph.key_expressions import Entity, Kind
+from gazelle.graph.process_queries import shut_down_node
 
 if TYPE_CHECKING:
     import zenoh

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gazelle.graph.keys import Entity, Kind
+from gazelle.graph.key_expressions import Entity, Kind
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph

@@ -13,31 +13,31 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError, NotFoundError
-from gazelle.graph import introspection
-from gazelle.graph.allocator import HeapTrim
+from gazelle.graph import graph_info
 from gazelle.graph.announcements import Announcements
 from gazelle.graph.clock import Clock
 from gazelle.graph.closing import CallsInFlight, close_session
-from gazelle.graph.config import client_config, domain_of, peer_config, port_of
 from gazelle.graph.console import print_record
-from gazelle.graph.control import Control, ask_process, shut_down_node, wait_for_processes
 from gazelle.graph.discovery import Discovery
 from gazelle.graph.duplicate_nodes import TAKEN_OVER, Namesakes
 from gazelle.graph.errors import NoGraphError, PortTakenError, coded
+from gazelle.graph.glibc_malloc import HeapTrim
+from gazelle.graph.graph_info import NodeInfo, ServiceInfo, TopicInfo
 from gazelle.graph.hub import HubKeeper
-from gazelle.graph.introspection import NodeInfo, ServiceInfo, TopicInfo
-from gazelle.graph.keys import Entity, Kind
+from gazelle.graph.key_expressions import Entity, Kind
 from gazelle.graph.local_topic import LocalTopics
 from gazelle.graph.locators import name_of_hub, own_endpoint, share, somebody_listens
 from gazelle.graph.names import anonymous_name, check_node_name, join, resolve
 from gazelle.graph.node import Node
-from gazelle.graph.parameters import ParameterShare, ParameterStore, global_parameters
-from gazelle.graph.stamps import StampWatch
+from gazelle.graph.parameter_server import ParameterShare, ParameterStore, global_parameters
+from gazelle.graph.process_queries import Control, ask_process, shut_down_node, wait_for_processes
+from gazelle.graph.sessions import client_config, domain_of, peer_config, port_of
+from gazelle.graph.wall_clock_stamps import StampWatch
 
 if TYPE_CHECKING:
     import zenoh
 
-    from gazelle.graph.actions.listing import ActionInfo
+    from gazelle.graph.actions.action_info import ActionInfo
 
 __all__ = ["Graph"]
 
@@ -209,7 +209,7 @@ class Graph:
 
     def topics(self, *, include_hidden: bool = False) -> tuple[TopicInfo, ...]:
         """Return all topics with type, publishers and subscriptions, by name."""
-        return introspection.topics_of(self.entities(), include_hidden=include_hidden)
+        return graph_info.topics_of(self.entities(), include_hidden=include_hidden)
 
     def topic_names_and_types(self, *, include_hidden: bool = False) -> list[tuple[str, str]]:
         """Return names and types of all topics, by name."""
@@ -217,17 +217,17 @@ class Graph:
 
     def services(self, *, include_hidden: bool = False) -> tuple[ServiceInfo, ...]:
         """Return all services with type and servers, by name."""
-        return introspection.services_of(self.entities(), include_hidden=include_hidden)
+        return graph_info.services_of(self.entities(), include_hidden=include_hidden)
 
     def actions(self) -> tuple[ActionInfo, ...]:
         """Return all actions of ROS 1 and ROS 2 with type, servers and clients, by name."""
-        from gazelle.graph.actions.listing import actions_of
+        from gazelle.graph.actions.action_info import actions_of
 
         return actions_of(self.entities())
 
     def node_names(self, *, include_hidden: bool = False) -> tuple[str, ...]:
         """Return the global names of all nodes, sorted."""
-        return introspection.nodes_of(self.entities(), include_hidden=include_hidden)
+        return graph_info.nodes_of(self.entities(), include_hidden=include_hidden)
 
     def node_info(self, name: str) -> NodeInfo:
         """Return all about one node, its process number included.
@@ -237,7 +237,7 @@ class Graph:
         """
         entities = self.entities()
         full = resolve(name)
-        info = introspection.node_info(entities, full)
+        info = graph_info.node_info(entities, full)
         if info is None:
             raise self._no_node(full, entities)
         pid, host = ask_process(self.session, self.domain, info.zid)
@@ -259,7 +259,7 @@ class Graph:
         """
         entities = self.entities()
         full = resolve(name)
-        info = introspection.node_info(entities, full)
+        info = graph_info.node_info(entities, full)
         if info is None:
             raise self._no_node(full, entities)
         return shut_down_node(self.session, self.domain, info.zid, full, reason)
@@ -388,7 +388,7 @@ class Graph:
         return tuple(one for one in self.entities() if one.kind is kind and one.name == full)
 
     def _no_node(self, name: str, entities: tuple[Entity, ...]) -> NotFoundError:
-        names = introspection.nodes_of(entities)
+        names = graph_info.nodes_of(entities)
         return NotFoundError(
             "node", name, nearest=nearest_names(name, names), hint="ROS says: Unknown node"
         )

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
 from gazelle.graph.closing import close_session
-from gazelle.graph.config import hub_config
 from gazelle.graph.locators import claim_hub, hub_endpoint, share, sweep_sockets
 from gazelle.graph.reconnection import Relinker
+from gazelle.graph.sessions import hub_config
 from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:

@@ -10,11 +10,11 @@ from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from gazelle.errors import GraphError
-from gazelle.graph import wire
+from gazelle.graph import type_support
 from gazelle.graph.console import Level, LogRecord, level_of
-from gazelle.graph.keys import ANY_TYPE, DEFAULT_QOS, NO_HASH, Entity, Kind, Qos, token
+from gazelle.graph.key_expressions import ANY_TYPE, DEFAULT_QOS, NO_HASH, Entity, Kind, Qos, token
 from gazelle.graph.names import check_name, remap, resolve
-from gazelle.graph.parameters import ParameterStore
+from gazelle.graph.parameter_server import ParameterStore
 from gazelle.graph.publisher import Publisher
 from gazelle.graph.service import ServiceClient, ServiceServer
 from gazelle.graph.subscription import Delivery, Subscription
@@ -81,7 +81,7 @@ class Node:
         self._token = graph.announcements.announce(token(graph.domain, self.entity))
         if rosout:
             self._rosout = self.create_publisher(
-                _ROSOUT, wire.resolve_type(_ROSOUT_TYPE), queue_size=100
+                _ROSOUT, type_support.resolve_type(_ROSOUT_TYPE), queue_size=100
             )
 
     @property
@@ -136,9 +136,9 @@ class Node:
                 changing the message, as rospy's users may.
             qos: told to others in place of `reliable` and `queue_size`, which act all the same.
         """
-        message_class = wire.resolve_type(message_type)
+        message_class = type_support.resolve_type(message_type)
         told = qos or Qos(reliable, latch, queue_size)
-        name = wire.type_name_of(message_class)
+        name = type_support.type_name_of(message_class)
         entity = self._entity(Kind.PUBLISHER, topic, name, message_class, qos=told)
         made = Publisher(
             self.graph,
@@ -178,9 +178,9 @@ class Node:
             qos: told to others; without it latched messages come, as in ROS 1, with it only when
                 it asks for them.
         """
-        message_class = wire.resolve_type(message_type)
+        message_class = type_support.resolve_type(message_type)
         any_type = announced or ANY_TYPE
-        type_name = any_type if message_class is None else wire.type_name_of(message_class)
+        type_name = any_type if message_class is None else type_support.type_name_of(message_class)
         told = qos or Qos(depth=queue_size)
         delivery = Delivery(raw, with_info, inline, queue_size, qos is None or qos.latched)
         entity = self._entity(Kind.SUBSCRIPTION, topic, type_name, message_class, qos=told)
@@ -215,7 +215,7 @@ class Node:
             with_caller: give the handler the global name of the node that asks too; it is empty
                 when nobody knows.
         """
-        entity = self._entity(Kind.SERVICE, name, wire.service_name_of(service_type))
+        entity = self._entity(Kind.SERVICE, name, type_support.service_name_of(service_type))
         made = ServiceServer(
             self.graph,
             entity,
@@ -229,7 +229,7 @@ class Node:
 
     def create_client(self, name: str, service_type: Any) -> ServiceClient:
         """Prepare calls of a service."""
-        entity = self._entity(Kind.CLIENT, name, wire.service_name_of(service_type))
+        entity = self._entity(Kind.CLIENT, name, type_support.service_name_of(service_type))
         made = ServiceClient(self.graph, entity, service_type, is_mute=self._is_mute())
         return self._keep(made)
 
@@ -311,7 +311,7 @@ class Node:
             self.name,
             self.resolve_name(name),
             type_name,
-            NO_HASH if type_name == ANY_TYPE else wire.hash_of(type_name, message_class),
+            NO_HASH if type_name == ANY_TYPE else type_support.hash_of(type_name, message_class),
             qos,
         )
 

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
-from gazelle.graph import wire
-from gazelle.graph.keys import Attachment, Entity, entity_gid, token, topic_key
+from gazelle.graph import type_support
+from gazelle.graph.key_expressions import Attachment, Entity, entity_gid, token, topic_key
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph
@@ -117,7 +117,7 @@ class Publisher:
         if self._is_over():
             return
         if self.latch or self._local.subscriptions:
-            self.publish(wire.decode(self.message_class, data))
+            self.publish(type_support.decode(self.message_class, data))
             return
         self._sequence += 1
         if self._is_wanted_elsewhere():
@@ -157,7 +157,7 @@ class Publisher:
 
     def _hand(self, message: Any, subscriptions: tuple[Subscription, ...]) -> None:
         if self._copy_local and subscriptions:
-            message = wire.decode(self.message_class, wire.encode(message))
+            message = type_support.decode(self.message_class, type_support.encode(message))
         attachment = self._attachment()
         for subscription in subscriptions:
             subscription.take_local(message, attachment)
@@ -173,7 +173,7 @@ class Publisher:
             return not self._closed and bool(self._matcher.matching_status.matching)
 
     def _send(self, message: Any) -> None:
-        self._send_bytes(wire.encode(message))
+        self._send_bytes(type_support.encode(message))
 
     def _send_bytes(self, payload: bytes) -> None:
         attachment = self._attachment().to_bytes()

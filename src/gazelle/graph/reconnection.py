@@ -16,8 +16,8 @@ from contextlib import suppress
 from typing import Any
 
 from gazelle.graph.closing import close_session
-from gazelle.graph.config import client_config
 from gazelle.graph.locators import is_hub
+from gazelle.graph.sessions import client_config
 
 __all__ = ["Relinker", "hub_knows"]
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GazelleError, GraphError
-from gazelle.graph import wire
+from gazelle.graph import type_support
 from gazelle.graph.duplicate_requests import Answer, Repeats
 from gazelle.graph.errors import (
     ServiceCallError,
@@ -22,7 +22,7 @@ from gazelle.graph.errors import (
     coded,
 )
 from gazelle.graph.gazebo_names import other_version_hint
-from gazelle.graph.keys import (
+from gazelle.graph.key_expressions import (
     Attachment,
     Entity,
     Kind,
@@ -32,8 +32,8 @@ from gazelle.graph.keys import (
     token,
 )
 from gazelle.graph.names import is_hidden
-from gazelle.graph.ordered_requests import InTurn, Turn, Turns
 from gazelle.graph.reconnection import hub_knows
+from gazelle.graph.service_requests import InTurn, Turn, Turns
 from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:
@@ -140,7 +140,7 @@ class ServiceServer:
     def _response_to(self, query: Any, turn: Turn | None) -> bytes:
         """Return the response's bytes, none when the handler gave no response."""
         data = query.payload.to_bytes() if query.payload is not None else b""
-        request = wire.decode(wire.request_type(self.service_class), data)
+        request = type_support.decode(type_support.request_type(self.service_class), data)
         words = (request, self._caller_of(query)) if self._with_caller else (request,)
         if self._begin is None or turn is None:
             response = self._handler(*words)
@@ -150,13 +150,13 @@ class ServiceServer:
             response = finish()
         if response is None:
             return b""
-        wanted = wire.response_type(self.service_class)
+        wanted = type_support.response_type(self.service_class)
         if not isinstance(response, wanted):
             raise GraphError(
                 f"service handler returned a {type(response).__qualname__}, "
                 f"not a {wanted.__qualname__}"
             )
-        return wire.encode(response)
+        return type_support.encode(response)
 
     def _caller_of(self, query: Any) -> str:
         entity = self._graph.entity_with_gid(_attachment_of(query).gid)
@@ -212,13 +212,13 @@ class ServiceClient:
 
         Requests arrive in the order in which they were sent.
         """
-        wanted = wire.request_type(self.service_class)
+        wanted = type_support.request_type(self.service_class)
         if not isinstance(request, wanted):
             raise GraphError(
                 f"service [{self.name}]: the request is a {type(request).__qualname__}, "
                 f"not a {wanted.__qualname__}"
             )
-        payload = wire.encode(request)
+        payload = type_support.encode(request)
         attachment = Attachment(next(self._numbers), time.time_ns(), self._gid).to_bytes()
         deadline_s = time.monotonic() + (_FOR_EVER_S if timeout_s is None else timeout_s)
         self._noted(self._is_offered(self._graph.discovery.known()))
@@ -340,7 +340,7 @@ class ServiceClient:
     def _read(self, reply: Any, timeout_s: float | None) -> Any:
         if reply.ok is not None:
             data = reply.ok.payload.to_bytes()
-            return wire.decode(wire.response_type(self.service_class), data)
+            return type_support.decode(type_support.response_type(self.service_class), data)
         text = reply.err.payload.to_bytes().decode("utf-8", "replace")
         if str(reply.err.encoding) == _ERROR_ENCODING:
             raise ServiceCallError(f"service [{self.name}] responded with an error: {text}")

@@ -9,10 +9,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.errors import GazelleError
-from gazelle.graph import wire
-from gazelle.graph.delivery import Bound, Mailbox
+from gazelle.graph import type_support
+from gazelle.graph.callback_queue import Bound, Mailbox
 from gazelle.graph.errors import coded
-from gazelle.graph.keys import Attachment, Entity, token, topic_selector, type_in_key
+from gazelle.graph.key_expressions import Attachment, Entity, token, topic_selector, type_in_key
 from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:
@@ -172,7 +172,7 @@ class Subscription:
         self._with_info = delivery.with_info
         self._on_error = on_error
         self._on_warning = on_warning
-        self._count_seq = wire.is_ros1_view(message_class)
+        self._count_seq = type_support.is_ros1_view(message_class)
         self._refused: set[str] = set()
         self._types: dict[str, str] = {}
         self._closed = is_mute
@@ -261,9 +261,9 @@ class Subscription:
         if self._raw:
             self._deliver(RawMessage(data, type_name), attachment, type_name)
             return
-        message_class = self.message_class or wire.resolve_type(type_name)
+        message_class = self.message_class or type_support.resolve_type(type_name)
         try:
-            message = wire.decode(message_class, data)
+            message = type_support.decode(message_class, data)
         except GazelleError as error:
             self._refuse(type_name, f"a message on {self.topic} cannot be read: {error}")
             return
@@ -276,11 +276,13 @@ class Subscription:
     def _hand_local(self, message: Any, attachment: Attachment | None) -> None:
         sent_class = type(message)
         if self._raw:
-            message = RawMessage(wire.encode(message), wire.type_name_of(sent_class))
+            message = RawMessage(
+                type_support.encode(message), type_support.type_name_of(sent_class)
+            )
         elif self.message_class is not None and not isinstance(message, self.message_class):
-            if not self._accepts(wire.type_name_of(sent_class)):
+            if not self._accepts(type_support.type_name_of(sent_class)):
                 return
-            message = wire.convert(message, self.message_class)
+            message = type_support.convert(message, self.message_class)
         self._deliver(message, attachment, sent_class)
 
     def _deliver(self, message: Any, attachment: Attachment | None, type_or_name: Any) -> None:
@@ -290,7 +292,11 @@ class Subscription:
             self._callback(message)
 
     def _info(self, attachment: Attachment, type_or_name: Any) -> MessageInfo:
-        name = type_or_name if isinstance(type_or_name, str) else wire.type_name_of(type_or_name)
+        name = (
+            type_or_name
+            if isinstance(type_or_name, str)
+            else type_support.type_name_of(type_or_name)
+        )
         entity = self._graph.entity_with_gid(attachment.gid)
         publisher = entity.node if entity else ""
         sequence, stamp_ns, gid = attachment

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any
 from gazelle.interfaces.codec import convert, from_cdr, from_ros1, to_cdr, to_ros1
 from gazelle.interfaces.definition import Constant, Definition, Field, FieldType, RosVersion
 from gazelle.interfaces.message import Message
-from gazelle.interfaces.naming import ros1_name, ros1_type_of, split_name, wire_type
 from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message
 from gazelle.interfaces.ros1_time import Duration, Time, TVal
 from gazelle.interfaces.services import ActionType, Ros1Service, ServiceType
 from gazelle.interfaces.store import TypeStore, default_types, types_of
+from gazelle.interfaces.type_names import ros1_name, ros1_type_of, split_name, wire_type
 
 if TYPE_CHECKING:
     from gazelle.interfaces.echo_text import strify
-    from gazelle.interfaces.plain import fill, to_plain
+    from gazelle.interfaces.message_dict import fill, to_plain
 
 __all__ = [
     "ActionType",
@@ -100,9 +100,9 @@ type_description = _TYPES.type_description
 type_hash = _TYPES.type_hash
 
 _LATER = {
-    "fill": "plain",
+    "fill": "message_dict",
     "strify": "echo_text",
-    "to_plain": "plain",
+    "to_plain": "message_dict",
 }
 
 

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError, InterfaceError
 from gazelle.interfaces.definition import RosVersion
-from gazelle.interfaces.forms import Form
+from gazelle.interfaces.message_base import Form
 
 __all__ = ["convert", "from_cdr", "from_ros1", "to_cdr", "to_ros1"]
 
@@ -21,7 +21,7 @@ def to_cdr(msg: Form) -> bytes:
     """Return a message's CDR bytes: encapsulation header, little endian, XCDR1.
 
     A ROS 1 object is written in the layout of the canonical ROS 2 type where there is one
-    (`gazelle.interfaces.naming.wire_type` names it).
+    (`gazelle.interfaces.type_names.wire_type` names it).
 
     Raises:
         InterfaceError: a value does not fit its field; names it.
@@ -134,9 +134,9 @@ def _checked(cls: type[Any]) -> None:
 
 def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
     _checked(cls)
-    from gazelle.interfaces.binding import Wire, bind
-    from gazelle.interfaces.translate import CONVERTED
-    from gazelle.interfaces.writer import compile_writer
+    from gazelle.interfaces.codec_writer import compile_writer
+    from gazelle.interfaces.ros1_conversion import CONVERTED
+    from gazelle.interfaces.wire_layout import Wire, bind
 
     if is_cdr and cls.GENERATION is RosVersion.ROS1 and cls.TYPE_NAME in CONVERTED:
         conversion = CONVERTED[cls.TYPE_NAME]
@@ -148,9 +148,9 @@ def _compiled_writer(cls: type[Any], *, is_cdr: bool = True) -> _Writer:
 
 def _compiled_reader(cls: type[Any], *, is_cdr: bool = True, endian: str = "<") -> _Reader:
     _checked(cls)
-    from gazelle.interfaces.binding import Wire, bind
-    from gazelle.interfaces.reader import compile_reader
-    from gazelle.interfaces.translate import CONVERTED
+    from gazelle.interfaces.codec_reader import compile_reader
+    from gazelle.interfaces.ros1_conversion import CONVERTED
+    from gazelle.interfaces.wire_layout import Wire, bind
 
     if is_cdr and cls.GENERATION is RosVersion.ROS1 and cls.TYPE_NAME in CONVERTED:
         conversion = CONVERTED[cls.TYPE_NAME]
@@ -180,7 +180,7 @@ def _read_error(cls: type[Any], buffer: Any, error: Exception) -> InterfaceError
 
 
 def _write_error(msg: Any, error: Exception) -> InterfaceError:
-    from gazelle.interfaces.check import find_problem
+    from gazelle.interfaces.field_check import find_problem
 
     found = find_problem(msg)
     return InterfaceError(found or f"{msg.TYPE_NAME} cannot be written: {error}")

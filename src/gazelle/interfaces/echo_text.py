@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.interfaces.arrays import is_array, is_array_item
 from gazelle.interfaces.definition import RosVersion
-from gazelle.interfaces.forms import Form
+from gazelle.interfaces.message_base import Form
 from gazelle.interfaces.ros1_time import Time, TVal
 
 __all__ = ["strify"]

@@ -11,12 +11,12 @@ import re
 
 from gazelle.errors import GazelleError
 from gazelle.interfaces.definition import Definition, RosVersion
-from gazelle.interfaces.forms import Types
-from gazelle.interfaces.installed import installed_texts
-from gazelle.interfaces.naming import canonical_name, ros1_name, split_name
+from gazelle.interfaces.installed_definitions import installed_texts
+from gazelle.interfaces.message_base import Types
 from gazelle.interfaces.parser import parse_message
 from gazelle.interfaces.rihs01 import type_hash
-from gazelle.interfaces.ros1_digest import md5sum
+from gazelle.interfaces.ros1_md5sum import md5sum
+from gazelle.interfaces.type_names import canonical_name, ros1_name, split_name
 
 __all__ = ["KeptTexts", "ros1_definition", "ros2_definition"]
 

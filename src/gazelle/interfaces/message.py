@@ -19,7 +19,7 @@ from gazelle.interfaces.definition import (
     RosVersion,
     attribute_name,
 )
-from gazelle.interfaces.forms import Form, Types
+from gazelle.interfaces.message_base import Form, Types
 
 __all__ = ["Message", "make_message_class", "recursion", "values_equal"]
 

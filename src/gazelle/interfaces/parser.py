@@ -15,7 +15,7 @@ from gazelle.interfaces.definition import (
     FieldType,
     RosVersion,
 )
-from gazelle.interfaces.values import constant_value, default_value
+from gazelle.interfaces.definition_values import constant_value, default_value
 
 if TYPE_CHECKING:
     from gazelle.diagnostics import Diagnostics

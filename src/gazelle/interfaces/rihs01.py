@@ -7,8 +7,8 @@ import json
 from typing import Any
 
 from gazelle.interfaces.definition import Array, Field, FieldType, RosVersion
-from gazelle.interfaces.forms import Types
-from gazelle.interfaces.naming import canonical_name, split_name
+from gazelle.interfaces.message_base import Types
+from gazelle.interfaces.type_names import canonical_name, split_name
 
 __all__ = ["type_description", "type_hash"]
 

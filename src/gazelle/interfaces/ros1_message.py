@@ -13,10 +13,10 @@ from gazelle.interfaces.definition import (
     RosVersion,
     attribute_name,
 )
-from gazelle.interfaces.forms import Form, Types
 from gazelle.interfaces.message import values_equal
-from gazelle.interfaces.naming import ros1_name
+from gazelle.interfaces.message_base import Form, Types
 from gazelle.interfaces.ros1_time import Duration, Time
+from gazelle.interfaces.type_names import ros1_name
 
 __all__ = ["AnyMsg", "Ros1Message", "make_ros1_class"]
 
@@ -35,9 +35,9 @@ class _Lazy:
         self._name = name
 
     def __get__(self, instance: object, owner: type[Ros1Message]) -> str:
-        from gazelle.interfaces import full_text, ros1_digest
+        from gazelle.interfaces import full_text, ros1_md5sum
 
-        compute = {"_md5sum": ros1_digest.md5sum, "_full_text": full_text.ros1_definition}
+        compute = {"_md5sum": ros1_md5sum.md5sum, "_full_text": full_text.ros1_definition}
         text = compute[self._name](owner._types, owner.TYPE_NAME)
         setattr(owner, self._name, text)
         return text
@@ -69,7 +69,7 @@ class Ros1Message(Form):
 
     def _check_types(self, exc: Exception | None = None) -> None:
         """Raise `InterfaceError` naming the first field whose value does not fit its type."""
-        from gazelle.interfaces.check import check_fields
+        from gazelle.interfaces.field_check import check_fields
 
         check_fields(self, cause=exc)
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from gazelle.interfaces.definition import RosVersion
-from gazelle.interfaces.forms import Types
 from gazelle.interfaces.message import Message
-from gazelle.interfaces.naming import ros1_name
+from gazelle.interfaces.message_base import Types
 from gazelle.interfaces.ros1_message import Ros1Message
+from gazelle.interfaces.type_names import ros1_name
 
 __all__ = [
     "ActionType",
@@ -119,7 +119,7 @@ def make_ros1_service(
         request: class of requests.
         response: class of responses.
     """
-    from gazelle.interfaces.ros1_digest import service_md5sum
+    from gazelle.interfaces.ros1_md5sum import service_md5sum
 
     attributes: dict[str, Any] = {
         "__module__": f"{full.split('/', maxsplit=1)[0]}.srv._{full.split('/')[2]}",

@@ -14,12 +14,11 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError
-from gazelle.interfaces import lookup, ros1_digest
+from gazelle.interfaces import definition_lookup, ros1_md5sum
 from gazelle.interfaces.definition import Definition, RosVersion
-from gazelle.interfaces.forms import Form
-from gazelle.interfaces.library import Library, Source
+from gazelle.interfaces.definition_library import Library, Source
 from gazelle.interfaces.message import Message, make_message_class, recursion
-from gazelle.interfaces.naming import canonical_name, split_name
+from gazelle.interfaces.message_base import Form
 from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message, make_ros1_class
 from gazelle.interfaces.services import (
     ActionType,
@@ -29,6 +28,7 @@ from gazelle.interfaces.services import (
     ros2_action,
     ros2_service,
 )
+from gazelle.interfaces.type_names import canonical_name, split_name
 
 __all__ = ["TypeStore", "default_types", "types_of"]
 
@@ -140,7 +140,7 @@ class TypeStore:
             return self._below.definition(name, ros_version)
         key = ("definition", name, ros_version)
         return self.remembered(
-            key, lambda: lookup.read_definition(self._library, name, ros_version)
+            key, lambda: definition_lookup.read_definition(self._library, name, ros_version)
         )
 
     def find_source(
@@ -163,14 +163,14 @@ class TypeStore:
 
     def exists(self, name: str) -> bool:
         """Return whether something defines this message, without reading its text."""
-        return lookup.exists(self._library, name)
+        return definition_lookup.exists(self._library, name)
 
     def known_types(self, part: str = "msg", package: str = "") -> tuple[str, ...]:
         """Return the full names of all types of a part (``msg``, ``srv``, ``action``), sorted.
 
         Messages that ROS 1 makes from actions (``FibonacciActionGoal`` …) are in the list too.
         """
-        return lookup.known_types(self._library, part, package)
+        return definition_lookup.known_types(self._library, part, package)
 
     def message_type(self, name: str) -> type[Message]:
         """Return the class of a message in the form of ROS 2; made on the first call.
@@ -298,7 +298,7 @@ class TypeStore:
         Raises:
             NotFoundError: nothing defines it.
         """
-        return ros1_digest.md5sum(self, name)
+        return ros1_md5sum.md5sum(self, name)
 
     def service_md5sum(self, name: str) -> str:
         """Return the MD5 sum of a service in ROS 1: of request and response, one after the other.
@@ -306,7 +306,7 @@ class TypeStore:
         Raises:
             NotFoundError: nothing defines it.
         """
-        return ros1_digest.service_md5sum(self, name)
+        return ros1_md5sum.service_md5sum(self, name)
 
     def show_message(self, name: str, indent: str = "") -> str:
         """Return the fields of a message, nested ones indented, as ``rosmsg show`` prints them.
@@ -314,7 +314,7 @@ class TypeStore:
         Raises:
             NotFoundError: nothing defines it.
         """
-        return ros1_digest.show_message(self, name, indent)
+        return ros1_md5sum.show_message(self, name, indent)
 
     def show_service(self, name: str) -> str:
         """Return request and response of a service, as ``rossrv show`` prints them.
@@ -322,7 +322,7 @@ class TypeStore:
         Raises:
             NotFoundError: nothing defines it.
         """
-        return ros1_digest.show_service(self, name)
+        return ros1_md5sum.show_service(self, name)
 
     def ros1_definition(self, name: str) -> str:
         """Return a message's text and, behind rules of ``=``, those of all it contains.
@@ -375,7 +375,7 @@ class TypeStore:
 
     def time_keys(self, now_ns: int, ros_version: RosVersion) -> dict[str, Any]:
         """Return what ``now`` and ``auto`` stand for in `fill`: a time and a header of now."""
-        from gazelle.interfaces.plain import time_keys
+        from gazelle.interfaces.message_dict import time_keys
 
         return time_keys(self, now_ns, ros_version)
 

@@ -150,7 +150,7 @@ def _ros1_master(environ: Mapping[str, str], node_names: NodeNames) -> RealRos |
     if not text or not _somebody_listens(text):
         return None
     from gazelle.bridge.ros1 import master_address
-    from gazelle.bridge.ros1.views import BRIDGE_NAME
+    from gazelle.bridge.ros1.graph_state import BRIDGE_NAME
     from gazelle.bridge.ros1.xmlrpc_call import RemoteError, call
 
     if BRIDGE_NAME in node_names():

@@ -10,7 +10,7 @@ TRANSFORMS = (
     NodeSpec(
         package="joint_state_publisher",
         executable="joint_state_publisher",
-        entry="gazelle.studio.views.companions:joint_state_publisher",
+        entry="gazelle.studio.windows.gui_nodes:joint_state_publisher",
         does="publishes joint states of a robot description, with sliders if use_gui is true",
         is_light=True,
         parameters="gazelle.nodes.joint_state_publisher:PARAMETERS",
@@ -76,7 +76,7 @@ TRANSFORMS = (
     NodeSpec(
         package="joint_state_publisher_gui",
         executable="joint_state_publisher_gui",
-        entry="gazelle.studio.views.companions:joint_state_publisher_gui",
+        entry="gazelle.studio.windows.gui_nodes:joint_state_publisher_gui",
         does="publishes joint states, moved by sliders",
         is_light=False,
         parameters="gazelle.nodes.joint_state_publisher:PARAMETERS",

@@ -48,7 +48,7 @@ TURTLES = (
     NodeSpec(
         package="turtlesim",
         executable="turtlesim_node",
-        entry="gazelle.studio.views.companions:turtlesim",
+        entry="gazelle.studio.windows.gui_nodes:turtlesim",
         does="turtles that draw",
         is_light=False,
         parameters="gazelle.nodes.turtlesim.parameters:PARAMETERS",

@@ -19,7 +19,7 @@ from typing import Any
 
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
-from gazelle.graph.parameter_values import value_from_message
+from gazelle.graph.ros2_parameter_values import value_from_message
 from gazelle.interfaces import service_type
 from gazelle.node_specs.components import executable_of_component
 from gazelle.node_specs.registry import builtin_executables, node_spec

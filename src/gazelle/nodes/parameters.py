@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import level_of
-from gazelle.graph.node_parameters import Descriptor, NodeParameters, ParameterPolicy
+from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters, ParameterPolicy
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_output import keep_log
 from gazelle.nodes.ros2_console import print_ros2

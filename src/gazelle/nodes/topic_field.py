@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import LaunchError
 from gazelle.graph import ANY_TYPE, Graph
-from gazelle.graph.introspection import topics_of
+from gazelle.graph.graph_info import topics_of
 from gazelle.interfaces import ros1_message_type, ros1_type_of
 
 __all__ = ["field_getter", "find_input"]

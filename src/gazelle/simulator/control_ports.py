@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.control.ports import GoalPort, LiveParameter, LivePort, PublisherPort
 from gazelle.graph.actions import ActionServer, ActionTiming
-from gazelle.graph.node_parameters import NodeParameters, ParameterPolicy
+from gazelle.graph.ros2_node_parameters import NodeParameters, ParameterPolicy
 from gazelle.simulator.plugins.context import Host, Resources, join_names
 from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
 from gazelle.simulator.scheduler import ORDER_CONTROL, period_in_steps

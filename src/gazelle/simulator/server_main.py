@@ -15,7 +15,7 @@ from gazelle.errors import GazelleError, NotFoundError
 from gazelle.graph import offer_loggers
 from gazelle.graph.console import aside_path, write_aside
 from gazelle.graph.gazebo_names import SHOWN_SPACE, world_space
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
+from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters
 from gazelle.simulator.description_sources import world_from
 from gazelle.simulator.gazebo_ros.api import ROS2_PLUGINS, offer_gazebo_ros
 from gazelle.simulator.plugins.gz_systems import TABLE as GZ_SYSTEMS

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from gazelle.studio.errors import StudioError
-    from gazelle.studio.params import Params
+    from gazelle.studio.request_params import Params
     from gazelle.studio.server import Server
-    from gazelle.studio.session import Studio
     from gazelle.studio.streams import Channel, Frame, OpenStream, StreamKind
+    from gazelle.studio.studio import Studio
 
 __all__ = [
     "Channel",
@@ -28,10 +28,10 @@ _PLACES = {
     "Channel": "gazelle.studio.streams",
     "Frame": "gazelle.studio.streams",
     "OpenStream": "gazelle.studio.streams",
-    "Params": "gazelle.studio.params",
+    "Params": "gazelle.studio.request_params",
     "Server": "gazelle.studio.server",
     "StreamKind": "gazelle.studio.streams",
-    "Studio": "gazelle.studio.session",
+    "Studio": "gazelle.studio.studio",
     "StudioError": "gazelle.studio.errors",
 }
 

@@ -12,12 +12,12 @@ from typing import Any
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 
-from gazelle.studio.catalogue import METHODS, STREAMS
 from gazelle.studio.errors import StudioError, error_value, unknown
 from gazelle.studio.json_text import json_text
-from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
+from gazelle.studio.protocol import METHODS, STREAMS
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream, StreamKind
+from gazelle.studio.studio import Studio
 from gazelle.studio.workers import in_thread
 
 __all__ = ["Connection"]

@@ -11,8 +11,8 @@ from collections import OrderedDict
 from typing import Any
 
 from gazelle.studio.errors import StudioError
-from gazelle.studio.files import Answer
-from gazelle.studio.params import Params
+from gazelle.studio.http_answers import Answer
+from gazelle.studio.request_params import Params
 
 __all__ = ["Downloads", "download", "save_file"]
 

@@ -17,7 +17,7 @@ from gazelle.studio.errors import error_value
 from gazelle.studio.json_text import json_text
 
 if TYPE_CHECKING:
-    from gazelle.studio.params import Params
+    from gazelle.studio.request_params import Params
     from gazelle.studio.workers import Workers
 
 __all__ = ["MAX_BEHIND_BYTES", "Channel", "Frame", "OpenStream", "Outlet", "StreamKind"]

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.graph import Entity, Graph, Kind, Node, Publisher, ServiceClient
-from gazelle.graph.keys import ANY_TYPE
+from gazelle.graph.key_expressions import ANY_TYPE
 from gazelle.interfaces import fill, service_type
 from gazelle.interfaces.stamps import seconds_of
 from gazelle.testing.isolated_graph import open_graph

@@ -11,7 +11,7 @@ from tests.bridge.foxglove.conftest import PlainChannel, PlainViewers
 from gazelle.bridge.foxglove import FoxgloveBridge
 from gazelle.bridge.foxglove.server_interface import Requests
 from gazelle.graph import Graph, ServiceRefusedError
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
+from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters
 from gazelle.interfaces import from_cdr, message_type, service_type, to_cdr
 
 Eventually = Callable[[Callable[[], Any]], Any]
@@ -102,7 +102,7 @@ def test_type_that_nothing_defines_is_told_once(
     graph: Graph, viewers: PlainViewers, eventually: Eventually, capfd: pytest.CaptureFixture[str]
 ) -> None:
     from gazelle.graph import Entity, Kind
-    from gazelle.graph.keys import NO_HASH, token
+    from gazelle.graph.key_expressions import NO_HASH, token
 
     def announce(name: str) -> Any:
         entity = Entity(

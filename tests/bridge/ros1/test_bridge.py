@@ -12,7 +12,7 @@ from tests.bridge.ros1.peer import Peer, ask, string_bytes
 from tests.patience import stretched
 
 from gazelle.bridge.ros1 import Address, Bridge, MasterAddress
-from gazelle.bridge.ros1.peers import EmbeddedMaster
+from gazelle.bridge.ros1.master_connection import EmbeddedMaster
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
 

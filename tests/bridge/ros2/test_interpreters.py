@@ -16,7 +16,7 @@ from gazelle.bridge.ros2.interpreters import (
     is_open,
     sourced_hint,
 )
-from gazelle.bridge.ros2.side import open_side
+from gazelle.bridge.ros2.rclpy_process import open_side
 from gazelle.errors import GraphError
 
 

@@ -14,8 +14,8 @@ from tests.patience import stretched
 from gazelle.bridge.ros2 import Bridge
 from gazelle.graph import Graph
 from gazelle.graph.actions import ActionClient, ActionServer
-from gazelle.graph.node_parameters import NodeParameters
-from gazelle.graph.parameter_values import value_message
+from gazelle.graph.ros2_node_parameters import NodeParameters
+from gazelle.graph.ros2_parameter_values import value_message
 from gazelle.interfaces import RosVersion, add_package, message_type, service_type
 
 skip_module_without_rclpy()

@@ -10,7 +10,7 @@ import pytest
 
 from gazelle.cli.ros2 import param
 from gazelle.graph import Node
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
+from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters
 
 VALUES = {"gains.joint_1.p": 1.0, "joints": ["joint_1"], "rate": 100, "name": "arm"}
 

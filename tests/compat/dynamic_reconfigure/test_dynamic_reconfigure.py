@@ -10,7 +10,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.graph import Node
-from gazelle.graph.reconfigure import (
+from gazelle.graph.dynamic_reconfigure import (
     DynamicGroup,
     DynamicParameter,
     ReconfigureClient,

@@ -51,8 +51,8 @@ from gazelle.nodes.controller_manager.spawner import controllers_in_file
 from gazelle.nodes.ros_gz.bridge_config import read_file as read_bridge_rows
 from gazelle.simulator.parameter_input import give_parameters
 from gazelle.studio.errors import StudioError
-from gazelle.studio.graph_view.forms import _yaml as read_form_field
-from gazelle.studio.params import Params
+from gazelle.studio.graph_view.message_forms import _yaml as read_form_field
+from gazelle.studio.request_params import Params
 from gazelle.studio.settings.rviz_files import open_rviz
 from gazelle.workspace import Workspace
 

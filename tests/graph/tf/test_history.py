@@ -6,7 +6,7 @@ import re
 import pytest
 
 from gazelle.geometry import Pose
-from gazelle.graph.tf.errors import ExtrapolationError
+from gazelle.graph.tf.exceptions import ExtrapolationError
 from gazelle.graph.tf.history import History, Sample, StaticHistory, interpolate
 
 S = 1_000_000_000

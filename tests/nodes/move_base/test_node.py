@@ -195,7 +195,7 @@ def test_plans_for_others_and_clearing(bench, world, start) -> None:
 
 def test_parameters_change_while_it_runs(bench, world, start) -> None:
     start()
-    from gazelle.graph.reconfigure import ReconfigureClient
+    from gazelle.graph.dynamic_reconfigure import ReconfigureClient
 
     client = ReconfigureClient(bench.node, "/move_base/DWAPlannerROS")
     assert client.set({"max_vel_x": 0.2, "max_vel_trans": 0.2})["max_vel_x"] == 0.2

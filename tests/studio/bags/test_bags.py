@@ -14,7 +14,7 @@ from gazelle.bag import open_bag
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.studio.errors import StudioError
-from gazelle.studio.session import Studio
+from gazelle.studio.studio import Studio
 
 _TEXT: Any = message_type("std_msgs/String")
 

@@ -12,8 +12,8 @@ from gazelle.graph import Node
 from gazelle.interfaces import message_type
 from gazelle.studio import Server
 from gazelle.studio.plugins import Panel
-from gazelle.studio.plugins.sources import named_file
-from gazelle.studio.plugins.state import checked_layout
+from gazelle.studio.plugins.panel_sources import named_file
+from gazelle.studio.plugins.panel_state import checked_layout
 
 _WORKSPACE = Path(__file__).parents[3] / "examples" / "scout_ws" / "src"
 

@@ -18,11 +18,11 @@ from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
 from gazelle.simulator.real_time_pacing import Mode
 from gazelle.simulator.viewing import offer_views
 from gazelle.simulator.world_server import WorldServer
-from gazelle.studio.catalogue import METHODS, STREAMS
 from gazelle.studio.errors import error_value
-from gazelle.studio.params import Params
-from gazelle.studio.session import Studio
+from gazelle.studio.protocol import METHODS, STREAMS
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel
+from gazelle.studio.studio import Studio
 
 
 class Page:

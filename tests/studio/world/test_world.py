@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from gazelle.simulator.world_server import WorldServer
-from gazelle.studio.world.inserting import primitive_sdf
+from gazelle.studio.world.insert import primitive_sdf
 from gazelle.studio.world.models import thumbnail
 
 _BOX = {"source": {"primitive": "box", "size": [1.0, 2.0, 3.0]}}

@@ -19,7 +19,7 @@ from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE, Entity, Graph, Kind, MessageInfo, Node, RawMessage
 from gazelle.graph.names import is_hidden
 from gazelle.interfaces import RosVersion, from_cdr, ros1_message_type, ros1_type_of, to_ros1
-from gazelle.interfaces.naming import ros1_name
+from gazelle.interfaces.type_names import ros1_name
 
 __all__ = ["Limits", "Recorder", "Selection", "Sink"]
 

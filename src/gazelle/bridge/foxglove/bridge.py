@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.foxglove.assets import read_asset
+from gazelle.bridge.foxglove.channels import Topics
 from gazelle.bridge.foxglove.client_publishers import Speech
 from gazelle.bridge.foxglove.clock import Pulse
 from gazelle.bridge.foxglove.connections import connections_of
@@ -14,10 +15,9 @@ from gazelle.bridge.foxglove.parameters import Parameters
 from gazelle.bridge.foxglove.schemas import SchemaBook
 from gazelle.bridge.foxglove.server_interface import Allow, Connections, Requests, Viewers
 from gazelle.bridge.foxglove.services import Services
-from gazelle.bridge.foxglove.topics import Topics
-from gazelle.bridge.settling import Settling
+from gazelle.bridge.sync_thread import Settling
 from gazelle.errors import GazelleError
-from gazelle.graph.delivery import Mailbox
+from gazelle.graph.callback_queue import Mailbox
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph

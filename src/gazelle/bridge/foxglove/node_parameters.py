@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import Kind
-from gazelle.graph.parameter_values import value_from_message, value_message
+from gazelle.graph.ros2_parameter_values import value_from_message, value_message
 from gazelle.interfaces import message_type, service_type
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.foxglove.node_parameters import NodeParameters
 from gazelle.errors import GazelleError, GraphError
-from gazelle.graph.delivery import Mailbox
+from gazelle.graph.callback_queue import Mailbox
 from gazelle.graph.names import check_name, resolve
 from gazelle.parameters.trees import leaves_at, values_only
 

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 from gazelle.bag.definition_sharing import TextShare
 from gazelle.bridge.mirrors import Mirrors
 from gazelle.bridge.ros1.addresses import Address, MasterAddress
-from gazelle.bridge.ros1.crossing import Crossing
-from gazelle.bridge.ros1.node_proxy import Presence, Wishes
+from gazelle.bridge.ros1.connections import Crossing
+from gazelle.bridge.ros1.graph_state import BRIDGE_NAME, TypeBook, traits_of, wishes_of
+from gazelle.bridge.ros1.master_connection import MasterPeer, find_master
+from gazelle.bridge.ros1.master_registry import State
 from gazelle.bridge.ros1.parameter_sync import ParameterSync
-from gazelle.bridge.ros1.peers import MasterPeer, find_master
-from gazelle.bridge.ros1.registry import State
 from gazelle.bridge.ros1.service_types import ServiceTypes
 from gazelle.bridge.ros1.services import call_service
+from gazelle.bridge.ros1.slave_api import Presence, Wishes
 from gazelle.bridge.ros1.types import MessageKind, ServiceKind
-from gazelle.bridge.ros1.views import BRIDGE_NAME, TypeBook, traits_of, wishes_of
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
-from gazelle.bridge.settling import Settling
+from gazelle.bridge.sync_thread import Settling
 from gazelle.errors import GraphError
 from gazelle.graph import Publisher
 from gazelle.graph.errors import ServiceUnavailableError, coded

@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from gazelle.bridge.ros1.master_parameters import ParameterApi
-from gazelle.bridge.ros1.registry import Registry, Replaced
+from gazelle.bridge.ros1.master_registry import Registry, Replaced
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, call
 from gazelle.graph import ANY_TYPE, ParameterStore
 from gazelle.graph.names import is_legal, resolve

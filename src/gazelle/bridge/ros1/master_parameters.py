@@ -9,7 +9,7 @@ import datetime as dt
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.bridge.ros1.registry import Registry, Replaced
+from gazelle.bridge.ros1.master_registry import Registry, Replaced
 from gazelle.errors import GraphError
 from gazelle.graph import ParameterStore
 from gazelle.graph.names import resolve

@@ -9,7 +9,7 @@ from gazelle.bridge.ros1.master_parameters import plain_value
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError
 from gazelle.errors import GraphError
 from gazelle.graph import ParameterStore
-from gazelle.graph.delivery import Mailbox
+from gazelle.graph.callback_queue import Mailbox
 from gazelle.graph.parameter_tree import ParameterTree
 
 __all__ = ["ParameterSync"]

@@ -8,10 +8,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from gazelle.bag.definition_sharing import fetch_text
-from gazelle.bridge.ros1.frames import send_all, write_header
-from gazelle.bridge.ros1.link import Link
+from gazelle.bridge.raw_subscription import Sample, Tap
+from gazelle.bridge.ros1.subscriber_link import Link
+from gazelle.bridge.ros1.tcpros import send_all, write_header
 from gazelle.bridge.ros1.types import Frame, MessageKind, message_kind
-from gazelle.bridge.tap import Sample, Tap
 from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE
 from gazelle.interfaces import RosVersion, ros1_definition

@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
+from gazelle.bridge.ros1.graph_state import TypeBook
 from gazelle.bridge.ros1.services import probe
 from gazelle.bridge.ros1.types import ServiceKind
-from gazelle.bridge.ros1.views import TypeBook
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError
 from gazelle.errors import GazelleError
 

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 from urllib.parse import urlsplit
 
-from gazelle.bridge.ros1.frames import (
+from gazelle.bridge.ros1.tcpros import (
     FrameError,
     read_exactly,
     read_frame,

@@ -8,7 +8,7 @@ import threading
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
-from gazelle.bridge.ros1.frames import FrameError, read_frame, read_header, write_header
+from gazelle.bridge.ros1.tcpros import FrameError, read_frame, read_header, write_header
 from gazelle.bridge.ros1.types import MessageKind, message_kind
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
 from gazelle.errors import GazelleError, GraphError

@@ -22,8 +22,8 @@ from gazelle.interfaces import (
     wire_type,
 )
 from gazelle.interfaces.definition import Array
-from gazelle.interfaces.naming import ros1_name
-from gazelle.interfaces.translate import CONVERTED
+from gazelle.interfaces.ros1_conversion import CONVERTED
+from gazelle.interfaces.type_names import ros1_name
 
 __all__ = ["Frame", "MessageKind", "ServiceKind", "is_ros2_only", "message_kind", "service_kind"]
 

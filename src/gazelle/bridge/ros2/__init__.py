@@ -4,6 +4,6 @@ from __future__ import annotations
 
 from gazelle.bridge.ros2.bridge import Bridge
 from gazelle.bridge.ros2.interpreters import Interpreter, candidates, is_open
-from gazelle.bridge.ros2.side import About
+from gazelle.bridge.ros2.rclpy_process import About
 
 __all__ = ["About", "Bridge", "Interpreter", "candidates", "is_open"]

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from gazelle.bridge.ros2.graph_state import BRIDGE_NAME
 from gazelle.bridge.ros2.interpreters import Interpreter
-from gazelle.bridge.ros2.session import Session
-from gazelle.bridge.ros2.side import About, open_side
-from gazelle.bridge.ros2.views import BRIDGE_NAME
-from gazelle.bridge.settling import Settling
+from gazelle.bridge.ros2.rclpy_process import About, open_side
+from gazelle.bridge.ros2.rclpy_session import Session
+from gazelle.bridge.sync_thread import Settling
 from gazelle.errors import GraphError
 from gazelle.graph.errors import coded
 

@@ -10,7 +10,7 @@ from gazelle.cli.ros2.membership import graph_of_ros2, types_by_name
 from gazelle.cli.ros2.verbs import Command, Verb, add_strategy_arguments, fail, run_command
 from gazelle.cli.tool import hint
 from gazelle.graph import Kind
-from gazelle.graph.actions.listing import ActionInfo, actions_of
+from gazelle.graph.actions.action_info import ActionInfo, actions_of
 from gazelle.graph.names import is_hidden
 
 __all__ = ["add_arguments_info", "add_arguments_list", "main", "run_info", "run_list"]

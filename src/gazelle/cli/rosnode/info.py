@@ -9,7 +9,7 @@ from gazelle.cli.processes import Processes
 from gazelle.cli.ros_types import shown_type
 from gazelle.cli.tool import add_flag, global_name, hint, joined, option_parser
 from gazelle.graph import Endpoint, Entity, Graph, Kind, NodeInfo
-from gazelle.graph.introspection import node_info, nodes_of
+from gazelle.graph.graph_info import node_info, nodes_of
 
 __all__ = ["run"]
 

@@ -11,7 +11,7 @@ from gazelle.cli.text.fields import Step, has_field, parse_path
 from gazelle.cli.tool import hint
 from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE, Entity, Graph, TopicInfo
-from gazelle.graph.introspection import topics_of
+from gazelle.graph.graph_info import topics_of
 
 __all__ = ["FoundTopic", "find_topic", "wait_for_topic"]
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from gazelle.graph import Graph
 from gazelle.process_exit import at_stop_signal
 from gazelle.studio import Server, Studio
-from gazelle.studio.views.page_owner import offer
+from gazelle.studio.windows.page_owner import offer
 
 __all__ = ["main"]
 

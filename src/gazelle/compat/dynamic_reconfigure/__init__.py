@@ -20,7 +20,7 @@ __all__ = [
 def find_reconfigure_services() -> list[str]:
     """Return the names of all reconfigurable nodes and node handles, sorted."""
     from gazelle.compat.rospy.state import STATE
-    from gazelle.graph.reconfigure import server_names
+    from gazelle.graph.dynamic_reconfigure import server_names
 
     return server_names(STATE.open_graph())
 

@@ -15,8 +15,8 @@ from gazelle.compat.dynamic_reconfigure.errors import (
 from gazelle.compat.rospy.errors import ROSException
 from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GraphError
-from gazelle.graph.reconfigure import DynamicGroup, ReconfigureClient, ReconfigureError
-from gazelle.graph.reconfigure.messages import config_tree, description_tree, group_states
+from gazelle.graph.dynamic_reconfigure import DynamicGroup, ReconfigureClient, ReconfigureError
+from gazelle.graph.dynamic_reconfigure.messages import config_tree, description_tree, group_states
 
 __all__ = ["Client"]
 

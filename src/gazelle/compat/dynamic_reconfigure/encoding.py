@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from gazelle.graph.reconfigure import DynamicGroup, DynamicParameter
-from gazelle.graph.reconfigure.messages import config_tree, description_tree
+from gazelle.graph.dynamic_reconfigure import DynamicGroup, DynamicParameter
+from gazelle.graph.dynamic_reconfigure.messages import config_tree, description_tree
 
 __all__ = [
     "Config",
@@ -59,7 +59,7 @@ def decode_config(msg: Any, description: Mapping[str, Any] | None = None) -> Con
 
 def decode_description(msg: Any) -> Config:
     """Return a ``ConfigDescription`` as nested groups."""
-    from gazelle.graph.reconfigure.messages import group_from_message
+    from gazelle.graph.dynamic_reconfigure.messages import group_from_message
 
     found = description_tree(group_from_message(msg), Config)
     assert isinstance(found, Config)

@@ -6,7 +6,7 @@ import math
 import re
 from typing import Any
 
-from gazelle.graph.reconfigure import EnumConstant, enum_edit_method
+from gazelle.graph.dynamic_reconfigure import EnumConstant, enum_edit_method
 
 __all__ = [
     "FINISHED",

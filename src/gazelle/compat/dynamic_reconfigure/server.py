@@ -9,8 +9,8 @@ from gazelle.compat.dynamic_reconfigure.encoding import Config, group_from_tree
 from gazelle.compat.dynamic_reconfigure.errors import DynamicReconfigureCallbackException
 from gazelle.compat.rospy.log import logerr
 from gazelle.compat.rospy.state import STATE
-from gazelle.graph.reconfigure import ReconfigureServer, Value
-from gazelle.graph.reconfigure.messages import config_message, config_tree
+from gazelle.graph.dynamic_reconfigure import ReconfigureServer, Value
+from gazelle.graph.dynamic_reconfigure.messages import config_message, config_tree
 
 __all__ = ["Server"]
 

@@ -16,7 +16,7 @@ from gazelle.compat.rclpy.task import Future
 from gazelle.compat.rclpy.work import Once
 from gazelle.errors import GazelleError
 from gazelle.graph import MessageInfo, RawMessage
-from gazelle.graph.ordered_requests import InTurn, Turn, Turns
+from gazelle.graph.service_requests import InTurn, Turn, Turns
 from gazelle.interfaces import from_cdr
 
 if TYPE_CHECKING:

@@ -35,7 +35,7 @@ from gazelle.compat.rclpy.work import Once, Work
 from gazelle.errors import NotFoundError as NodeNameNonExistentError
 from gazelle.graph import ServiceRefusedError
 from gazelle.graph.names import resolve
-from gazelle.graph.node_parameters import NodeParameters, ParameterPolicy
+from gazelle.graph.ros2_node_parameters import NodeParameters, ParameterPolicy
 from gazelle.interfaces import message_type
 
 __all__ = [

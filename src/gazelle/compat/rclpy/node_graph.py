@@ -15,7 +15,7 @@ from gazelle.compat.rclpy.qos import HistoryPolicy, QoSProfile, profile_of
 from gazelle.graph import Entity, Graph, Kind, NodeInfo
 from gazelle.graph import Node as GraphNode
 from gazelle.graph.actions import actions_of
-from gazelle.graph.keys import entity_gid, token
+from gazelle.graph.key_expressions import entity_gid, token
 from gazelle.graph.names import join, resolve, split
 
 __all__ = ["GraphQueries", "TopicEndpointInfo", "TopicEndpointTypeEnum"]

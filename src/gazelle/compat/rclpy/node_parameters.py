@@ -16,8 +16,8 @@ from gazelle.compat.rclpy.exceptions import (
 )
 from gazelle.compat.rclpy.parameter import Parameter
 from gazelle.diagnostics import did_you_mean
-from gazelle.graph.node_parameters import Descriptor, NodeParameters
-from gazelle.graph.parameter_values import value_from_message, value_message
+from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters
+from gazelle.graph.ros2_parameter_values import value_from_message, value_message
 from gazelle.interfaces import message_type, service_type
 
 __all__ = ["ParameterHolder"]

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
 from gazelle.errors import GraphError
-from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
+from gazelle.graph.ros2_parameter_values import ParameterType, value_from_message, value_message
 from gazelle.interfaces import message_type
 
 __all__ = [

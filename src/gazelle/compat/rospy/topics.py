@@ -19,7 +19,7 @@ from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GazelleError
 from gazelle.graph import MessageInfo, Node, RawMessage
 from gazelle.graph import Publisher as _Publisher
-from gazelle.graph.delivery import Mailbox
+from gazelle.graph.callback_queue import Mailbox
 from gazelle.interfaces import (
     AnyMsg,
     Ros1Message,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gazelle.graph.actions.action_info import ActionInfo, actions_of
 from gazelle.graph.actions.client import ActionClient
 from gazelle.graph.actions.client_goal import ClientGoal
 from gazelle.graph.actions.comm_state import CommState
@@ -14,7 +15,6 @@ from gazelle.graph.actions.goal import (
     ServerGoal,
     Status,
 )
-from gazelle.graph.actions.listing import ActionInfo, actions_of
 from gazelle.graph.actions.server import ActionServer, ActionTiming
 from gazelle.graph.actions.types import ActionTypes, action_name, action_types, as_message
 

@@ -12,7 +12,7 @@ from gazelle.graph.actions.goal import ServerGoal
 from gazelle.interfaces.stamps import ns_of, set_stamp
 
 if TYPE_CHECKING:
-    from gazelle.graph.actions.ports import ActionNode
+    from gazelle.graph.actions.node_interface import ActionNode
     from gazelle.graph.actions.server import ActionServer
 
 __all__ = ["ActionlibWire"]

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError, NotFoundError
+from gazelle.graph.actions.action_info import ActionInfo, actions_of
 from gazelle.graph.actions.actionlib_client import ActionlibClient
 from gazelle.graph.actions.client_goal import ClientGoal
-from gazelle.graph.actions.listing import ActionInfo, actions_of
 from gazelle.graph.actions.ros2_client import Ros2Client
 from gazelle.graph.actions.types import (
     ActionTypes,

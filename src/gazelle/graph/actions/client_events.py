@@ -6,7 +6,7 @@ import traceback
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.graph.delivery import Mailbox
+from gazelle.graph.callback_queue import Mailbox
 from gazelle.graph.subscription import MAX_WAITING, Backlog
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from gazelle.graph.actions.client_goal import ClientGoal
 from gazelle.graph.actions.goal import Ros2Status
 from gazelle.graph.actions.types import ActionTypes
 from gazelle.graph.closing import CallsInFlight
-from gazelle.graph.keys import Kind
-from gazelle.graph.ordered_requests import Turn, Turns
+from gazelle.graph.key_expressions import Kind
+from gazelle.graph.service_requests import Turn, Turns
 from gazelle.interfaces.stamps import set_stamp
 
 if TYPE_CHECKING:

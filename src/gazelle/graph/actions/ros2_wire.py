@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.actions.goal import Ros2Status, ServerGoal
 from gazelle.graph.errors import ServiceRefusedError
-from gazelle.graph.ordered_requests import InTurn
+from gazelle.graph.service_requests import InTurn
 from gazelle.interfaces.stamps import ns_of, set_stamp
 
 if TYPE_CHECKING:
-    from gazelle.graph.actions.ports import ActionNode
+    from gazelle.graph.actions.node_interface import ActionNode
     from gazelle.graph.actions.server import ActionServer
 
 __all__ = ["Ros2Wire"]

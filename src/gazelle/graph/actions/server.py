@@ -16,7 +16,7 @@ from gazelle.graph.actions.types import RosVersion, action_types, as_message
 from gazelle.graph.errors import ServiceRefusedError
 
 if TYPE_CHECKING:
-    from gazelle.graph.actions.ports import ActionNode
+    from gazelle.graph.actions.node_interface import ActionNode
 
 __all__ = ["ActionServer", "ActionTiming", "Wire"]
 

@@ -8,15 +8,15 @@ from gazelle.graph.tf.broadcaster import (
     TransformListener,
 )
 from gazelle.graph.tf.buffer import FrameInfo, StampedPose, TransformBuffer
-from gazelle.graph.tf.errors import (
+from gazelle.graph.tf.exceptions import (
     ConnectivityError,
     ExtrapolationError,
     InvalidFrameError,
     TransformError,
     UnknownFrameError,
 )
-from gazelle.graph.tf.listing import frames_as_dot, frames_as_string, frames_as_yaml
 from gazelle.graph.tf.message_filter import MessageFilter
+from gazelle.graph.tf.view_frames import frames_as_dot, frames_as_string, frames_as_yaml
 
 __all__ = [
     "ConnectivityError",

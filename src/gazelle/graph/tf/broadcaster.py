@@ -7,12 +7,12 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.tf.buffer import StampedPose, TransformBuffer
-from gazelle.graph.wire import resolve_type
+from gazelle.graph.type_support import resolve_type
 from gazelle.interfaces.poses import pose_of_transform, set_transform
 from gazelle.interfaces.stamps import ns_of, set_header
 
 if TYPE_CHECKING:
-    from gazelle.graph.keys import Qos
+    from gazelle.graph.key_expressions import Qos
     from gazelle.graph.node import Node
     from gazelle.graph.subscription import MessageInfo
 
@@ -135,7 +135,7 @@ class StaticTransformBroadcaster:
 
 def to_message(transform: Any) -> Any:
     """Return a ``geometry_msgs/msg/TransformStamped``; one of ROS 1 is translated."""
-    from gazelle.graph.wire import convert
+    from gazelle.graph.type_support import convert
 
     wanted = resolve_type("geometry_msgs/msg/TransformStamped")
     if not isinstance(transform, StampedPose):

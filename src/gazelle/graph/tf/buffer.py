@@ -12,7 +12,7 @@ from gazelle.diagnostics import nearest_names
 from gazelle.geometry import Pose
 from gazelle.geometry.pose import IDENTITY_POSE
 from gazelle.graph.errors import coded
-from gazelle.graph.tf.errors import (
+from gazelle.graph.tf.exceptions import (
     ConnectivityError,
     ExtrapolationError,
     InvalidFrameError,

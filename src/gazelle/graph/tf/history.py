@@ -7,7 +7,7 @@ from bisect import bisect_left
 from typing import NamedTuple
 
 from gazelle.geometry import Pose
-from gazelle.graph.tf.errors import ExtrapolationError
+from gazelle.graph.tf.exceptions import ExtrapolationError
 
 __all__ = ["Added", "History", "Sample", "StaticHistory", "interpolate"]
 

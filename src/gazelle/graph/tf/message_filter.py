@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import Any, Generic, TypeVar
 
-from gazelle.graph.tf.errors import ExtrapolationError, TransformError
+from gazelle.graph.tf.exceptions import ExtrapolationError, TransformError
 
 __all__ = ["MessageFilter"]
 

@@ -261,7 +261,7 @@ class ManagerClient:
         Raises:
             GraphError: nobody answers.
         """
-        from gazelle.graph.parameter_values import value_message
+        from gazelle.graph.ros2_parameter_values import value_message
 
         parameter = message_type("rcl_interfaces/Parameter")
         request = [parameter(name=key, value=value_message(value)) for key, value in values.items()]

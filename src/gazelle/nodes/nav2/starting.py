@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from gazelle.graph import Graph, Node
-from gazelle.graph.node_parameters import NodeParameters
+from gazelle.graph.ros2_node_parameters import NodeParameters
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.parameters import node_parameters, start_node

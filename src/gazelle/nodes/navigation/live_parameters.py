@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.graph.reconfigure import DynamicParameter, ReconfigureServer
+from gazelle.graph.dynamic_reconfigure import DynamicParameter, ReconfigureServer
 from gazelle.parameters import Parameter
 from gazelle.parameters.reader import ParameterReader
 

@@ -20,7 +20,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.errors import LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
-from gazelle.graph.node_parameters import Descriptor
+from gazelle.graph.ros2_node_parameters import Descriptor
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_plane_pose, set_transform
 from gazelle.interfaces.stamps import set_header

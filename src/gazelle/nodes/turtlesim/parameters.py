@@ -10,8 +10,8 @@ from typing import Any, Protocol
 
 from gazelle.errors import LaunchError
 from gazelle.graph import Node
-from gazelle.graph.node_parameters import Descriptor
-from gazelle.graph.parameter_values import parameter_type
+from gazelle.graph.ros2_node_parameters import Descriptor
+from gazelle.graph.ros2_parameter_values import parameter_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import node_parameters
 from gazelle.nodes.turtlesim.canvas import BACKGROUND

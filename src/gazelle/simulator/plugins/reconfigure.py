@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from gazelle.graph.reconfigure import DynamicParameter, ReconfigureServer, Value
+from gazelle.graph.dynamic_reconfigure import DynamicParameter, ReconfigureServer, Value
 from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.plugins.context import Host, Resources
 

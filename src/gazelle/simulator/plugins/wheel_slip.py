@@ -12,7 +12,7 @@ from gazelle.description.model import Joint, JointType
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import floats_from
 from gazelle.diagnostics import did_you_mean
-from gazelle.graph.node_parameters import NodeParameters, ParameterPolicy
+from gazelle.graph.ros2_node_parameters import NodeParameters, ParameterPolicy
 from gazelle.interfaces import message_type
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gazelle.studio.bags.playing import Playing
-from gazelle.studio.bags.recording import Recording
+from gazelle.studio.bags.player import Playing
+from gazelle.studio.bags.recorder import Recording
 
 __all__ = ["Bags"]
 

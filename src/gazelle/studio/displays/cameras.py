@@ -6,20 +6,20 @@ from collections.abc import Callable
 from typing import Any
 
 from gazelle.interfaces import Message
-from gazelle.studio.displays.pictures import (
+from gazelle.studio.displays.image_encodings import (
     KIND_JPEG,
     PictureSettings,
     checked_colormap,
     encoded_picture,
 )
-from gazelle.studio.displays.showing import DisplayContext, Site, open_newest, open_on
+from gazelle.studio.displays.topic_display import DisplayContext, Site, open_newest, open_on
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Channel, Frame, OpenStream
-from gazelle.studio.taps import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Taps
 
 __all__ = ["CameraInfo", "info_topic", "open_camera", "open_image", "open_picture"]
 

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.studio.displays.cameras import CameraInfo, info_topic
-from gazelle.studio.displays.pictures import pixels_rgb
+from gazelle.studio.displays.image_encodings import pixels_rgb
 from gazelle.studio.displays.point_colours import Colouring
 from gazelle.studio.displays.points import Points, budget_of, points_frame
-from gazelle.studio.displays.showing import Site, open_newest
+from gazelle.studio.displays.topic_display import Site, open_newest
 from gazelle.studio.errors import StudioError
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Frame, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.subscriptions import Sample
 
 __all__ = ["open_depth_cloud"]
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypedDict
 
-from gazelle.studio.displays.showing import Site
+from gazelle.studio.displays.topic_display import Site
 from gazelle.studio.streams import OpenStream
 
 __all__ = ["Display", "DisplayRow", "display_row"]

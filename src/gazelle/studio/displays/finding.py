@@ -10,7 +10,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.extensions import Extension, ExtensionGroup, load_extensions
 from gazelle.studio.displays.display import Display, DisplayRow, display_row
 from gazelle.studio.displays.registry import DISPLAYS, own_display
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = ["Added", "AddedDisplays", "added_displays", "find_display", "list_added"]
 

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
 from gazelle.interfaces.poses import unit_pose_of
-from gazelle.studio.displays.showing import Site, open_newest
+from gazelle.studio.displays.topic_display import Site, open_newest
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Frame, OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.subscriptions import Sample
 
 __all__ = ["KIND_MAP", "KIND_MAP_PART", "open_map"]
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, NotRequired, TypedDict
 from gazelle.geometry.pose import IDENTITY_POSE
 from gazelle.interfaces import message_type, service_type
 from gazelle.sensors.scene_types import Floats7, MeshFile
-from gazelle.studio.displays.showing import Site
+from gazelle.studio.displays.topic_display import Site
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
@@ -16,7 +16,7 @@ from gazelle.studio.pacing import every
 from gazelle.studio.scenes.shapes import MeshPartValue, mesh_geometry
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.subscriptions import Sample
 from gazelle.workspace import Workspace
 
 __all__ = [

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.studio.displays.showing import Site, open_newest
+from gazelle.studio.displays.topic_display import Site, open_newest
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import OpenStream
-from gazelle.studio.taps import Sample
+from gazelle.studio.subscriptions import Sample
 
 __all__ = ["open_plain"]
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.studio.displays.colours import parsed_colour, rainbow
 from gazelle.studio.errors import StudioError
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = ["TRANSFORMERS", "Colouring", "flat_colour", "ramp"]
 

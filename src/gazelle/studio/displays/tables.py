@@ -5,11 +5,11 @@ from __future__ import annotations
 from gazelle.studio.displays.cameras import open_image
 from gazelle.studio.displays.finding import added_displays, find_display, list_added
 from gazelle.studio.displays.registry import DISPLAYS
-from gazelle.studio.displays.showing import DisplayContext, Site, open_on
+from gazelle.studio.displays.topic_display import DisplayContext, Site, open_on
 from gazelle.studio.displays.turtles import open_turtles
 from gazelle.studio.errors import unknown
-from gazelle.studio.params import Params
-from gazelle.studio.rows import Method, methods_without
+from gazelle.studio.request_params import Params
+from gazelle.studio.routing import Method, methods_without
 from gazelle.studio.streams import Channel, OpenStream, StreamKind
 
 __all__ = ["METHODS", "STREAMS"]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from gazelle.studio.displays.cameras import open_picture
-from gazelle.studio.displays.showing import DisplayContext, Site
-from gazelle.studio.params import Params
+from gazelle.studio.displays.topic_display import DisplayContext, Site
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream
 
 __all__ = ["open_turtles"]

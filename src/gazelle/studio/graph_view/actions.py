@@ -8,9 +8,9 @@ from typing import Any, TypedDict
 from gazelle.graph import Clock, Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.studio.errors import unknown
-from gazelle.studio.graph_view.forms import filled
+from gazelle.studio.graph_view.message_forms import filled
 from gazelle.studio.json_text import message_value
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream
 
 __all__ = ["ActionOpened", "GoalState", "open_action"]

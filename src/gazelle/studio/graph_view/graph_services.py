@@ -12,9 +12,9 @@ from gazelle.studio.graph_view.publishing import Outbox
 from gazelle.studio.graph_view.reconfigure import DynamicClients
 from gazelle.studio.graph_view.rosout import Console
 from gazelle.studio.graph_view.topology import Topology
-from gazelle.studio.once import Once, closed_with
+from gazelle.studio.lazy import Once, closed_with
 from gazelle.studio.pages import Pages
-from gazelle.studio.taps import Taps
+from gazelle.studio.subscriptions import Taps
 
 __all__ = ["GraphParts", "graph_parts"]
 

@@ -8,7 +8,7 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import set_stamp
 from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.publishing import Outbox
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = ["publish_joints"]
 

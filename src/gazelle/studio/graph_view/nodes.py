@@ -8,7 +8,7 @@ from gazelle.graph import Endpoint, Node
 from gazelle.interfaces import message_type
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.graph_view.services import request_response, services_by_type
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = [
     "EndpointRow",

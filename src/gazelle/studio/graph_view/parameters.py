@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any, TypedDict
 
 from gazelle.graph import Graph, Node
-from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
+from gazelle.graph.ros2_parameter_values import ParameterType, value_from_message, value_message
 from gazelle.interfaces import message_type
 from gazelle.parameters.trees import leaves_at, values_only
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.graph_view.services import request_response, services_by_type
 from gazelle.studio.json_text import finite_number, message_value
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = [
     "NodeParameter",

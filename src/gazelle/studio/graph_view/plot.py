@@ -8,10 +8,10 @@ from typing import Any, TypedDict
 
 from gazelle.errors import GazelleError
 from gazelle.studio.graph_view.curves import Curve, curves_of, read_number
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Taps
 
 __all__ = ["PlotCurves", "PlotPoints", "open_plot"]
 

@@ -12,10 +12,10 @@ from gazelle.interfaces import Message, message_type
 from gazelle.interfaces.definition import FORMATS, Array, Field, attribute_name
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.graph_view.expressions import Expression, expression
-from gazelle.studio.graph_view.forms import filled
+from gazelle.studio.graph_view.message_forms import filled
 from gazelle.studio.pages import Pages
-from gazelle.studio.params import Params
-from gazelle.studio.taps import topic_name
+from gazelle.studio.request_params import Params
+from gazelle.studio.subscriptions import topic_name
 
 __all__ = [
     "PublisherCount",

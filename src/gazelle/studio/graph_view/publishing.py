@@ -9,9 +9,9 @@ from typing import Any
 
 from gazelle.graph import Node, Publisher
 from gazelle.interfaces import message_type
-from gazelle.studio.graph_view.forms import filled
-from gazelle.studio.params import Params
-from gazelle.studio.taps import topic_name
+from gazelle.studio.graph_view.message_forms import filled
+from gazelle.studio.request_params import Params
+from gazelle.studio.subscriptions import topic_name
 
 __all__ = ["Outbox", "publish"]
 

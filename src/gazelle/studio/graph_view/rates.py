@@ -6,9 +6,9 @@ import time
 from typing import TypedDict
 
 from gazelle.studio.pacing import every
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Arrival, Sample, Taps, topic_name
+from gazelle.studio.subscriptions import Arrival, Sample, Taps, topic_name
 
 __all__ = ["TopicStats", "open_stats"]
 

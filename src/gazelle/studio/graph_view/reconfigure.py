@@ -6,14 +6,14 @@ import threading
 from typing import Any, TypedDict
 
 from gazelle.graph import Node
-from gazelle.graph.reconfigure import (
+from gazelle.graph.dynamic_reconfigure import (
     DynamicGroup,
     DynamicParameter,
     ReconfigureClient,
     server_names,
 )
 from gazelle.studio.errors import StudioError, unknown
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = [
     "DynamicClients",

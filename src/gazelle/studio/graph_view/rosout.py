@@ -11,9 +11,9 @@ from gazelle.errors import GazelleError
 from gazelle.graph.console import Level, level_of
 from gazelle.interfaces.stamps import seconds_of
 from gazelle.studio.errors import StudioError
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Taps
 
 __all__ = ["Console", "LogLine", "open_rosout"]
 

@@ -8,9 +8,9 @@ from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Kind, Node
 from gazelle.interfaces import service_type
 from gazelle.studio.errors import StudioError, unknown
-from gazelle.studio.graph_view.forms import filled
+from gazelle.studio.graph_view.message_forms import filled
 from gazelle.studio.json_text import message_value
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = ["call_service", "request_response", "services_by_type"]
 

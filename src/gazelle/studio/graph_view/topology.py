@@ -6,10 +6,10 @@ import threading
 from typing import Any, TypedDict
 
 from gazelle.graph import Entity, Graph, Kind, Node
-from gazelle.graph.actions.listing import actions_of
-from gazelle.graph.introspection import services_of, topics_of
+from gazelle.graph.actions.action_info import actions_of
+from gazelle.graph.graph_info import services_of, topics_of
 from gazelle.graph.names import is_hidden, split
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream
 
 __all__ = [

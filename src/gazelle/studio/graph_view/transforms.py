@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.studio.frames import NO_POSE, Frames, pose_values, poses_in
 from gazelle.studio.pacing import Pace, every
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, Frame, OpenStream
 
 __all__ = ["KIND_FRAMES", "FrameNames", "FrameRow", "TfFrame", "open_tf", "open_tree"]

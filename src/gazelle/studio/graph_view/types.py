@@ -7,9 +7,9 @@ from typing import Any, NotRequired, TypedDict
 from gazelle.errors import NotFoundError
 from gazelle.interfaces import Definition, Field, RosVersion, definition, known_types
 from gazelle.interfaces.definition import Array
-from gazelle.interfaces.naming import split_name
+from gazelle.interfaces.type_names import split_name
 from gazelle.studio.errors import StudioError
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = ["TypeConstant", "TypeField", "TypeValue", "field_tree", "get_type", "list_types"]
 

@@ -11,7 +11,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from gazelle.studio.errors import StudioError
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = ["MotionMesh", "read_mesh"]
 

@@ -6,9 +6,9 @@ from typing import Any
 
 from gazelle.studio.errors import StudioError
 from gazelle.studio.json_text import message_value
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.taps import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Taps
 
 __all__ = ["open_path"]
 

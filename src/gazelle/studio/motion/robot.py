@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, TypedDict
 from gazelle.graph import Graph, Kind
 from gazelle.sensors.scene_types import SceneValue
 from gazelle.studio.errors import StudioError
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.robot import RobotContext, description_text
 from gazelle.studio.scenes.shapes import PageGeometry, page_scene
-from gazelle.studio.taps import Taps
+from gazelle.studio.subscriptions import Taps
 
 if TYPE_CHECKING:
     from gazelle.description.moveit import MoveItConfig

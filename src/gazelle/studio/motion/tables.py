@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from gazelle.studio.motion.meshes import read_mesh
 from gazelle.studio.motion.paths import open_path
+from gazelle.studio.motion.planning_scene import open_scene
 from gazelle.studio.motion.robot import get_motion_robot
-from gazelle.studio.motion.scenes import open_scene
-from gazelle.studio.rows import Method, methods_without
+from gazelle.studio.routing import Method, methods_without
 from gazelle.studio.scenes.robot import RobotContext
 from gazelle.studio.streams import StreamKind
-from gazelle.studio.taps import Taps
+from gazelle.studio.subscriptions import Taps
 
 __all__ = ["METHODS", "STREAMS"]
 

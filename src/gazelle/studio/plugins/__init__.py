@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from gazelle.studio.plugins.containers import Column, Row
-from gazelle.studio.plugins.node import PanelNode
 from gazelle.studio.plugins.panel import Panel
+from gazelle.studio.plugins.panel_node import PanelNode
 from gazelle.studio.plugins.widgets import (
     Button,
     Checkbox,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from gazelle.studio.plugins.rqt.manifests import rqt_plugins
-from gazelle.studio.plugins.sources import all_sources
+from gazelle.studio.plugins.panel_sources import all_sources
+from gazelle.studio.plugins.rqt.plugin_xml import rqt_plugins
 from gazelle.workspace import Workspace
 
 __all__ = ["own_panel"]

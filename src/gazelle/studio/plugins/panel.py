@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 if TYPE_CHECKING:
     from gazelle.studio.plugins.containers import Part
-    from gazelle.studio.plugins.node import PanelNode
+    from gazelle.studio.plugins.panel_node import PanelNode
 
 __all__ = ["Panel", "PanelLink"]
 

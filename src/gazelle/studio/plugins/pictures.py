@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.studio.displays.pictures import PictureSettings, encoded_picture
-from gazelle.studio.files import Answer
+from gazelle.studio.displays.image_encodings import PictureSettings, encoded_picture
+from gazelle.studio.http_answers import Answer
 
 __all__ = ["checked_picture", "picture_answer"]
 

@@ -16,11 +16,11 @@ from gazelle.control.python_controllers.source_positions import located
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import Graph
 from gazelle.studio.errors import StudioError
-from gazelle.studio.plugins.node import PanelNode
 from gazelle.studio.plugins.panel import Panel
-from gazelle.studio.plugins.sources import Source
-from gazelle.studio.plugins.state import State, checked_layout, handler_of
-from gazelle.studio.plugins.values import check_sendable, chosen
+from gazelle.studio.plugins.panel_node import PanelNode
+from gazelle.studio.plugins.panel_sources import Source
+from gazelle.studio.plugins.panel_state import State, checked_layout, handler_of
+from gazelle.studio.plugins.widget_values import check_sendable, chosen
 from gazelle.workspace.python_files import import_python_file
 
 __all__ = ["Life"]

@@ -10,11 +10,11 @@ from typing import Any
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
 from gazelle.studio.errors import StudioError, unknown
-from gazelle.studio.files import Answer
+from gazelle.studio.http_answers import Answer
 from gazelle.studio.plugins.following import Follower
+from gazelle.studio.plugins.panel_sources import Source, all_sources, named_file
 from gazelle.studio.plugins.pictures import picture_answer
 from gazelle.studio.plugins.running_panel import Life
-from gazelle.studio.plugins.sources import Source, all_sources, named_file
 from gazelle.studio.streams import Channel
 from gazelle.workspace import Workspace
 

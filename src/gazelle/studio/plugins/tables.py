@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.studio.plugins.requests import (
+from gazelle.studio.plugins.methods import (
     file_answer,
     list_panels,
     open_panel,
@@ -11,7 +11,7 @@ from gazelle.studio.plugins.requests import (
     take_event,
 )
 from gazelle.studio.plugins.shown_panels import Desk
-from gazelle.studio.rows import Method, Route, methods_without
+from gazelle.studio.routing import Method, Route, methods_without
 from gazelle.studio.streams import StreamKind
 
 __all__ = ["METHODS", "ROUTES", "STREAMS"]

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from gazelle.geometry import MeshPart
-from gazelle.studio.files import Answer
+from gazelle.studio.http_answers import Answer
 
 __all__ = ["Assets", "mesh_answer", "texture_answer"]
 

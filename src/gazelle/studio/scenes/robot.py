@@ -9,10 +9,10 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.sensors.scene_types import SceneValue
 from gazelle.studio.errors import StudioError, unknown
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.shapes import PageGeometry, page_scene
-from gazelle.studio.taps import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Taps
 from gazelle.workspace import Workspace
 
 __all__ = ["RobotContext", "description_text", "get_robot"]

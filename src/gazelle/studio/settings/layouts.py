@@ -12,7 +12,7 @@ from urllib.parse import quote, unquote
 from gazelle.documents.versions import refused_version
 from gazelle.folders import config_folder
 from gazelle.studio.errors import StudioError, unknown
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = ["delete_layout", "layout_folder", "list_layouts", "load_layout", "save_layout"]
 

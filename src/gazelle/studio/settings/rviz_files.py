@@ -12,7 +12,7 @@ from gazelle.documents.yaml import YamlError, read_yaml
 from gazelle.studio.displays.finding import find_display
 from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.errors import StudioError
-from gazelle.studio.params import Params
+from gazelle.studio.request_params import Params
 
 __all__ = ["RvizDisplay", "RvizFile", "RvizTool", "RvizView", "open_rviz", "rviz_value"]
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from gazelle.studio.rows import Method, methods_without
+from gazelle.studio.routing import Method, methods_without
 from gazelle.studio.settings.layouts import (
     delete_layout,
     list_layouts,
     load_layout,
     save_layout,
 )
-from gazelle.studio.settings.perspectives import open_perspective
+from gazelle.studio.settings.rqt_perspectives import open_perspective
 from gazelle.studio.settings.rviz_files import open_rviz
 
 __all__ = ["METHODS"]

@@ -8,7 +8,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from gazelle.studio.typescript.files import FILES, FOLDER
+from gazelle.studio.typescript.sources import FILES, FOLDER
 
 if __name__ == "__main__":
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else FOLDER)

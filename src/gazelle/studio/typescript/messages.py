@@ -23,9 +23,9 @@ from gazelle.sensors.scene_types import (
 )
 from gazelle.simulator.viewing.broadcast import WorldStats
 from gazelle.simulator.viewing.properties import PropertyRow
-from gazelle.studio.bags.playing import BagTopic, PlayerState
-from gazelle.studio.bags.recording import RecorderState
-from gazelle.studio.bags.tables import BagState
+from gazelle.studio.bags.methods import BagState
+from gazelle.studio.bags.player import BagTopic, PlayerState
+from gazelle.studio.bags.recorder import RecorderState
 from gazelle.studio.displays.display import DisplayRow
 from gazelle.studio.displays.finding import AddedDisplays
 from gazelle.studio.displays.markers import (
@@ -37,7 +37,6 @@ from gazelle.studio.displays.markers import (
 )
 from gazelle.studio.errors import ErrorValue
 from gazelle.studio.graph_view.actions import ActionOpened, GoalState
-from gazelle.studio.graph_view.echo import EchoedMessage
 from gazelle.studio.graph_view.nodes import (
     EndpointRow,
     LoggerNode,
@@ -55,6 +54,7 @@ from gazelle.studio.graph_view.reconfigure import (
     Reconfigurable,
 )
 from gazelle.studio.graph_view.rosout import LogLine
+from gazelle.studio.graph_view.topics import EchoedMessage
 from gazelle.studio.graph_view.topology import (
     ActionRow,
     GraphValue,
@@ -65,6 +65,7 @@ from gazelle.studio.graph_view.topology import (
 from gazelle.studio.graph_view.transforms import FrameNames, FrameRow, TfFrame
 from gazelle.studio.graph_view.types import TypeConstant, TypeField, TypeValue
 from gazelle.studio.motion.meshes import MotionMesh
+from gazelle.studio.motion.planning_scene import PlanningScene
 from gazelle.studio.motion.robot import (
     MotionEffector,
     MotionGroup,
@@ -73,12 +74,11 @@ from gazelle.studio.motion.robot import (
     MotionRobot,
     MotionVariable,
 )
-from gazelle.studio.motion.scenes import PlanningScene
 from gazelle.studio.pages import GraphPlace, Hello, Show
 from gazelle.studio.plugins.following import PanelEvent
-from gazelle.studio.plugins.requests import PanelEntry, PanelInfo
+from gazelle.studio.plugins.methods import PanelEntry, PanelInfo
+from gazelle.studio.plugins.panel_state import PanelState
 from gazelle.studio.plugins.rqt.porting import PortedForm, PortedPlugin, PortedWidget
-from gazelle.studio.plugins.state import PanelState
 from gazelle.studio.scenes.shapes import (
     MeshGeometry,
     MeshPartValue,
@@ -87,7 +87,7 @@ from gazelle.studio.scenes.shapes import (
 )
 from gazelle.studio.settings.rviz_files import RvizDisplay, RvizFile, RvizTool, RvizView
 from gazelle.studio.world.models import ModelEntry
-from gazelle.studio.world.watching import PageScene, WorldJoint
+from gazelle.studio.world.streams import PageScene, WorldJoint
 
 __all__ = ["ADDED", "ALIASES", "MESSAGES", "ROS_MESSAGES"]
 

@@ -12,8 +12,8 @@ from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.errors import GazelleError
 from gazelle.studio.errors import StudioError
-from gazelle.studio.files import Answer
-from gazelle.studio.params import Params
+from gazelle.studio.http_answers import Answer
+from gazelle.studio.request_params import Params
 from gazelle.workspace import Workspace
 
 __all__ = ["ModelEntry", "list_models", "model_folder", "thumbnail"]

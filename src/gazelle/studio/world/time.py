@@ -7,8 +7,8 @@ from typing import Any
 from gazelle.diagnostics import nearest_names
 from gazelle.interfaces import message_type
 from gazelle.studio.errors import StudioError
-from gazelle.studio.params import Params
-from gazelle.studio.world.link import WorldLink
+from gazelle.studio.request_params import Params
+from gazelle.studio.world.world_control import WorldLink
 
 __all__ = ["pause", "play", "reset", "set_factor", "step"]
 

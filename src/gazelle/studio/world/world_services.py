@@ -5,12 +5,12 @@ from __future__ import annotations
 from contextlib import ExitStack
 from dataclasses import dataclass
 
-from gazelle.studio.once import Once, closed_with
+from gazelle.studio.lazy import Once, closed_with
 from gazelle.studio.scenes.assets import Assets
-from gazelle.studio.taps import Taps
+from gazelle.studio.subscriptions import Taps
 from gazelle.studio.workers import Workers
-from gazelle.studio.world.link import WorldLink
-from gazelle.studio.world.watching import Scene
+from gazelle.studio.world.streams import Scene
+from gazelle.studio.world.world_control import WorldLink
 
 __all__ = ["WorldParts", "world_parts"]
 

@@ -14,9 +14,9 @@ from tests.studio.plugins.rqt.package import UI, write_package
 
 from gazelle.launch.environment import drop_in_folder
 from gazelle.studio.errors import StudioError
-from gazelle.studio.plugins.rqt.forms import form_widgets
-from gazelle.studio.plugins.rqt.manifests import rqt_plugins
+from gazelle.studio.plugins.rqt.plugin_xml import rqt_plugins
 from gazelle.studio.plugins.rqt.porting import how_to_port
+from gazelle.studio.plugins.rqt.ui_files import form_widgets
 from gazelle.workspace import Workspace
 
 
@@ -75,7 +75,7 @@ def test_the_panel_to_begin_with_runs_and_has_the_forms_rows(tmp_path: Path) -> 
     made: dict[str, object] = {}
     exec(compile(ast.parse(answer["code"]), "arm_tester.py", "exec"), made)
     panel = made["ArmTester"]
-    from gazelle.studio.plugins.state import checked_layout
+    from gazelle.studio.plugins.panel_state import checked_layout
 
     layout = checked_layout(panel)  # type: ignore[arg-type]
     group = layout[0]

@@ -12,7 +12,7 @@ from gazelle.cli.ros2.verbs import add_strategy_arguments, fail
 from gazelle.cli.text.filling import yaml_words
 from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Graph, Node
-from gazelle.graph.parameter_values import value_message
+from gazelle.graph.ros2_parameter_values import value_message
 from gazelle.interfaces import message_type
 
 __all__ = ["add_arguments_list", "add_arguments_load", "add_arguments_unload"]

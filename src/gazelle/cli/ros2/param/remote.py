@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Graph, Node
-from gazelle.graph.parameter_values import ParameterType, value_from_message, value_message
+from gazelle.graph.ros2_parameter_values import ParameterType, value_from_message, value_message
 from gazelle.interfaces import message_type, service_type
 
 __all__ = ["RemoteParameters", "nodes_with_parameters", "remote"]

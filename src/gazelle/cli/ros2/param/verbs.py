@@ -11,7 +11,7 @@ from typing import Any
 
 from gazelle.cli.ros2.param.remote import nodes_with_parameters, remote
 from gazelle.cli.tool import ToolError, hint, joined
-from gazelle.graph.parameter_values import ParameterType, parameter_type
+from gazelle.graph.ros2_parameter_values import ParameterType, parameter_type
 
 __all__ = ["run_delete", "run_describe", "run_dump", "run_get", "run_list", "run_load", "run_set"]
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TypedDict
 
 from gazelle.studio.errors import StudioError
-from gazelle.studio.plugins.rqt.forms import FormWidget, form_layout, form_widgets
-from gazelle.studio.plugins.rqt.manifests import RqtPlugin, rqt_plugins
+from gazelle.studio.plugins.rqt.plugin_xml import RqtPlugin, rqt_plugins
+from gazelle.studio.plugins.rqt.ui_files import FormWidget, form_layout, form_widgets
 from gazelle.workspace import Workspace
 
 __all__ = ["PortedForm", "PortedPlugin", "PortedWidget", "how_to_port"]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, List  # noqa: UP035
 
 from gazelle.errors import GraphError
-from gazelle.graph.parameter_values import value_message
+from gazelle.graph.ros2_parameter_values import value_message
 from gazelle.interfaces import message_type, service_type
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.action import Action

@@ -1,0 +1,191 @@
+"""A node of real ROS as the graph sees it: its name, topics and services."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
+
+from gazelle.graph.key_expressions import ANY_TYPE, NO_HASH, Entity, Kind, token
+from gazelle.graph.type_support import hash_of
+
+if TYPE_CHECKING:
+    from gazelle.graph import Graph, Node, Publisher, ServiceServer
+
+__all__ = ["M", "Mirror", "OfMessage", "OfService", "S", "Traits"]
+
+
+class OfMessage(Protocol):
+    """What a mirror must know of a message type."""
+
+    @property
+    def message_class(self) -> Any:
+        """Class of the messages on the graph."""
+
+    @property
+    def reliable(self) -> bool:
+        """Whether slow subscriptions are waited for."""
+
+
+class OfService(Protocol):
+    """What a mirror must know of a service type."""
+
+    @property
+    def service_class(self) -> Any:
+        """The service as the graph knows it."""
+
+
+M = TypeVar("M", bound=OfMessage)
+S = TypeVar("S", bound=OfService)
+
+
+class Traits(NamedTuple, Generic[M, S]):
+    """What a node of real ROS offers and wants.
+
+    Attributes:
+        publishers: types by topic.
+        subscribers: topic → type on the graph, `ANY_TYPE` when any is taken.
+        services: types by name.
+    """
+
+    publishers: dict[str, M]
+    subscribers: dict[str, str]
+    services: dict[str, S]
+
+
+class _Voice(NamedTuple, Generic[M]):
+    kind: M
+    latched: bool
+    publisher: Publisher
+
+
+class Mirror(Generic[M, S]):
+    """Stands for one node.
+
+    Attributes:
+        name: the node's name in ROS.
+        shares: whether the graph shows it under a name that others have too.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        name: str,
+        node: Node,
+        answer: Callable[[str, S, Any], Any],
+        *,
+        shares: bool,
+    ) -> None:
+        """Announce nothing yet.
+
+        Args:
+            graph: where.
+            name: the node's name in ROS.
+            node: whose name is shown.
+            answer: (service, type, request) → response, asked of ROS.
+            shares: `node` belongs to others too and stays when this ends.
+        """
+        self.name = name
+        self._graph = graph
+        self._node = node
+        self._answer = answer
+        self.shares = shares
+        self._lock = threading.RLock()
+        self._closed = False
+        self._voices: dict[str, _Voice[M]] = {}
+        self._tokens: dict[tuple[str, str], Any] = {}
+        self._services: dict[str, tuple[S, ServiceServer]] = {}
+
+    def settle(self, traits: Traits[M, S]) -> None:
+        """Announce these topics and services and no others."""
+        with self._lock:
+            if self._closed or self._node.closed:
+                # The node's own things end with it, what was only announced does not.
+                self._settle_subscribers({})
+                return
+            for topic in set(self._voices) - set(traits.publishers):
+                self._voices.pop(topic).publisher.unregister()
+            for topic, kind in traits.publishers.items():
+                self.voice(topic, kind, None)
+            self._settle_subscribers(dict(traits.subscribers))
+            self._settle_services(traits.services)
+
+    def voice(self, topic: str, kind: M, latched: bool | None) -> Publisher | None:
+        """Return what publishes on a topic for the node; None after `close`.
+
+        Args:
+            topic: global name.
+            kind: its type.
+            latched: whether late subscriptions get the last message, None to leave it.
+        """
+        with self._lock:
+            if self._closed or self._node.closed:
+                return None
+            known = self._voices.get(topic)
+            keep = known is not None and latched is None
+            wanted = known.latched if known is not None and keep else bool(latched)
+            if known is not None and known.kind == kind and known.latched == wanted:
+                return known.publisher
+            if known is not None:
+                known.publisher.unregister()
+            made = self._node.create_publisher(
+                topic, kind.message_class, latch=wanted, reliable=kind.reliable
+            )
+            self._voices[topic] = _Voice(kind, wanted, made)
+            return made
+
+    def speaks_through(self, node: Node) -> bool:
+        """Return whether a node of the graph is this one's, and not let go."""
+        return self._node is node and not self._closed
+
+    def forget_latched(self, topic: str) -> None:
+        """Drop what the topic has latched: nobody renews it while nobody listens."""
+        with self._lock:
+            known = self._voices.get(topic)
+            if known is not None and known.latched:
+                self.voice(topic, known.kind, False)
+
+    def close(self) -> None:
+        """Take the node off the graph."""
+        with self._lock:
+            if self._closed:
+                return
+            self.settle(Traits({}, {}, {}))
+            self._closed = True
+        if not self.shares:
+            self._node.shutdown()
+
+    def _settle_subscribers(self, wanted: dict[str, str]) -> None:
+        for key in set(self._tokens) - set(wanted.items()):
+            self._tokens.pop(key).undeclare()
+        for topic, type_name in wanted.items():
+            if (topic, type_name) in self._tokens:
+                continue
+            # Announced only: messages are taken while there is a connection to send them on.
+            entity = Entity(
+                self._graph.zid,
+                self._node.entity.node_id,
+                self._graph.next_id(),
+                Kind.SUBSCRIPTION,
+                self._node.name,
+                topic,
+                type_name,
+                NO_HASH if type_name == ANY_TYPE else hash_of(type_name),
+            )
+            text = token(self._graph.domain, entity)
+            liveliness = self._graph.session.liveliness()
+            self._tokens[topic, type_name] = liveliness.declare_token(text)
+
+    def _settle_services(self, wanted: Mapping[str, S]) -> None:
+        for name in list(self._services):
+            if wanted.get(name) != self._services[name][0]:
+                self._services.pop(name)[1].unregister()
+        for name, kind in wanted.items():
+            if name not in self._services:
+                server = self._node.create_service(
+                    name, kind.service_class, self._answerer(name, kind)
+                )
+                self._services[name] = (kind, server)
+
+    def _answerer(self, name: str, kind: S) -> Callable[[Any], Any]:
+        return lambda request: self._answer(name, kind, request)

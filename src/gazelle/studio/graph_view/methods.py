@@ -1,0 +1,97 @@
+"""Methods and streams of the graph."""
+
+from __future__ import annotations
+
+from gazelle.graph import Node
+from gazelle.studio.frames import Frames
+from gazelle.studio.graph_view.actions import open_action
+from gazelle.studio.graph_view.graph_services import GraphParts
+from gazelle.studio.graph_view.joints import publish_joints
+from gazelle.studio.graph_view.nodes import get_node, kill_node, list_loggers, set_logger
+from gazelle.studio.graph_view.parameters import (
+    delete_parameter,
+    get_node_parameters,
+    get_parameter,
+    list_parameters,
+    set_node_parameter,
+    set_parameter,
+)
+from gazelle.studio.graph_view.plot import open_plot
+from gazelle.studio.graph_view.publishers import (
+    Publishers,
+    list_publishers,
+    remove_publisher,
+    set_publisher,
+)
+from gazelle.studio.graph_view.publishing import Outbox, publish
+from gazelle.studio.graph_view.rates import open_stats
+from gazelle.studio.graph_view.reconfigure import (
+    DynamicClients,
+    get_reconfigurable,
+    list_reconfigurable,
+    set_reconfigurable,
+)
+from gazelle.studio.graph_view.rosout import open_rosout
+from gazelle.studio.graph_view.services import call_service
+from gazelle.studio.graph_view.topics import open_echo
+from gazelle.studio.graph_view.topology import get_graph, open_graph
+from gazelle.studio.graph_view.transforms import open_tf, open_tree
+from gazelle.studio.graph_view.types import get_type, list_types
+from gazelle.studio.routing import Method, methods_of, methods_without, streams_of
+from gazelle.studio.streams import StreamKind
+from gazelle.studio.subscriptions import Taps
+
+__all__ = ["METHODS", "STREAMS"]
+
+_NODE_METHODS: dict[str, Method[Node]] = {
+    "graph.get": get_graph,
+    "logger.list": list_loggers,
+    "logger.set": set_logger,
+    "node.info": get_node,
+    "node.kill": kill_node,
+    "node.param_set": set_node_parameter,
+    "node.params": get_node_parameters,
+    "param.delete": delete_parameter,
+    "param.get": get_parameter,
+    "param.list": list_parameters,
+    "param.set": set_parameter,
+    "reconfigure.list": list_reconfigurable,
+    "service.call": call_service,
+}
+_OUTBOX_METHODS: dict[str, Method[Outbox]] = {
+    "joints.publish": publish_joints,
+    "topic.publish": publish,
+}
+_PUBLISHER_METHODS: dict[str, Method[Publishers]] = {
+    "publisher.list": list_publishers,
+    "publisher.remove": remove_publisher,
+    "publisher.set": set_publisher,
+}
+_CLIENT_METHODS: dict[str, Method[DynamicClients]] = {
+    "reconfigure.get": get_reconfigurable,
+    "reconfigure.set": set_reconfigurable,
+}
+_TOPIC_STREAMS: dict[str, StreamKind[Taps]] = {
+    "topic.echo": StreamKind(latest=True, open=open_echo),
+    "topic.plot": StreamKind(latest=False, open=open_plot),
+    "topic.stats": StreamKind(latest=True, open=open_stats),
+}
+_FRAME_STREAMS: dict[str, StreamKind[Frames]] = {
+    "tf": StreamKind(latest=True, open=open_tf),
+    "tf.tree": StreamKind(latest=True, open=open_tree),
+}
+
+METHODS: dict[str, Method[GraphParts]] = {
+    **methods_of(lambda parts: parts.node, _NODE_METHODS),
+    **methods_of(lambda parts: parts.outbox, _OUTBOX_METHODS),
+    **methods_of(lambda parts: parts.publishers(), _PUBLISHER_METHODS),
+    **methods_of(lambda parts: parts.clients, _CLIENT_METHODS),
+    **methods_without({"type.get": get_type, "type.list": list_types}),
+}
+STREAMS: dict[str, StreamKind[GraphParts]] = {
+    **streams_of(lambda parts: parts.taps, _TOPIC_STREAMS),
+    **streams_of(lambda parts: parts.frames, _FRAME_STREAMS),
+    **streams_of(lambda parts: parts.node, {"action": StreamKind(False, open_action)}),
+    **streams_of(lambda parts: parts.topology(), {"graph": StreamKind(False, open_graph)}),
+    **streams_of(lambda parts: parts.console(), {"rosout": StreamKind(False, open_rosout)}),
+}

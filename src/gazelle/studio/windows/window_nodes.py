@@ -1,0 +1,134 @@
+"""The windows of ROS and Gazebo by their names, each a panel of the page.
+
+| command | its words |
+| --- | --- |
+| rviz, rviz2 | ``-d FILE.rviz`` or ``FILE.rviz``, ``-f FRAME`` |
+| rqt_plot | ``TOPIC/FIELD[:FIELD] …``; a topic or sub-message stands for all its numbers |
+| rqt_image_view, image_view | ``TOPIC``; ``image:=TOPIC`` |
+| rqt_bag | ``FILE …`` |
+| rqt_gui, rqt | ``-s PLUGIN``, of rqt's own or a user's package, ``--perspective-file FILE`` |
+| rqt_robot_steering | ``~default_topic`` |
+
+Other words are those of windows (``--force-discover``, geometries) and mean nothing to a page.
+"""
+
+from __future__ import annotations
+
+import re
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from gazelle.graph import Graph
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import start_node
+from gazelle.studio.windows.page_owner import Request, is_switched_off, present, say
+
+__all__ = ["gzclient", "image_view", "rqt", "rqt_bag", "rqt_plot", "run_view", "rviz"]
+
+_FIELDS = re.compile(r"^(?P<start>[^:]*/)(?P<fields>[^/]+(?::[^/]+)+)$")
+_PLUGIN = re.compile(r"^(?P<package>\w+?)(?:[./].*)?$")
+_VALUED = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--standalone",
+           "--perspective-file", "-p", "--perspective", "-t", "--ht", "--args")  # fmt: skip
+
+
+def run_view(
+    panel: str,
+    params: dict[str, Any],
+    arguments: NodeArguments,
+    graph: Graph,
+    stop: threading.Event,
+) -> int:
+    """Be a node that shows a panel until told to stop; launch files count on its staying alive."""
+    node = start_node(arguments, graph)
+    # A simulator says the time at every step; the page's server follows it while a page is open.
+    graph.clock.leave(node)
+    if is_switched_off():
+        node.log("info", f"[{panel}] no window opens: GAZELLE_STUDIO=0; the node stays alive")
+        stop.wait()
+    else:
+        present(node, Request(panel, params), stop, say)
+    node.shutdown()
+    return 0
+
+
+def gzclient(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Show the world."""
+    return run_view("gazebo", {}, arguments, graph, stop)
+
+
+def rviz(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Show displays, those of a ``.rviz`` file if one is named."""
+    words, options = _words(arguments.rest)
+    file = options.get("-d") or options.get("--display-config") or next(iter(words), "")
+    frame = options.get("-f") or options.get("--fixed-frame") or ""
+    params = {"file": _path(file)} if file else {}
+    return run_view("rviz", params | ({"frame": frame} if frame else {}), arguments, graph, stop)
+
+
+def rqt_plot(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Show numbers over time."""
+    words, _ = _words(arguments.rest)
+    curves = [curve for word in words for curve in _curves(word)]
+    return run_view("rqt_plot", {"curves": curves} if curves else {}, arguments, graph, stop)
+
+
+def image_view(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Show a picture."""
+    words, _ = _words(arguments.rest)
+    topic = next(iter(words), "") or dict(arguments.remappings).get("image", "")
+    params = {"topic": _absolute(topic)} if topic else {}
+    return run_view("rqt_image_view", params, arguments, graph, stop)
+
+
+def rqt_bag(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Show a bag."""
+    words, _ = _words(arguments.rest)
+    params = {"path": _path(words[0])} if words else {}
+    return run_view("rqt_bag", params, arguments, graph, stop)
+
+
+def rqt(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Show one plug-in's panel, a perspective, or what was shown last."""
+    _, options = _words(arguments.rest)
+    plugin = options.get("-s") or options.get("--standalone") or ""
+    if plugin:
+        found = _PLUGIN.match(plugin)
+        from gazelle.studio.plugins.names import own_panel
+
+        panel = own_panel(plugin) or (found["package"] if found else plugin)
+        return run_view(panel, {}, arguments, graph, stop)
+    file = options.get("--perspective-file", "")
+    params = {"perspective": _path(file)} if file else {}
+    return run_view("rqt_gui", params, arguments, graph, stop)
+
+
+def _words(rest: Sequence[str]) -> tuple[list[str], dict[str, str]]:
+    """Return the plain words, and the options that have a value."""
+    words: list[str] = []
+    options: dict[str, str] = {}
+    left = iter(rest)
+    for word in left:
+        name, sign, value = word.partition("=")
+        if name in _VALUED:
+            options[name] = value if sign else next(left, "")
+        elif not word.startswith("-"):
+            words.append(word)
+    return words, options
+
+
+def _curves(word: str) -> list[str]:
+    """``/pose/x:y`` is ``/pose/x`` and ``/pose/y``."""
+    found = _FIELDS.match(word)
+    names = [found["start"] + field for field in found["fields"].split(":")] if found else [word]
+    return [_absolute(name) for name in names]
+
+
+def _absolute(topic: str) -> str:
+    return topic if topic.startswith("/") else f"/{topic}"
+
+
+def _path(file: str) -> str:
+    """The page's server may run in another folder."""
+    return str(Path(file).expanduser().absolute())
