@@ -30,7 +30,7 @@ PAGES = {
     "navigation.md": "gazelle.nodes.navigation.page",
     "nodes.md": "gazelle.nodes.documentation",
     "plugins.md": "gazelle.simulator.plugins",
-    "python_names.md": "gazelle.compat.refused_page",
+    "python_names.md": "gazelle.compat.unsupported.docs",
     "slam.md": "gazelle.nodes.slam.page",
     "worlds.md": "gazelle.workspace.gazebo_models",
 }

@@ -78,7 +78,7 @@ def _measure(options: argparse.Namespace) -> None:
 
 def _start(what: str, *words: str) -> subprocess.Popen[str]:
     # Nodes find rospy and rclpy as those of a launch do.
-    runner = [] if what == "clock" else ["-m", "gazelle.compat.runner"]
+    runner = [] if what == "clock" else ["-m", "gazelle.compat.script_runner"]
     return subprocess.Popen(
         [sys.executable, *runner, __file__, "--be", what, *words],
         stdin=subprocess.PIPE,

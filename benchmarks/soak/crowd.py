@@ -102,7 +102,7 @@ def main() -> int:
         member.write_text(_member_text(), encoding="utf-8")
 
         def start(role: str, number: int) -> subprocess.Popen[bytes]:
-            return scout.start("gazelle.compat.runner", str(member), role, str(number))
+            return scout.start("gazelle.compat.script_runner", str(member), role, str(number))
 
         for number in range(_FAST):
             start("fast", number)

@@ -32,7 +32,7 @@ def program(gazelle: Callable[..., Any], graph: Graph, tmp_path: Path) -> Callab
     def run(text: str, *words: str, **environ: str) -> Any:
         file = tmp_path / "program.py"
         file.write_text(text, encoding="utf-8")
-        return gazelle(str(file), *words, module="gazelle.compat.runner", **environ)
+        return gazelle(str(file), *words, module="gazelle.compat.script_runner", **environ)
 
     return run
 

@@ -21,7 +21,7 @@ _SAME = "the answer is the same whatever is said, in the original as well or by 
 # What is taken and never read: file and function, arguments, why that misleads nobody.
 UNREAD: dict[str, tuple[str, str]] = {
     "actionlib/server.py nop_cb": ("goal_handle", _HOOK),
-    "bags/rosbag.py Bag.__init__": ("allow_unindexed skip_index", "bags are read with or without"),
+    "rosbag.py Bag.__init__": ("allow_unindexed skip_index", "bags are read with or without"),
     "commands/rosnode.py get_api_uri": ("skip_cache", "nothing is kept"),
     "commands/rosnode.py rosnode_ping": ("max_count skip_cache", "one look is an answer"),
     "commands/rosnode.py rosnode_ping_all": ("skip_cache", "nothing is kept"),
@@ -36,8 +36,8 @@ UNREAD: dict[str, tuple[str, str]] = {
         "the module is found in the package that the file is in",
     ),
     "genpy_message.py strify_message": ("current_time", _SAME),
-    "import_bases.py Loader.create_module": ("spec", _FINDER),
-    "finder.py TranslatingLoader.source_to_code": ("_optimize", _FINDER),
+    "importlib_abc.py Loader.create_module": ("spec", _FINDER),
+    "import_hooks.py TranslatingLoader.source_to_code": ("_optimize", _FINDER),
     "moveit/commander/move_group.py MoveGroupCommander.retime_trajectory": (
         "ref_state_in",
         "the group's joints are all in the trajectory",
@@ -54,7 +54,7 @@ UNREAD: dict[str, tuple[str, str]] = {
     "rclpy/callback_groups.py CallbackGroup.can_execute": ("entity", _HOOK),
     "rclpy/callback_groups.py CallbackGroup.ending_execution": ("entity", _HOOK),
     "rclpy/callback_groups.py MutuallyExclusiveCallbackGroup.can_execute": ("entity", _SAME),
-    "rclpy/client_library.py shutdown": ("uninstall_handlers", "they only pass signals on then"),
+    "rclpy/init_shutdown.py shutdown": ("uninstall_handlers", "they only pass signals on then"),
     "rclpy/clock.py ROSClock.__new__": ("clock_type", "__init__ reads it"),
     "rclpy/endpoints.py Publisher.wait_for_all_acked": (
         "timeout",
@@ -78,8 +78,8 @@ UNREAD: dict[str, tuple[str, str]] = {
         _SAME,
     ),
     "rclpy/node_graph.py GraphQueries.get_topic_names_and_types": ("no_demangle", _SAME),
-    "refused.py RefusingFinder.find_spec": ("path target", _FINDER),
-    "rosgraph.py Master.__init__": ("caller_id", "the graph knows who asks"),
+    "unsupported/modules.py RefusingFinder.find_spec": ("path target", _FINDER),
+    "rosgraph/masterapi.py Master.__init__": ("caller_id", "the graph knows who asks"),
     "roslaunch/core.py ProcessListener.process_died": ("process_name exit_code", _HOOK),
     "roslaunch/parent.py ROSLaunchParent.__init__": (
         "local_only is_rostest num_workers timeout master_logger_level",
@@ -93,8 +93,8 @@ UNREAD: dict[str, tuple[str, str]] = {
         "packages are importable already",
     ),
     "rospy/client.py get_master": ("env", _SAME),
-    "rospy/naming.py remap_name": ("resolved", _SAME),
-    "rospy/naming.py valid_name_validator_unresolved": ("caller_id", _SAME),
+    "rospy/names.py remap_name": ("resolved", _SAME),
+    "rospy/names.py valid_name_validator_unresolved": ("caller_id", _SAME),
     "rospy/services.py Service.__init__": ("buff_size", _SOCKETS),
     "rospy/services.py ServiceProxy.__init__": ("persistent", _SOCKETS),
     "rospy/topics.py Publisher.__init__": ("tcp_nodelay", _SOCKETS),
@@ -114,10 +114,10 @@ UNREAD: dict[str, tuple[str, str]] = {
     "tf/tf1.py Transformer.setUsingDedicatedThread": ("value", "frames always have a thread"),
     "tf/tf1.py Transformer.waitForTransform": ("polling_sleep_duration", "nothing is polled"),
     "tf/tf1.py Transformer.waitForTransformFull": ("polling_sleep_duration", "nothing is polled"),
-    "urdf_objects/reflection.py AggregateElement.set_default": ("obj", _HOOK),
-    "urdf_objects/value_types.py RawType.from_xml": ("path", _HOOK),
-    "urdf_objects/value_types.py SimpleElementType.from_xml": ("path", _HOOK),
-    "urdf_objects/value_types.py ValueType.from_xml": ("path", _HOOK),
+    "urdf_parser_py/xml_reflection.py AggregateElement.set_default": ("obj", _HOOK),
+    "urdf_parser_py/value_types.py RawType.from_xml": ("path", _HOOK),
+    "urdf_parser_py/value_types.py SimpleElementType.from_xml": ("path", _HOOK),
+    "urdf_parser_py/value_types.py ValueType.from_xml": ("path", _HOOK),
 }
 
 # What Python calls by these names has arguments that are Python's.

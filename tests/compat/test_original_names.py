@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.compat.refused import REFUSED, refusal_of
+from gazelle.compat.unsupported.modules import REFUSED, refusal_of
 
 NAMES = Path(__file__).parent / "original_names"
 _ROS1 = (
@@ -79,7 +79,7 @@ _ROS2 = (
 
 @pytest.mark.parametrize("packages", [_ROS1, _ROS2], ids=["ROS 1", "ROS 2"])
 def test_names_of_the_original_are_here_or_known_to_be_missing(packages: tuple[str, ...]) -> None:
-    command = [sys.executable, "-m", "gazelle.compat.runner", str(NAMES / "compare.py")]
+    command = [sys.executable, "-m", "gazelle.compat.script_runner", str(NAMES / "compare.py")]
     done = subprocess.run(
         [*command, *(str(NAMES / f"{package}.txt") for package in packages)],
         capture_output=True,
@@ -181,7 +181,7 @@ print(Mine().waitables)
 
 
 def _python(program: str, *words: str) -> subprocess.CompletedProcess[str]:
-    file = "import gazelle.compat.finder as f; f.install()\n" + program
+    file = "import gazelle.compat.import_hooks as f; f.install()\n" + program
     modules = Path(__file__).parents[2] / "src" / "gazelle" / "compat" / "modules"
     return subprocess.run(
         [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(modules)!r}); {file}", *words],

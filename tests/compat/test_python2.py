@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.compat import told_once
+from gazelle.compat import warn_once
 from gazelle.compat.python2 import compile_source, is_python2
 
 
@@ -14,7 +14,7 @@ from gazelle.compat.python2 import compile_source, is_python2
 def _as_a_new_process(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     # Each file is told of once a process, and all tests here say "node.py".
-    monkeypatch.setattr(told_once, "_TOLD", set())
+    monkeypatch.setattr(warn_once, "_TOLD", set())
 
 
 def _run(source: str) -> dict[str, object]:

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from gazelle.compat import rosgraph_names as names
 from gazelle.compat.commands import rosmsg
+from gazelle.compat.rosgraph import names
 
 TWIST = """geometry_msgs/Vector3 linear
   float64 x

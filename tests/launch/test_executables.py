@@ -35,7 +35,7 @@ def test_python_script_runs_through_the_runner(package: Path) -> None:
     found, diagnostics = _find("tests_pkg", "does", package)
     assert found is not None and not list(diagnostics)
     script = package / "scripts" / "does"
-    assert found.command == (sys.executable, "-m", "gazelle.compat.runner", str(script))
+    assert found.command == (sys.executable, "-m", "gazelle.compat.script_runner", str(script))
     assert found.folder == script.parent
 
 

@@ -35,7 +35,9 @@ def start(gazelle: Callable[..., Any]) -> Start:
 
     def run(ros_version: str, name: str, *words: str) -> Any:
         file = NODES / ros_version / f"{name}.py"
-        return gazelle(str(file), *words, module="gazelle.compat.runner", PYTHONUNBUFFERED="1")
+        return gazelle(
+            str(file), *words, module="gazelle.compat.script_runner", PYTHONUNBUFFERED="1"
+        )
 
     return run
 

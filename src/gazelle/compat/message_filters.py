@@ -13,7 +13,7 @@ from typing import Any
 from gazelle.compat.rospy.rostime import get_rostime
 from gazelle.compat.rospy.topics import Subscriber as _Subscriber
 from gazelle.compat.tf.conversions import nanoseconds, time_of
-from gazelle.compat.told_once import warn_once
+from gazelle.compat.warn_once import warn_once
 
 __all__ = [
     "ApproximateTimeSynchronizer",

@@ -15,7 +15,7 @@ import sys
 from types import CodeType
 from typing import Any
 
-from gazelle.compat.told_once import is_news
+from gazelle.compat.warn_once import is_news
 from gazelle.folders import cache_folder
 
 __all__ = ["compile_source", "is_python2", "translated"]

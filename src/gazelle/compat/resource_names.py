@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from gazelle.compat.rosgraph_names import is_legal_base_name
+from gazelle.compat.rosgraph.names import is_legal_base_name
 
 __all__ = [
     "BASE_RESOURCE_NAME_LEGAL_CHARS_P",

@@ -55,7 +55,7 @@ def message_ros_version() -> RosVersion:
 
 def _importing_file() -> str | None:
     """Return the file of the nearest caller that is no part of the import machinery."""
-    finder = str(Path(__file__).with_name("finder.py"))
+    finder = str(Path(__file__).with_name("import_hooks.py"))
     frame: FrameType | None = sys._getframe(1)
     while frame is not None:
         name = frame.f_code.co_filename

@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import Any
 
 from gazelle.compat.junit import result_file, run_suite
-from gazelle.compat.told_once import warn_once
+from gazelle.compat.warn_once import warn_once
 
 __all__ = ["rosrun", "run", "unitrun"]
 

@@ -83,7 +83,7 @@ def find_executable(
 def script_command(path: Path) -> tuple[str, ...]:
     """Return the words that run a file: Python goes through our runner, the rest as it is."""
     if path.suffix == ".py" or _is_python(path):
-        return (sys.executable, "-m", "gazelle.compat.runner", str(path))
+        return (sys.executable, "-m", "gazelle.compat.script_runner", str(path))
     return (str(path),)
 
 

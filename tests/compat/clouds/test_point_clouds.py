@@ -11,9 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.compat.clouds import ros1, ros2
-from gazelle.compat.clouds.laser import LaserProjection
-from gazelle.compat.clouds.moving import do_transform_cloud
+from gazelle.compat.clouds import point_cloud2_ros1 as ros1
+from gazelle.compat.clouds import point_cloud2_ros2 as ros2
+from gazelle.compat.clouds.laser_geometry import LaserProjection
+from gazelle.compat.clouds.tf2_sensor_msgs import do_transform_cloud
 from gazelle.interfaces import message_type, ros1_message_type
 
 Field1 = ros1_message_type("sensor_msgs/PointField")

@@ -11,7 +11,7 @@ from tests.nodes.conftest import bench  # noqa: F401 - a fixture
 from tests.nodes.move_group.conftest import READY, ArmBench, make_arm  # noqa: F401 - a fixture
 
 from gazelle.compat.moveit import commander
-from gazelle.compat.moveit.commander import session
+from gazelle.compat.moveit.commander import roscpp_initializer
 from gazelle.interfaces import ros1_message_type
 
 UP = [0.0] * 6
@@ -23,10 +23,10 @@ def arm(
     monkeypatch: pytest.MonkeyPatch,
 ) -> Iterator[ArmBench]:
     made = make_arm(1)
-    monkeypatch.setattr(session, "node", lambda: made.bench.node)
+    monkeypatch.setattr(roscpp_initializer, "node", lambda: made.bench.node)
     yield made
-    session.client_of.cache_clear()
-    session.robot_of.cache_clear()
+    roscpp_initializer.client_of.cache_clear()
+    roscpp_initializer.robot_of.cache_clear()
 
 
 def _stamped(x: float, y: float, z: float) -> Any:

@@ -29,7 +29,7 @@ def test_program_of_questions_gets_the_answers_of_rclpy(gazelle: Callable[..., A
 
 def _answers(gazelle: Callable[..., Any]) -> list[str]:
     words = (str(REFERENCE / "program.txt"), "example_interfaces")
-    running = gazelle(*words, module="gazelle.compat.runner")
+    running = gazelle(*words, module="gazelle.compat.script_runner")
     assert running.wait() == 0, running.text
     noise = ("[INFO]", "[WARN]", "[ERROR]", "Traceback", "  ", "ValueError")
     got = [line.rstrip() for line in running.lines if not line.startswith(noise)]

@@ -316,7 +316,7 @@ def run(gazelle: Callable[..., Any], graph: Graph, tmp_path: Any) -> Callable[..
     def start(text: str, *words: str, **environ: str) -> Any:
         file = tmp_path / f"program{next(numbers)}.py"
         file.write_text(text, encoding="utf-8")
-        return gazelle(str(file), *words, module="gazelle.compat.runner", **environ)
+        return gazelle(str(file), *words, module="gazelle.compat.script_runner", **environ)
 
     return start
 

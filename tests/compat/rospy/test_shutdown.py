@@ -147,7 +147,7 @@ def interrupted(tmp_path_factory: pytest.TempPathFactory) -> Iterator[_Interrupt
         for name, text in (texts | _SAVES).items():
             file = folder / f"{name}.py"
             file.write_text(_HEAD + text, encoding="utf-8")
-            programs[name] = run(str(file), module="gazelle.compat.runner")
+            programs[name] = run(str(file), module="gazelle.compat.script_runner")
         for one in programs.values():
             one.wait_for_line("^ready$")
         eventually(asked.is_set)

@@ -22,7 +22,7 @@ from gazelle.cli.text.filling import yaml_words
 from gazelle.cli.text.ros2_filling import yaml_values
 from gazelle.cli.tool import ToolError
 from gazelle.compat.commands.rosparam import RosParamException, load_str
-from gazelle.compat.moveit_configs.files import load_yaml as load_moveit_yaml
+from gazelle.compat.moveit_configs.parameter_files import load_yaml as load_moveit_yaml
 from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
 from gazelle.control.sources.files import read_ros_arguments

@@ -212,7 +212,7 @@ def test_simple_commander_drives(bench, world, start, gazelle, tmp_path: Path) -
     start()
     script = tmp_path / "commander.py"
     script.write_text(_SCRIPT)
-    words = {"module": "gazelle.compat.runner", "ROS_VERSION": "2"}
+    words = {"module": "gazelle.compat.script_runner", "ROS_VERSION": "2"}
     run = gazelle(str(script), stdin=subprocess.PIPE, **words)
     run.wait_for_line("^drive True True$")
     assert "path True None" in run.text

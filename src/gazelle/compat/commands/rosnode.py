@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from gazelle.compat.rosgraph import Master, MasterError
+from gazelle.compat.rosgraph.masterapi import Master, MasterError
 from gazelle.compat.rospy.state import STATE
 from gazelle.errors import NotFoundError
 

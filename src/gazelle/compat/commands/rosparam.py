@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.compat.rospy import client
-from gazelle.compat.rospy.binary import as_bytes
+from gazelle.compat.rospy.binary_params import as_bytes
 from gazelle.documents.yaml import ROSPARAM, YamlError, dump_yaml, load_yaml
 from gazelle.errors import GazelleError
 from gazelle.graph.names import join, resolve

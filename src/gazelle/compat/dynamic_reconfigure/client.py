@@ -12,7 +12,7 @@ from gazelle.compat.dynamic_reconfigure.errors import (
     DynamicReconfigureCallbackException,
     DynamicReconfigureParameterException,
 )
-from gazelle.compat.rospy.errors import ROSException
+from gazelle.compat.rospy.exceptions import ROSException
 from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GraphError
 from gazelle.graph.dynamic_reconfigure import DynamicGroup, ReconfigureClient, ReconfigureError

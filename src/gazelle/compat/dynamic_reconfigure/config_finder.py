@@ -10,7 +10,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from gazelle.compat.import_bases import Loader, MetaPathFinder
+from gazelle.compat.importlib_abc import Loader, MetaPathFinder
 
 __all__ = ["ConfigFinder"]
 

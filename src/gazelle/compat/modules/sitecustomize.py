@@ -25,7 +25,7 @@ def _chain():
 
 _chain()
 if importlib.util.find_spec("gazelle") is not None:
-    from gazelle.compat.finder import install
+    from gazelle.compat.import_hooks import install
 
     install()
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from gazelle.compat.moveit_configs.builder import MoveItConfigsBuilder, get_pattern_matches
 from gazelle.compat.moveit_configs.configs import MoveItConfigs
-from gazelle.compat.moveit_configs.files import (
+from gazelle.compat.moveit_configs.parameter_builder import ParameterBuilder
+from gazelle.compat.moveit_configs.parameter_files import (
     ParameterBuilderFileNotFoundError,
     ParameterValueType,
     get_path,
@@ -18,7 +19,6 @@ from gazelle.compat.moveit_configs.files import (
     raise_if_file_not_found,
     render_template,
 )
-from gazelle.compat.moveit_configs.parameters import ParameterBuilder
 
 __all__ = [
     "MoveItConfigs",

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.compat.moveit_configs.configs import MoveItConfigs
-from gazelle.compat.moveit_configs.files import (
+from gazelle.compat.moveit_configs.parameter_builder import ParameterBuilder, expanded_parameter
+from gazelle.compat.moveit_configs.parameter_files import (
     ParameterBuilderFileNotFoundError,
     load_yaml,
 )
-from gazelle.compat.moveit_configs.parameters import ParameterBuilder, expanded_parameter
 from gazelle.description.moveit import DEFAULT_CONFIGS
 from gazelle.workspace.ament_index import get_package_share_directory
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from gazelle.compat.moveit_configs.files import load_xacro
+from gazelle.compat.moveit_configs.parameter_files import load_xacro
 from gazelle.launch.ros2.frontend import expose_substitution
 from gazelle.launch.ros2.launch_context import LaunchContext
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution

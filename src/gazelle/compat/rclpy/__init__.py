@@ -6,7 +6,8 @@ Behaviour as in https://github.com/ros2/rclpy.
 
 from __future__ import annotations
 
-from gazelle.compat.rclpy.client_library import (
+from gazelle.compat.rclpy.context import Context, get_default_context
+from gazelle.compat.rclpy.init_shutdown import (
     InitContextManager,
     SignalHandlerOptions,
     create_node,
@@ -19,7 +20,6 @@ from gazelle.compat.rclpy.client_library import (
     spin_until_future_complete,
     try_shutdown,
 )
-from gazelle.compat.rclpy.context import Context, get_default_context
 from gazelle.compat.rclpy.parameter import Parameter
 from gazelle.compat.rclpy.task import Future
 

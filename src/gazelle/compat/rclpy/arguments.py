@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.compat.told_once import is_news
+from gazelle.compat.warn_once import is_news
 from gazelle.errors import GraphError
 from gazelle.ros_arguments import (
     LOG_LEVEL,

@@ -12,7 +12,7 @@ from gazelle.compat.rclpy.context import Context, get_default_context
 from gazelle.compat.rclpy.duration import Duration
 from gazelle.compat.rclpy.exceptions import NotInitializedException
 from gazelle.compat.rclpy.time import ClockType, Time
-from gazelle.compat.told_once import warn_once
+from gazelle.compat.warn_once import warn_once
 from gazelle.graph import Clock as GraphClock
 from gazelle.graph import TimeJumpError
 

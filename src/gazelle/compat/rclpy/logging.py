@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.compat.told_once import is_news
+from gazelle.compat.warn_once import is_news
 
 __all__ = [
     "LoggingSeverity",

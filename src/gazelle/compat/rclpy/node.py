@@ -27,7 +27,7 @@ from gazelle.compat.rclpy.parameter import Parameter
 from gazelle.compat.rclpy.qos import QoSProfile, as_profile, qos_profile_services_default
 from gazelle.compat.rclpy.qos_overriding_options import QoSOverridingOptions, overridden
 from gazelle.compat.rclpy.timer import Rate, Timer
-from gazelle.compat.rclpy.type_descriptions import (
+from gazelle.compat.rclpy.type_description_service import (
     START_TYPE_DESCRIPTION_SERVICE_PARAM,
     offer_type_descriptions,
 )

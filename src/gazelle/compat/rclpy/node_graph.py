@@ -6,7 +6,7 @@ import enum
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from gazelle.compat.rclpy.names import (
+from gazelle.compat.rclpy.name_validation import (
     expand_topic_name,
     validate_full_topic_name,
     validate_topic_name,

@@ -6,7 +6,7 @@ import enum
 from typing import Any
 
 from gazelle.compat.rclpy.duration import Duration, Infinite
-from gazelle.compat.told_once import warn_once
+from gazelle.compat.warn_once import warn_once
 from gazelle.graph import Qos
 
 __all__ = [

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from gazelle.compat.rospy.client import *  # noqa: F403
 from gazelle.compat.rospy.client import DEBUG, ERROR, FATAL, INFO, WARN
-from gazelle.compat.rospy.errors import *  # noqa: F403
+from gazelle.compat.rospy.exceptions import *  # noqa: F403
 from gazelle.compat.rospy.log import *  # noqa: F403
 from gazelle.compat.rospy.rostime import *  # noqa: F403
 from gazelle.compat.rospy.services import *  # noqa: F403

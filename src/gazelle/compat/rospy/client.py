@@ -8,9 +8,9 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from gazelle.compat.rospy.binary import as_binary, as_bytes
-from gazelle.compat.rospy.errors import ROSException, ROSInterruptException
-from gazelle.compat.rospy.naming import (
+from gazelle.compat.rospy.binary_params import as_binary, as_bytes
+from gazelle.compat.rospy.exceptions import ROSException, ROSInterruptException
+from gazelle.compat.rospy.names import (
     get_caller_id,
     get_name,
     get_namespace,
@@ -19,7 +19,7 @@ from gazelle.compat.rospy.naming import (
 )
 from gazelle.compat.rospy.state import STATE
 from gazelle.compat.rospy.topics import wait_for_message
-from gazelle.compat.told_once import warn_once
+from gazelle.compat.warn_once import warn_once
 from gazelle.errors import GraphError
 from gazelle.graph.names import parse_command_line
 
@@ -289,7 +289,7 @@ class MasterProxy(Master):
     """
 
     def __init__(self, uri: str = "") -> None:
-        from gazelle.compat.master_address import warn_of_master
+        from gazelle.compat.rosgraph.rosenv import warn_of_master
 
         warn_of_master(uri)
 

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.compat.rospy import log, naming
+from gazelle.compat.rospy import log, names
 from gazelle.compat.rospy.client import (
     get_node_uri,
     get_ros_root,
@@ -17,9 +17,9 @@ from gazelle.compat.rospy.client import (
     is_shutdown_requested,
     signal_shutdown,
 )
-from gazelle.compat.rospy.errors import ParameterInvalid
+from gazelle.compat.rospy.exceptions import ParameterInvalid
 from gazelle.compat.rospy.log import *  # noqa: F403
-from gazelle.compat.rospy.naming import *  # noqa: F403
+from gazelle.compat.rospy.names import *  # noqa: F403
 from gazelle.compat.rospy.state import STATE
 
 __all__ = [
@@ -44,7 +44,7 @@ __all__ = [
     "signal_shutdown",
 ]
 __all__ += log.__all__
-__all__ += naming.__all__
+__all__ += names.__all__
 
 MASTER_NAME = "master"
 ROSRPC = "rosrpc://"

@@ -8,7 +8,7 @@ from types import FrameType
 from typing import Any
 
 from gazelle.compat.rospy.state import STATE
-from gazelle.compat.told_once import is_news
+from gazelle.compat.warn_once import is_news
 from gazelle.graph import Level
 
 __all__ = [

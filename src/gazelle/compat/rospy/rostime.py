@@ -7,7 +7,7 @@ import time as wall_time
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.compat.rospy.errors import (
+from gazelle.compat.rospy.exceptions import (
     ROSInitException,
     ROSInterruptException,
     ROSTimeMovedBackwardsException,

@@ -6,7 +6,7 @@ import traceback
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.compat.rospy.errors import ROSException, ROSInterruptException, ServiceException
+from gazelle.compat.rospy.exceptions import ROSException, ROSInterruptException, ServiceException
 from gazelle.compat.rospy.log import logdebug, logerr
 from gazelle.compat.rospy.state import STATE
 from gazelle.compat.rospy.topics import message_of, warn_of_headers

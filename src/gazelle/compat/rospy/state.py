@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from types import CodeType, FrameType
 from typing import Any
 
-from gazelle.compat.rospy.errors import ROSException, ROSInitException, ROSInterruptException
+from gazelle.compat.rospy.exceptions import ROSException, ROSInitException, ROSInterruptException
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Level, Node, offer_loggers
 from gazelle.graph.names import CommandLine, parse_command_line, resolve

@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from gazelle.compat.rospy.errors import (
+from gazelle.compat.rospy.exceptions import (
     ROSException,
     ROSInterruptException,
     ROSSerializationException,

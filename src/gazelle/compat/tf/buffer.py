@@ -9,9 +9,9 @@ from weakref import WeakSet
 
 from gazelle.compat.rclpy.task import Future
 from gazelle.compat.rospy.state import STATE
+from gazelle.compat.tf.buffer_interface import BufferInterface
 from gazelle.compat.tf.conversions import nanoseconds, ros_version, stamped, time_of
-from gazelle.compat.tf.errors import TransformException, as_tf2_error
-from gazelle.compat.tf.interface import BufferInterface
+from gazelle.compat.tf.exceptions import TransformException, as_tf2_error
 from gazelle.graph import Node
 from gazelle.graph import tf as graph_tf
 from gazelle.interfaces import ros1_service_type, service_type

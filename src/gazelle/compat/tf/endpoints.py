@@ -6,7 +6,7 @@ from typing import Any
 
 from gazelle.compat.rospy.state import STATE
 from gazelle.compat.tf.buffer import Buffer
-from gazelle.compat.told_once import warn_once
+from gazelle.compat.warn_once import warn_once
 from gazelle.graph import Node, Qos
 from gazelle.graph import tf as graph_tf
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gazelle.compat.rospy.rostime import Time
 from gazelle.compat.rospy.state import STATE
 from gazelle.compat.tf import tf2_ros
-from gazelle.compat.tf.geometry_messages import (
+from gazelle.compat.tf.tf2_geometry_msgs import (
     do_transform_point,
     do_transform_pose,
     do_transform_vector3,

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from gazelle.compat.tf.buffer import Buffer
+from gazelle.compat.tf.buffer_interface import (
+    BufferInterface,
+    ConvertRegistration,
+    TransformRegistration,
+    convert,
+)
 from gazelle.compat.tf.conversions import nanoseconds, stamped
 from gazelle.compat.tf.endpoints import (
     StaticTransformBroadcaster,
     TransformBroadcaster,
     TransformListener,
 )
-from gazelle.compat.tf.errors import (
+from gazelle.compat.tf.exceptions import (
     ConnectivityException,
     ExtrapolationException,
     InvalidArgumentException,
@@ -19,12 +25,6 @@ from gazelle.compat.tf.errors import (
     TransformException,
     TypeException,
     as_tf2_error,
-)
-from gazelle.compat.tf.interface import (
-    BufferInterface,
-    ConvertRegistration,
-    TransformRegistration,
-    convert,
 )
 
 __all__ = [

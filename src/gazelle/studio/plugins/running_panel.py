@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping
 from types import ModuleType
 from typing import Any
 
-from gazelle.compat.finder import install as make_messages_importable
+from gazelle.compat.import_hooks import install as make_messages_importable
 from gazelle.control.python_controllers.source_positions import located
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import Graph

@@ -30,7 +30,7 @@ def ros2_environment(environ: Mapping[str, str]) -> dict[str, str]:
 
 def surround_launch_files() -> None:
     """Let this process, in which launch files are run, have that environment and the modules."""
-    from gazelle.compat.finder import install
+    from gazelle.compat.import_hooks import install
 
     os.environ.update(ros2_environment(os.environ))
     folder = str(drop_in_folder())

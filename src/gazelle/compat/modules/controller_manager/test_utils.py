@@ -1,6 +1,6 @@
 """Drop-in for controller_manager.test_utils."""
 
-from gazelle.compat.controller_checks import (
+from gazelle.compat.controller_manager_checks import (
     check_controllers_running,
     check_if_js_published,
     check_node_running,

@@ -1,3 +1,3 @@
 """cv_bridge.core."""
 
-from gazelle.compat.images.bridge import *  # noqa: F403
+from gazelle.compat.images.cv_bridge import *  # noqa: F403

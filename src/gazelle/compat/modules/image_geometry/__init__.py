@@ -1,5 +1,5 @@
 """image_geometry, on numpy."""
 
-from gazelle.compat.images.camera_models import PinholeCameraModel, StereoCameraModel
+from gazelle.compat.images.image_geometry import PinholeCameraModel, StereoCameraModel
 
 __all__ = ["PinholeCameraModel", "StereoCameraModel"]

@@ -1,5 +1,5 @@
 """laser_geometry, on numpy."""
 
-from gazelle.compat.clouds.laser import LaserProjection
+from gazelle.compat.clouds.laser_geometry import LaserProjection
 
 __all__ = ["LaserProjection"]

@@ -1,3 +1,3 @@
 """laser_geometry.laser_geometry."""
 
-from gazelle.compat.clouds.laser import *  # noqa: F403
+from gazelle.compat.clouds.laser_geometry import *  # noqa: F403

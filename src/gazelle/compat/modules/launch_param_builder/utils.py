@@ -1,6 +1,6 @@
 """launch_param_builder.utils, by Gazelle."""
 
-from gazelle.compat.moveit_configs.files import (
+from gazelle.compat.moveit_configs.parameter_files import (
     ParameterBuilderFileNotFoundError,
     ParameterValueType,
     get_path,

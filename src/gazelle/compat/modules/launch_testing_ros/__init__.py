@@ -6,8 +6,8 @@ from types import ModuleType as _ModuleType
 from launch_testing import test_runner as _runner
 from launch_testing import tools as _tools
 
-from gazelle.compat.launch_ros import testing as _testing
-from gazelle.compat.launch_ros.testing import (
+from gazelle.compat.launch_ros import launch_testing_ros as _testing
+from gazelle.compat.launch_ros.launch_testing_ros import (
     DataRepublisher,
     MessagePump,
     WaitForTopics,

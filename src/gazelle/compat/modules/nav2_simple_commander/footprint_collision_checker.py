@@ -1,3 +1,3 @@
 """nav2_simple_commander.footprint_collision_checker, by Gazelle."""
 
-from gazelle.compat.navigation.costmaps import *  # noqa: F403
+from gazelle.compat.nav2_simple_commander.costmap_2d import *  # noqa: F403

@@ -1,5 +1,5 @@
 """nav2_simple_commander.line_iterator, by Gazelle."""
 
-from gazelle.compat.navigation.lines import LineIterator
+from gazelle.compat.nav2_simple_commander.lines import LineIterator
 
 __all__ = ["LineIterator"]

@@ -1,5 +1,5 @@
 """Drop-in for nav2_simple_commander.robot_navigator."""
 
-from gazelle.compat.navigation.navigator import BasicNavigator, TaskResult
+from gazelle.compat.nav2_simple_commander.robot_navigator import BasicNavigator, TaskResult
 
 __all__ = ["BasicNavigator", "TaskResult"]

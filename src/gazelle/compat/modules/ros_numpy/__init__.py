@@ -2,7 +2,7 @@
 
 from rospy.numpy_msg import numpy_msg
 
-from gazelle.compat.arrays import msgify, numpify
+from gazelle.compat.ros_numpy import msgify, numpify
 
 from . import geometry, image, occupancy_grid, point_cloud2
 

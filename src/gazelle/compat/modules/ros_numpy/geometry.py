@@ -1,3 +1,3 @@
 """ros_numpy.geometry."""
 
-from gazelle.compat.arrays.geometry import *  # noqa: F403
+from gazelle.compat.ros_numpy.geometry import *  # noqa: F403

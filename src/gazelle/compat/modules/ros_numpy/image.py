@@ -1,3 +1,3 @@
 """ros_numpy.image."""
 
-from gazelle.compat.arrays.image import *  # noqa: F403
+from gazelle.compat.ros_numpy.image import *  # noqa: F403

@@ -1,3 +1,3 @@
 """ros_numpy.occupancy_grid."""
 
-from gazelle.compat.arrays.grid import *  # noqa: F403
+from gazelle.compat.ros_numpy.occupancy_grid import *  # noqa: F403

@@ -1,3 +1,3 @@
 """ros_numpy.point_cloud2."""
 
-from gazelle.compat.arrays.cloud import *  # noqa: F403
+from gazelle.compat.ros_numpy.point_cloud2 import *  # noqa: F403

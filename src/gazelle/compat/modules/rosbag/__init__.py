@@ -1,6 +1,6 @@
 """rosbag, on Gazelle's bags."""
 
-from gazelle.compat.bags.rosbag import (
+from gazelle.compat.rosbag import (
     Bag,
     Compression,
     ROSBagException,

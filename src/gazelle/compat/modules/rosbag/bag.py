@@ -1,3 +1,3 @@
 """rosbag.bag."""
 
-from gazelle.compat.bags.rosbag import *  # noqa: F403
+from gazelle.compat.rosbag import *  # noqa: F403

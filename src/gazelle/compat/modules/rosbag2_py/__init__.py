@@ -1,3 +1,3 @@
 """rosbag2_py, on Gazelle's bags."""
 
-from gazelle.compat.bags.rosbag2 import *  # noqa: F403
+from gazelle.compat.rosbag2_py import *  # noqa: F403

@@ -2,9 +2,9 @@
 
 import sys as _sys
 
-from gazelle.compat import rosgraph as _rosgraph
-from gazelle.compat import rosgraph_names as names
-from gazelle.compat.rosgraph import *  # noqa: F403
+from gazelle.compat.rosgraph import masterapi as _rosgraph
+from gazelle.compat.rosgraph import names
+from gazelle.compat.rosgraph.masterapi import *  # noqa: F403
 from gazelle.graph.names import parse_command_line as _parse
 
 masterapi = network = rosenv = _rosgraph

@@ -1,3 +1,3 @@
 """rosidl_runtime_py.convert."""
 
-from gazelle.compat.packages.runtime import *  # noqa: F403
+from gazelle.compat.rosidl_runtime_py import *  # noqa: F403

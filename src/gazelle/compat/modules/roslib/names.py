@@ -1,4 +1,4 @@
 """roslib.names, by Gazelle."""
 
 from gazelle.compat.resource_names import *  # noqa: F403
-from gazelle.compat.rosgraph_names import *  # noqa: F403
+from gazelle.compat.rosgraph.names import *  # noqa: F403

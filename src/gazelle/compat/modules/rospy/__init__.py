@@ -15,25 +15,25 @@ from gazelle.compat.rospy import (
     Message,
     client,
     core,
-    errors,
+    exceptions,
     log,
+    names,
     rostime,
 )
-from gazelle.compat.rospy import naming as names
 from gazelle.compat.rospy.client import *  # noqa: F403
 from gazelle.compat.rospy.core import parse_rosrpc_uri
-from gazelle.compat.rospy.errors import *  # noqa: F403
+from gazelle.compat.rospy.exceptions import *  # noqa: F403
 from gazelle.compat.rospy.log import *  # noqa: F403
 from gazelle.compat.rospy.rostime import *  # noqa: F403
 from gazelle.compat.rospy.services import *  # noqa: F403
 from gazelle.compat.rospy.topics import *  # noqa: F403
 
 # Programs also reach for rospy's inner modules by name.
-exceptions, timer = errors, rostime
+timer = rostime
 for _name, _module in {
     "client": client,
     "core": core,
-    "exceptions": errors,
+    "exceptions": exceptions,
     "names": names,
     "rostime": rostime,
     "timer": rostime,

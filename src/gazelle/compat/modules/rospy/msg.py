@@ -1,3 +1,3 @@
 """rospy.msg: messages of any type, and messages as bytes."""
 
-from gazelle.compat.rospy.framing import *  # noqa: F403
+from gazelle.compat.rospy.msg import *  # noqa: F403

@@ -1,5 +1,5 @@
 """rospy.numpy_msg: message classes whose arrays are numpy's."""
 
-from gazelle.compat.rospy.numpy_messages import numpy_msg
+from gazelle.compat.rospy.numpy_msg import numpy_msg
 
 __all__ = ["numpy_msg"]

@@ -1,5 +1,5 @@
 """rospy.service: the base of services, with all that rospy.core has."""
 
 from gazelle.compat.rospy.core import *  # noqa: F403
-from gazelle.compat.rospy.errors import ServiceException
+from gazelle.compat.rospy.exceptions import ServiceException
 from gazelle.compat.rospy.services import *  # noqa: F403

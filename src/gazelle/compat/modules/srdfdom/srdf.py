@@ -1,3 +1,3 @@
 """srdfdom.srdf, by Gazelle."""
 
-from gazelle.compat.moveit_configs.srdf_objects import *  # noqa: F403
+from gazelle.compat.moveit_configs.srdfdom import *  # noqa: F403

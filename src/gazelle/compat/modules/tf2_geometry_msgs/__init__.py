@@ -1,6 +1,6 @@
 """tf2_geometry_msgs, on Gazelle's graph."""
 
-from gazelle.compat.tf.geometry_messages import (
+from gazelle.compat.tf.tf2_geometry_msgs import (
     do_transform_point,
     do_transform_pose,
     do_transform_pose_stamped,

@@ -1,3 +1,3 @@
 """tf2_geometry_msgs.tf2_geometry_msgs."""
 
-from gazelle.compat.tf.geometry_messages import *  # noqa: F403
+from gazelle.compat.tf.tf2_geometry_msgs import *  # noqa: F403

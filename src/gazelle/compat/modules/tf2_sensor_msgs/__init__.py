@@ -1,6 +1,6 @@
 """tf2_sensor_msgs, on numpy."""
 
-from gazelle.compat.clouds.moving import do_transform_cloud, register
+from gazelle.compat.clouds.tf2_sensor_msgs import do_transform_cloud, register
 
 register()
 

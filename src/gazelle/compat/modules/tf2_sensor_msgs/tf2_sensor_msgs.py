@@ -1,3 +1,3 @@
 """tf2_sensor_msgs.tf2_sensor_msgs."""
 
-from gazelle.compat.clouds.moving import *  # noqa: F403
+from gazelle.compat.clouds.tf2_sensor_msgs import *  # noqa: F403

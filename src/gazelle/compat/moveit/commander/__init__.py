@@ -5,8 +5,8 @@ from __future__ import annotations
 from gazelle.compat.moveit.commander.exception import MoveItCommanderException
 from gazelle.compat.moveit.commander.move_group import MoveGroupCommander
 from gazelle.compat.moveit.commander.robot import RobotCommander
+from gazelle.compat.moveit.commander.roscpp_initializer import roscpp_initialize, roscpp_shutdown
 from gazelle.compat.moveit.commander.scene import PlanningSceneInterface
-from gazelle.compat.moveit.commander.session import roscpp_initialize, roscpp_shutdown
 
 __all__ = [
     "MoveGroupCommander",

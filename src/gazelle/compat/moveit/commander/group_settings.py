@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.compat.moveit.commander.exception import MoveItCommanderException
-from gazelle.compat.moveit.targets import Targets
+from gazelle.compat.moveit.goal_constraints import Targets
 from gazelle.interfaces import convert, message_type, ros1_message_type
 
 __all__ = ["GroupSettings"]

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.compat.moveit.client import MoveGroupClient
 from gazelle.compat.moveit.commander.conversions import list_to_pose_stamped, pose_of_list
 from gazelle.compat.moveit.commander.exception import MoveItCommanderException
 from gazelle.compat.moveit.commander.group_settings import GroupSettings
-from gazelle.compat.moveit.robot_view import RobotView
+from gazelle.compat.moveit.move_group_client import MoveGroupClient
+from gazelle.compat.moveit.robot_interface import RobotView
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose, quat_xyzw_from_rpy

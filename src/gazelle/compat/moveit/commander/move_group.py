@@ -8,8 +8,8 @@ from typing import Any
 from gazelle.compat.moveit.commander.conversions import pose_of_list
 from gazelle.compat.moveit.commander.exception import MoveItCommanderException
 from gazelle.compat.moveit.commander.group_targets import GroupTargets
-from gazelle.compat.moveit.commander.session import client_of, robot_of, ros1
-from gazelle.compat.told_once import warn_once
+from gazelle.compat.moveit.commander.roscpp_initializer import client_of, robot_of, ros1
+from gazelle.compat.warn_once import warn_once
 from gazelle.interfaces import action_type, convert, message_type, service_type
 from gazelle.motion.timing import parameterise
 from gazelle.nodes.move_group.constraint_messages import pose_of

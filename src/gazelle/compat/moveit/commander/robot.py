@@ -7,8 +7,8 @@ from typing import Any
 from gazelle.compat.moveit.commander.conversions import list_to_pose_stamped
 from gazelle.compat.moveit.commander.exception import MoveItCommanderException
 from gazelle.compat.moveit.commander.move_group import MoveGroupCommander
-from gazelle.compat.moveit.commander.session import robot_of, ros1
-from gazelle.compat.moveit.robot_view import RobotView
+from gazelle.compat.moveit.commander.roscpp_initializer import robot_of, ros1
+from gazelle.compat.moveit.robot_interface import RobotView
 from gazelle.diagnostics import did_you_mean
 from gazelle.motion.model import JointGroup, JointKind, RobotJoint
 from gazelle.nodes.move_group.robot_state_messages import robot_state_message

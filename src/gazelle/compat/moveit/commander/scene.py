@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.compat.moveit.commander.exception import MoveItCommanderException
-from gazelle.compat.moveit.commander.session import client_of, ros1
+from gazelle.compat.moveit.commander.roscpp_initializer import client_of, ros1
 from gazelle.geometry import MeshError, load_mesh
 from gazelle.interfaces import convert, fill, message_type, ros1_message_type, service_type
 

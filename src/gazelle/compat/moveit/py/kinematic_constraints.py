@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from gazelle.compat.moveit.goal_constraints import joint_constraints, pose_constraints
 from gazelle.compat.moveit.py.robot import JointModelGroup, RobotState
-from gazelle.compat.moveit.targets import joint_constraints, pose_constraints
 
 __all__ = ["construct_joint_constraint", "construct_link_constraint"]
 

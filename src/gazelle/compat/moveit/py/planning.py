@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from gazelle.compat.moveit.goal_constraints import joint_constraints, pose_constraints
 from gazelle.compat.moveit.py.robot import RobotModel, RobotState, RobotTrajectory
 from gazelle.compat.moveit.py.scene import PlanningSceneMonitor
-from gazelle.compat.moveit.targets import joint_constraints, pose_constraints
 from gazelle.description.moveit import config_from_parameters
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import GazelleError

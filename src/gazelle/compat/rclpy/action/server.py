@@ -17,7 +17,7 @@ from gazelle.compat.rclpy.qos import (
     tell_unusual_qos,
 )
 from gazelle.compat.rclpy.work import Once
-from gazelle.compat.told_once import warn_once
+from gazelle.compat.warn_once import warn_once
 from gazelle.graph.actions import ActionServer as _Server
 from gazelle.graph.actions import (
     ActionTiming,

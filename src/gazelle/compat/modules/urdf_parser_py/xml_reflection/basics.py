@@ -1,3 +1,3 @@
 """urdf_parser_py.xml_reflection.basics, by Gazelle."""
 
-from gazelle.compat.urdf_objects.xml_text import *  # noqa: F403
+from gazelle.compat.urdf_parser_py.xml_text import *  # noqa: F403

@@ -1,1 +1,0 @@
-"""Bags in users' programs: the Python interfaces of rosbag and of rosbag2."""

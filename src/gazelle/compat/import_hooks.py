@@ -1,0 +1,214 @@
+"""Imports that only exist here: message packages, and packages of the workspace.
+
+Message classes take the form of ROS 1 or ROS 2, see `gazelle.compat.ros_version`.
+They stand last in ``sys.meta_path``, so whatever is installed wins; before them only Gazelle's own
+drop-in modules are looked at, for the sentences of what they do not have.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.machinery import ModuleSpec, SourceFileLoader
+from importlib.util import spec_from_file_location, spec_from_loader
+from pathlib import Path
+from types import CodeType, ModuleType
+from typing import Any
+
+from gazelle.compat.importlib_abc import Loader, MetaPathFinder
+from gazelle.compat.ros_version import message_ros_version
+from gazelle.compat.unsupported.modules import RefusingFinder
+from gazelle.compat.unsupported.placeholders import AttachingFinder
+
+__all__ = ["install"]
+
+_PARTS = ("msg", "srv", "action")
+# What message packages hold besides messages.
+_BESIDES = {"sensor_msgs.point_cloud2": "gazelle.compat.clouds.point_cloud2_ros1"}
+
+
+def install() -> None:
+    """Put the finders behind Python's own, once."""
+    if not any(isinstance(item, _WorkspaceFinder) for item in sys.meta_path):
+        from gazelle.compat.dynamic_reconfigure.config_finder import ConfigFinder
+
+        workspace = _WorkspaceFinder()
+        configs = ConfigFinder(workspace.folder)
+        last = RefusingFinder()
+        sys.meta_path += [workspace, _InterfaceFinder(workspace), configs, last]
+        sys.meta_path.insert(0, AttachingFinder())
+
+
+class _WorkspaceFinder(MetaPathFinder):
+    """Finds the Python module of a catkin or ament package: ``src/NAME`` or ``NAME`` in it."""
+
+    def __init__(self) -> None:
+        self._workspace: Any = None
+
+    def folder(self, name: str) -> Path | None:
+        """Return a package's folder, or None; the workspace is crawled on first use."""
+        if self._workspace is None:
+            from gazelle.workspace import Workspace
+
+            self._workspace = Workspace.discover()
+        package = self._workspace.user_package(name)
+        return None if package is None else package.path
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None,
+        target: ModuleType | None = None,
+    ) -> ModuleSpec | None:
+        if path is not None or fullname.startswith("_"):
+            return None
+        folder = self.folder(fullname)
+        if folder is None:
+            return None
+        for candidate in (folder / "src" / fullname, folder / fullname):
+            file = candidate / "__init__.py"
+            if file.is_file():
+                loader = TranslatingLoader(fullname, str(file))
+                return spec_from_file_location(
+                    fullname, file, loader=loader, submodule_search_locations=[str(candidate)]
+                )
+        return None
+
+
+class TranslatingLoader(SourceFileLoader):
+    """Loads a source file, Python 2 or 3; caches no byte code of translated ones."""
+
+    def source_to_code(  # type: ignore[override]
+        self, data: bytes, path: str, *, _optimize: int = -1
+    ) -> CodeType:
+        """Compile the source, translated when it is Python 2."""
+        from gazelle.compat.python2 import compile_source
+
+        return compile_source(bytes(data), path)
+
+
+class _InterfaceFinder(MetaPathFinder):
+    """Makes ``PKG``, ``PKG.msg``, ``PKG.srv`` and ``PKG.action`` out of definitions."""
+
+    def __init__(self, workspace: _WorkspaceFinder) -> None:
+        self._workspace = workspace
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None,
+        target: ModuleType | None = None,
+    ) -> ModuleSpec | None:
+        if fullname in _BESIDES:
+            return spec_from_loader(fullname, _ReexportLoader(_BESIDES[fullname]))
+        package, _, rest = fullname.partition(".")
+        part, _, name = rest.partition(".")
+        if (part and part not in _PARTS) or not self._defines(package):
+            return None
+        if name and not name.startswith("_"):
+            return None
+        if name:
+            # genpy's own layout: from std_msgs.msg._String import String
+            return spec_from_loader(fullname, _AliasLoader(f"{package}.{part}", name))
+        loader = _PartLoader(package, part) if part else _PackageLoader()
+        return spec_from_loader(fullname, loader, is_package=True)
+
+    def _defines(self, package: str) -> bool:
+        from gazelle.interfaces import add_package, known_types
+
+        if any(known_types(part, package) for part in _PARTS):
+            return True
+        folder = self._workspace.folder(package)
+        if folder is None or not any((folder / part).is_dir() for part in _PARTS):
+            return False
+        add_package(package, folder)
+        return True
+
+
+class _PackageLoader(Loader):
+    def exec_module(self, module: ModuleType) -> None:
+        module.__path__ = []
+
+
+class _AliasLoader(Loader):
+    """A module such as ``std_msgs.msg._String``, which holds one class (or a service's three)."""
+
+    def __init__(self, parent: str, name: str) -> None:
+        self._parent = parent
+        self._name = name.removeprefix("_")
+
+    def exec_module(self, module: ModuleType) -> None:
+        parent = import_module(self._parent)
+        for suffix in ("", "Request", "Response"):
+            name = self._name + suffix
+            if name in parent.__all__:
+                setattr(module, name, getattr(parent, name))
+
+
+class _ReexportLoader(Loader):
+    """A module that has the public names of another."""
+
+    def __init__(self, source: str) -> None:
+        self._source = source
+
+    def exec_module(self, module: ModuleType) -> None:
+        source = import_module(self._source)
+        module.__all__ = source.__all__  # type: ignore[attr-defined]
+        for name in source.__all__:
+            setattr(module, name, getattr(source, name))
+
+
+class _PartLoader(Loader):
+    """Fills ``PKG.msg`` on demand: a class is made when it is first asked for."""
+
+    def __init__(self, package: str, part: str) -> None:
+        self._package = package
+        self._part = part
+        self._is_ros1 = True
+
+    def exec_module(self, module: ModuleType) -> None:
+        from gazelle.interfaces import known_types
+
+        self._is_ros1 = message_ros_version() == 1
+        names = known_types(self._part, self._package)
+        exported = [name.rsplit("/", 1)[-1] for name in names]
+        if self._part == "srv" and self._is_ros1:
+            exported += [f"{name}{half}" for name in exported for half in ("Request", "Response")]
+        make = self._make
+
+        def find(name: str) -> Any:
+            if name not in exported:
+                raise AttributeError(f"module '{module.__name__}' has no attribute '{name}'")
+            made = make(name)
+            setattr(module, name, made)
+            return made
+
+        module.__path__ = []
+        module.__all__ = sorted(exported)  # type: ignore[attr-defined]
+        module.__getattr__ = find  # type: ignore[method-assign]
+
+    def _make(self, name: str) -> Any:
+        from gazelle import interfaces
+
+        full = f"{self._package}/{self._part}/{name}"
+        if self._part == "action":
+            return interfaces.action_type(full)
+        if not self._is_ros1:
+            made = interfaces.message_type if self._part == "msg" else interfaces.service_type
+            return made(full)
+        if self._part == "msg":
+            return interfaces.ros1_message_type(f"{self._package}/{name}")
+        return self._ros1_service(name)
+
+    def _ros1_service(self, name: str) -> Any:
+        from gazelle.interfaces import known_types, ros1_service_type
+
+        names = {item.rsplit("/", 1)[-1] for item in known_types("srv", self._package)}
+        if name in names:
+            return ros1_service_type(f"{self._package}/{name}")
+        for half in ("Request", "Response"):
+            if name.endswith(half) and name.removesuffix(half) in names:
+                service = ros1_service_type(f"{self._package}/{name.removesuffix(half)}")
+                return getattr(service, f"_{half.lower()}_class")
+        raise AttributeError(name)

@@ -1,1 +1,0 @@
-"""Packages and interfaces as users' programs ask for them."""

@@ -1,0 +1,1 @@
+"""Modules, attributes and keyword arguments of ROS's Python that Gazelle does not have."""
