@@ -69,15 +69,15 @@ UNREAD: dict[str, tuple[str, str]] = {
     "rclpy/lifecycle/entities.py SimpleManagedEntity.on_activate": ("state", _HOOK),
     "rclpy/lifecycle/entities.py SimpleManagedEntity.on_deactivate": ("state", _HOOK),
     "rclpy/logging.py set_logger_level": ("detailed_error", "setting a level does not fail here"),
-    "rclpy/node_graph.py GraphQueries.get_publisher_names_and_types_by_node": (
+    "rclpy/node.py Node.get_publisher_names_and_types_by_node": (
         "no_demangle",
         _SAME,
     ),
-    "rclpy/node_graph.py GraphQueries.get_subscriber_names_and_types_by_node": (
+    "rclpy/node.py Node.get_subscriber_names_and_types_by_node": (
         "no_demangle",
         _SAME,
     ),
-    "rclpy/node_graph.py GraphQueries.get_topic_names_and_types": ("no_demangle", _SAME),
+    "rclpy/node.py Node.get_topic_names_and_types": ("no_demangle", _SAME),
     "unsupported/modules.py RefusingFinder.find_spec": ("path target", _FINDER),
     "rosgraph/masterapi.py Master.__init__": ("caller_id", "the graph knows who asks"),
     "roslaunch/core.py ProcessListener.process_died": ("process_name exit_code", _HOOK),

@@ -6,15 +6,15 @@ from types import SimpleNamespace
 
 import pytest
 
-from gazelle.compat.commands import rostopic_rates
-from gazelle.compat.commands.rostopic_rates import ROSTopicBandwidth, ROSTopicDelay, ROSTopicHz
+from gazelle.compat.commands import rostopic
+from gazelle.compat.commands.rostopic import ROSTopicBandwidth, ROSTopicDelay, ROSTopicHz
 
 
 def test_rate_is_that_of_the_times_between_messages(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     clock = [0.0]
-    monkeypatch.setattr(rostopic_rates, "get_time", lambda: clock[0])
+    monkeypatch.setattr(rostopic, "get_time", lambda: clock[0])
     rates = ROSTopicHz(-1, filter_expr=lambda message: message != "skipped")
     for clock[0] in (1.0, 1.5, 2.0, 3.0):
         rates.callback_hz("counted", topic="/scan")
@@ -37,7 +37,7 @@ def test_rate_is_that_of_the_times_between_messages(
 def test_delay_is_taken_from_the_header(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(rostopic_rates, "get_time", lambda: 10.0)
+    monkeypatch.setattr(rostopic, "get_time", lambda: 10.0)
     delays = ROSTopicDelay(-1)
     for stamp in (9.0, 9.5):
         header = SimpleNamespace(stamp=SimpleNamespace(to_sec=lambda stamp=stamp: stamp))

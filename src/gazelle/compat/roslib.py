@@ -1,23 +1,32 @@
-"""What `roslib` is in Gazelle: classes by name, and files of packages."""
+"""What `roslib` is in Gazelle: classes by name, files of packages, and names of types.
+
+Names of messages and services are ``package/Name``; `roslib.names` takes them apart.
+"""
 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from gazelle.compat.rosgraph.names import is_legal_base_name
 from gazelle.compat.rospkg import ResourceNotFound, RosPack
 from gazelle.errors import GazelleError
 from gazelle.interfaces import ros1_message_type, ros1_service_type
 from gazelle.workspace import Workspace
 
 __all__ = [
+    "BASE_RESOURCE_NAME_LEGAL_CHARS_P",
     "MANIFEST_FILE",
     "PACKAGE_FILE",
+    "PRN_SEPARATOR",
+    "RESOURCE_NAME_LEGAL_CHARS_P",
     "ROS_PACKAGE_PATH",
     "ROS_ROOT",
     "SRC_DIR",
+    "TYPE_SEPARATOR",
     "InvalidROSPkgException",
     "MultipleNodesException",
     "ROSPkgException",
@@ -28,17 +37,60 @@ __all__ = [
     "get_pkg_dir",
     "get_pkg_subdir",
     "get_service_class",
+    "is_legal_resource_base_name",
+    "is_legal_resource_name",
     "list_pkgs_by_path",
     "load_manifest",
+    "package_resource_name",
     "resource_file",
+    "resource_name",
+    "resource_name_base",
+    "resource_name_package",
 ]
 
-
+PRN_SEPARATOR = TYPE_SEPARATOR = "/"
+RESOURCE_NAME_LEGAL_CHARS_P = re.compile(r"^[A-Za-z][\w/]*$")
+BASE_RESOURCE_NAME_LEGAL_CHARS_P = re.compile(r"^[A-Za-z]\w*$")
+is_legal_resource_base_name = is_legal_base_name
 MANIFEST_FILE = "manifest.xml"
 PACKAGE_FILE = "package.xml"
 SRC_DIR = "src"
 ROS_PACKAGE_PATH = "ROS_PACKAGE_PATH"
 ROS_ROOT = "ROS_ROOT"
+
+
+def is_legal_resource_name(name: str | None) -> bool:
+    """Tell whether a name may be a resource's: letters, digits, ``_`` and single slashes."""
+    if name is None or "//" in name:
+        return False
+    return RESOURCE_NAME_LEGAL_CHARS_P.fullmatch(name) is not None
+
+
+def resource_name(res_pkg_name: str, name: str, my_pkg: str | None = None) -> str:
+    """Return ``package/Name``, only the name inside of the package itself."""
+    return name if res_pkg_name == my_pkg else f"{res_pkg_name}/{name}"
+
+
+def resource_name_base(name: str) -> str:
+    """Return the name without its package."""
+    return name.rpartition("/")[2]
+
+
+def resource_name_package(name: str) -> str | None:
+    """Return the package of a name, None without one."""
+    return name.partition("/")[0] if "/" in name else None
+
+
+def package_resource_name(name: str) -> tuple[str, str]:
+    """Return package and name; the package is empty without one.
+
+    Raises:
+        ValueError: the name has more than one slash.
+    """
+    package, _, base = name.rpartition("/")
+    if "/" in package:
+        raise ValueError(f"invalid name [{name}]")
+    return package, base
 
 
 class ROSPkgException(Exception):  # noqa: N818 - roslib's name

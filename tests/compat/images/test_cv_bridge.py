@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gazelle.compat.images.conversion import convert_image
 from gazelle.compat.images.cv_bridge import CvBridge, CvBridgeError
-from gazelle.compat.images.encodings import find_encoding
+from gazelle.compat.images.encodings import convert_image, find_encoding
 from gazelle.interfaces import message_type
 
 BRIDGE = CvBridge()

@@ -17,7 +17,7 @@ from gazelle.compat.moveit_configs import (
     load_file,
     load_yaml,
 )
-from gazelle.compat.moveit_configs.template import rendered
+from gazelle.compat.moveit_configs.parameter_files import rendered
 from gazelle.errors import LaunchError, UserFileError
 from gazelle.launch.ros2.launch_context import LaunchContext
 from gazelle.launch.ros2.launch_ros.utilities.node_parameters import evaluate_parameters

@@ -8,8 +8,11 @@ from typing import Any
 
 import pytest
 
-from gazelle.compat.nav2_simple_commander.costmap_2d import FootprintCollisionChecker, PyCostmap2D
-from gazelle.compat.nav2_simple_commander.lines import LineIterator
+from gazelle.compat.nav2_simple_commander.costmap_2d import (
+    FootprintCollisionChecker,
+    LineIterator,
+    PyCostmap2D,
+)
 from gazelle.interfaces import message_type
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from gazelle.compat.junit import xml_text
+from gazelle.compat.rostest import xml_text
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
 

@@ -7,17 +7,17 @@ Behaviour as in https://github.com/ros/actionlib (noetic).
 from __future__ import annotations
 
 from gazelle.compat.actionlib.client import ActionClient, ClientGoalHandle, TerminalState
-from gazelle.compat.actionlib.goal_ids import GoalIDGenerator
-from gazelle.compat.actionlib.server import ActionServer, ServerGoalHandle
-from gazelle.compat.actionlib.simple_client import SimpleActionClient, SimpleGoalState
-from gazelle.compat.actionlib.simple_server import SimpleActionServer
-from gazelle.compat.actionlib.spec import (
+from gazelle.compat.actionlib.goals import (
     ActionException,
     CommState,
     GoalID,
+    GoalIDGenerator,
     GoalStatus,
     GoalStatusArray,
 )
+from gazelle.compat.actionlib.server import ActionServer, ServerGoalHandle
+from gazelle.compat.actionlib.simple_client import SimpleActionClient, SimpleGoalState
+from gazelle.compat.actionlib.simple_server import SimpleActionServer
 
 __all__ = [
     "ActionClient",

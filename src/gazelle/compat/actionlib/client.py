@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.compat.actionlib.spec import CommState, GoalStatus, check_spec, constant_name
+from gazelle.compat.actionlib.goals import CommState, GoalStatus, check_spec, constant_name
 from gazelle.compat.rospy.client import is_shutdown
 from gazelle.compat.rospy.log import logerr, logwarn
 from gazelle.compat.rospy.rostime import Duration, get_rostime

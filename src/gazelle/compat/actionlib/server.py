@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.compat.actionlib.spec import GoalID, GoalStatus, check_spec
+from gazelle.compat.actionlib.goals import GoalID, GoalStatus, check_spec
 from gazelle.compat.rospy.log import logerr, logwarn
 from gazelle.compat.rospy.rostime import Time
 from gazelle.compat.rospy.state import STATE

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from gazelle.compat.actionlib.client import ActionClient, ClientGoalHandle, as_duration
-from gazelle.compat.actionlib.spec import CommState, GoalStatus, constant_name
+from gazelle.compat.actionlib.goals import CommState, GoalStatus, constant_name
 from gazelle.compat.rospy.client import is_shutdown
 from gazelle.compat.rospy.log import logerr
 from gazelle.compat.rospy.rostime import Duration, get_rostime

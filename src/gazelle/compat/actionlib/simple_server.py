@@ -7,8 +7,8 @@ import traceback
 from collections.abc import Callable
 from typing import Any
 
+from gazelle.compat.actionlib.goals import GoalStatus
 from gazelle.compat.actionlib.server import ActionServer, ServerGoalHandle
-from gazelle.compat.actionlib.spec import GoalStatus
 from gazelle.compat.rospy.client import is_shutdown
 from gazelle.compat.rospy.log import logerr, logwarn
 

@@ -1,16 +1,24 @@
-"""rostopic's functions: types and lists of topics."""
+"""rostopic's functions: types and lists of topics; rates, delays and sizes of their messages."""
 
 from __future__ import annotations
 
+import sys
+import threading
 import time
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Sequence
+from statistics import fmean, pstdev
 from typing import Any
 
+from gazelle.compat.rospy.rostime import get_time
 from gazelle.compat.rospy.state import STATE
 from gazelle.interfaces import ros1_message_type, ros1_type_of
 
 __all__ = [
+    "ROSTopicBandwidth",
+    "ROSTopicDelay",
     "ROSTopicException",
+    "ROSTopicHz",
     "ROSTopicIOException",
     "find_by_type",
     "get_info_text",
@@ -19,8 +27,168 @@ __all__ = [
     "get_topic_type",
 ]
 
+_MAX = 50000
+_BANDWIDTH_MOST = 100
 _PAUSE_S = 0.05
 Row = tuple[str, str, list[str]]
+
+
+class _Series:
+    """Arrivals of one topic."""
+
+    def __init__(self, size: int) -> None:
+        self.t0 = -1.0
+        self.tn = 0.0
+        self.last_printed_tn = 0.0
+        self.times: deque[float] = deque(maxlen=size)
+
+
+class ROSTopicHz:
+    """Counts messages: give `callback_hz` to a subscriber, ask `get_hz`.
+
+    Args:
+        window_size: most messages that count; -1 for very many.
+        filter_expr: takes a message, tells whether it counts.
+        use_wtime: count by this machine's time, not the node's.
+    """
+
+    def __init__(
+        self,
+        window_size: int,
+        filter_expr: Callable[[Any], bool] | None = None,
+        use_wtime: bool = False,
+    ) -> None:
+        self.lock = threading.Lock()
+        self.filter_expr = filter_expr
+        self.use_wtime = use_wtime
+        self.window_size = _MAX if window_size < 0 else window_size
+        self._series: dict[str | None, _Series] = {}
+
+    def callback_hz(self, m: Any, topic: str | None = None) -> None:
+        """Count a message."""
+        if self.filter_expr is not None and not self.filter_expr(m):
+            return
+        now = time.time() if self.use_wtime else get_time()
+        with self.lock:
+            series = self._of(topic)
+            if now == 0.0:
+                series.times.clear()
+                return
+            if series.t0 < 0 or series.t0 > now:
+                series.t0 = now
+                series.times.clear()
+            else:
+                series.times.append(now - series.tn)
+            series.tn = now
+
+    def get_hz(self, topic: str | None = None) -> tuple[float, float, float, float, int] | None:
+        """Return rate (Hz), least and most time between (s), deviation, count; None if not new."""
+        with self.lock:
+            series = self._of(topic)
+            if not series.times or series.tn == series.last_printed_tn:
+                return None
+            series.last_printed_tn = series.tn
+            times = list(series.times)
+        mean = fmean(times)
+        rate = 1.0 / mean if mean > 0 else 0.0
+        return rate, min(times), max(times), pstdev(times), len(times) + 1
+
+    def print_hz(self, topics: Sequence[str | None] = (None,)) -> None:
+        """Write the rates."""
+        rows = [(topic, found) for topic in topics if (found := self.get_hz(topic)) is not None]
+        if not rows:
+            _say("no new messages")
+        for topic, (rate, least, most, deviation, count) in rows:
+            name = f"{topic}: " if len(topics) > 1 else ""
+            _say(
+                f"{name}average rate: {rate:.3f}\n\tmin: {least:.3f}s max: {most:.3f}s"
+                f" std dev: {deviation:.5f}s window: {count}"
+            )
+
+    def get_times(self, topic: str | None = None) -> list[float]:
+        """Return the times between messages."""
+        return list(self._of(topic).times)
+
+    def get_msg_t0(self, topic: str | None = None) -> float:
+        """Return when the first message came, -1 before."""
+        return self._of(topic).t0
+
+    def get_msg_tn(self, topic: str | None = None) -> float:
+        """Return when the last message came."""
+        return self._of(topic).tn
+
+    def get_last_printed_tn(self, topic: str | None = None) -> float:
+        """Return the last message's time when the rate was last asked for."""
+        return self._of(topic).last_printed_tn
+
+    def _of(self, topic: str | None) -> _Series:
+        return self._series.setdefault(topic, _Series(max(1, self.window_size - 1)))
+
+
+class ROSTopicDelay:
+    """Measures how late messages with a header come: `callback_delay`, then `get_delay`."""
+
+    def __init__(self, window_size: int) -> None:
+        self.lock = threading.Lock()
+        self.window_size = _MAX if window_size < 0 else window_size
+        self._delays: deque[float] = deque(maxlen=max(1, self.window_size))
+        self._is_new = False
+
+    def callback_delay(self, msg: Any) -> None:
+        """Measure a message; one without header is told and not measured."""
+        if not msg._has_header:
+            _say("msg does not have header")
+            return
+        with self.lock:
+            self._delays.append(get_time() - msg.header.stamp.to_sec())
+            self._is_new = True
+
+    def get_delay(self) -> tuple[float, float, float, float, int] | None:
+        """Return mean, least and most delay (s), deviation and count; None if nothing is new."""
+        with self.lock:
+            if not self._is_new:
+                return None
+            self._is_new = False
+            found = list(self._delays)
+        return fmean(found), min(found), max(found), pstdev(found), len(found)
+
+    def print_delay(self) -> None:
+        """Write the delays."""
+        found = self.get_delay()
+        if found is None:
+            _say("no new messages")
+            return
+        mean, least, most, deviation, count = found
+        _say(
+            f"average delay: {mean:.3f}\n\tmin: {least:.3f}s max: {most:.3f}s"
+            f" std dev: {deviation:.5f}s window: {count}"
+        )
+
+
+class ROSTopicBandwidth:
+    """Measures bytes a second of `rospy.AnyMsg` messages: `callback`, then `print_bw`."""
+
+    def __init__(self, window_size: int = 100) -> None:
+        self.lock = threading.Lock()
+        self.window_size = _BANDWIDTH_MOST if window_size < 0 else window_size
+        self._rows: deque[tuple[float, int]] = deque(maxlen=max(2, self.window_size))
+
+    def callback(self, data: Any) -> None:
+        """Measure a message."""
+        with self.lock:
+            self._rows.append((time.time(), len(data._buff)))
+
+    def print_bw(self) -> None:
+        """Write bytes a second, and the sizes."""
+        with self.lock:
+            rows = list(self._rows)
+        if len(rows) < 2:
+            return
+        sizes = [size for _, size in rows]
+        elapsed = max(time.time() - rows[0][0], 1e-9)
+        texts = map(_bytes, (sum(sizes) / elapsed, fmean(sizes), min(sizes), max(sizes)))
+        rate, mean, least, most = texts
+        _say(f"average: {rate}/s\n\tmean: {mean} min: {least} max: {most} window: {len(rows)}")
 
 
 class ROSTopicException(Exception):  # noqa: N818 - rostopic's name
@@ -110,6 +278,16 @@ def get_info_text(topic: str) -> str:
         rows = "".join(f" * {node}\n" for node in nodes)
         parts.append(f"{word}: \n{rows}\n" if rows else f"{word}: None\n\n")
     return "".join(parts)
+
+
+def _bytes(count: float) -> str:
+    if count < 1000:
+        return f"{count:.2f}B"
+    return f"{count / 1e3:.2f}KB" if count < 1e6 else f"{count / 1e6:.2f}MB"
+
+
+def _say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
 
 
 def _covers(name: str, wanted: str) -> bool:

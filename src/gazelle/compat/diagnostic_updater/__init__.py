@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 from gazelle.compat.diagnostic_updater.rates import (
+    DiagnosedPublisher,
     FrequencyStatus,
     FrequencyStatusParam,
+    HeaderlessTopicDiagnostic,
     Heartbeat,
     TimeStampStatus,
     TimeStampStatusParam,
+    TopicDiagnostic,
 )
-from gazelle.compat.diagnostic_updater.status import DiagnosticStatusWrapper
 from gazelle.compat.diagnostic_updater.tasks import (
     CompositeDiagnosticTask,
+    DiagnosticStatusWrapper,
     DiagnosticTask,
     DiagnosticTaskVector,
     FunctionDiagnosticTask,
-)
-from gazelle.compat.diagnostic_updater.topics import (
-    DiagnosedPublisher,
-    HeaderlessTopicDiagnostic,
-    TopicDiagnostic,
 )
 from gazelle.compat.diagnostic_updater.updater import Updater
 

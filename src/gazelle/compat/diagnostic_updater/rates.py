@@ -1,4 +1,4 @@
-"""Tasks that watch how often something happens, and how old what comes is."""
+"""Tasks that watch how often something happens, such as messages of a topic, and how old it is."""
 
 from __future__ import annotations
 
@@ -6,15 +6,24 @@ import threading
 from collections.abc import Mapping
 from typing import Any
 
-from gazelle.compat.diagnostic_updater.status import DiagnosticStatus, seconds
-from gazelle.compat.diagnostic_updater.tasks import DiagnosticTask
+from gazelle.compat.diagnostic_updater.tasks import (
+    IS_ROS1,
+    CompositeDiagnosticTask,
+    DiagnosticStatus,
+    DiagnosticTask,
+    seconds,
+)
+from gazelle.interfaces.stamps import seconds_of
 
 __all__ = [
+    "DiagnosedPublisher",
     "FrequencyStatus",
     "FrequencyStatusParam",
+    "HeaderlessTopicDiagnostic",
     "Heartbeat",
     "TimeStampStatus",
     "TimeStampStatusParam",
+    "TopicDiagnostic",
 ]
 
 
@@ -101,11 +110,6 @@ class FrequencyStatus(DiagnosticTask):
             stat.add("Maximum acceptable frequency (Hz)", f"{high:f}")
 
 
-def _rate_hz(events: int, window_s: float) -> float:
-    """Return the rate; while simulated time stands still there is none."""
-    return events / window_s if window_s > 0 else 0.0
-
-
 class TimeStampStatusParam:
     """What `TimeStampStatus` goes by: how old stamps may be, in seconds; below 0 is the future."""
 
@@ -187,3 +191,61 @@ class Heartbeat(DiagnosticTask):
         """Fill in a status."""
         stat.summary(DiagnosticStatus.OK, "Alive")
         return stat
+
+
+class HeaderlessTopicDiagnostic(CompositeDiagnosticTask):
+    """The rate of a topic whose messages have no header."""
+
+    def __init__(self, name: str, diag: Any, freq: FrequencyStatusParam) -> None:
+        super().__init__(f"{name} topic status")
+        self.diag = diag
+        self.freq = FrequencyStatus(freq)
+        self.addTask(self.freq)
+        self.diag.add(self)
+
+    def tick(self) -> None:
+        """Count one message."""
+        self.freq.tick()
+
+    def clear_window(self) -> None:
+        """Begin to count anew."""
+        self.freq.clear()
+
+
+class TopicDiagnostic(HeaderlessTopicDiagnostic):
+    """The rate of a topic, and the stamps of its messages."""
+
+    def __init__(
+        self, name: str, diag: Any, freq: FrequencyStatusParam, stamp: TimeStampStatusParam
+    ) -> None:
+        super().__init__(name, diag, freq)
+        self.stamp = TimeStampStatus(stamp)
+        self.addTask(self.stamp)
+
+    def tick(self, stamp: Any) -> None:  # type: ignore[override]
+        """Count one message with its stamp."""
+        self.stamp.tick(stamp)
+        super().tick()
+
+
+class DiagnosedPublisher(TopicDiagnostic):
+    """A publisher whose messages are counted."""
+
+    def __init__(
+        self, pub: Any, diag: Any, freq: FrequencyStatusParam, stamp: TimeStampStatusParam
+    ) -> None:
+        super().__init__(pub.name if IS_ROS1 else pub.topic_name, diag, freq, stamp)
+        self.publisher = pub
+
+    def publish(self, message: Any) -> None:
+        """Count a message and publish it."""
+        stamp = message.header.stamp
+        if not IS_ROS1:
+            stamp = seconds_of(stamp)
+        self.tick(stamp)
+        self.publisher.publish(message)
+
+
+def _rate_hz(events: int, window_s: float) -> float:
+    """Return the rate; while simulated time stands still there is none."""
+    return events / window_s if window_s > 0 else 0.0

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.compat.diagnostic_updater.status import (
+from gazelle.compat.diagnostic_updater.tasks import (
     IS_ROS1,
     DiagnosticArray,
     DiagnosticStatus,
     DiagnosticStatusWrapper,
+    DiagnosticTaskVector,
 )
-from gazelle.compat.diagnostic_updater.tasks import DiagnosticTaskVector
 
 __all__ = ["Updater"]
 

@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from gazelle.compat.dynamic_reconfigure.errors import (
-    DynamicReconfigureCallbackException,
-    DynamicReconfigureException,
-    DynamicReconfigureParameterException,
-)
-
 __all__ = [
     "DynamicReconfigureCallbackException",
     "DynamicReconfigureException",
@@ -15,6 +9,18 @@ __all__ = [
     "find_reconfigure_services",
     "get_parameter_names",
 ]
+
+
+class DynamicReconfigureException(Exception):  # noqa: N818 - the original's name
+    """Base of the others."""
+
+
+class DynamicReconfigureParameterException(DynamicReconfigureException):
+    """A parameter is unknown, or a value does not fit."""
+
+
+class DynamicReconfigureCallbackException(DynamicReconfigureException):
+    """The node's callback failed, or its server could not be called."""
 
 
 def find_reconfigure_services() -> list[str]:

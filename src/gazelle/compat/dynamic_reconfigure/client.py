@@ -7,11 +7,11 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.compat.dynamic_reconfigure.encoding import Config, extract_params
-from gazelle.compat.dynamic_reconfigure.errors import (
+from gazelle.compat.dynamic_reconfigure import (
     DynamicReconfigureCallbackException,
     DynamicReconfigureParameterException,
 )
+from gazelle.compat.dynamic_reconfigure.encoding import Config, extract_params
 from gazelle.compat.rospy.exceptions import ROSException
 from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GraphError

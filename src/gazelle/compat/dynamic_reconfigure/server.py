@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from gazelle.compat.dynamic_reconfigure import DynamicReconfigureCallbackException
 from gazelle.compat.dynamic_reconfigure.encoding import Config, group_from_tree
-from gazelle.compat.dynamic_reconfigure.errors import DynamicReconfigureCallbackException
 from gazelle.compat.rospy.log import logerr
 from gazelle.compat.rospy.state import STATE
 from gazelle.graph.dynamic_reconfigure import ReconfigureServer, Value

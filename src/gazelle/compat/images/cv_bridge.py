@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
-from gazelle.compat.images.conversion import convert_image
-from gazelle.compat.images.encodings import CV_NAMES, CvBridgeError, find_encoding
+from gazelle.compat.images.encodings import CV_NAMES, CvBridgeError, convert_image, find_encoding
 from gazelle.compat.ros_version import message_ros_version
 from gazelle.diagnostics import did_you_mean
 from gazelle.interfaces import message_type, ros1_message_type

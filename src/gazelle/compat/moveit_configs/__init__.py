@@ -6,8 +6,11 @@ lie in ``compat/modules`` and re-export this one.
 
 from __future__ import annotations
 
-from gazelle.compat.moveit_configs.builder import MoveItConfigsBuilder, get_pattern_matches
-from gazelle.compat.moveit_configs.configs import MoveItConfigs
+from gazelle.compat.moveit_configs.builder import (
+    MoveItConfigs,
+    MoveItConfigsBuilder,
+    get_pattern_matches,
+)
 from gazelle.compat.moveit_configs.parameter_builder import ParameterBuilder
 from gazelle.compat.moveit_configs.parameter_files import (
     ParameterBuilderFileNotFoundError,

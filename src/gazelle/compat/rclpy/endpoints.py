@@ -7,13 +7,12 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from gazelle.compat.rclpy.annotations import MsgType, SrvType, SrvTypeRequest, SrvTypeResponse
 from gazelle.compat.rclpy.callback_groups import CallbackGroup
+from gazelle.compat.rclpy.executors import Once
 from gazelle.compat.rclpy.qos import HistoryPolicy, QoSProfile, announced_qos, tell_unusual_qos
 from gazelle.compat.rclpy.task import Future
-from gazelle.compat.rclpy.work import Once
 from gazelle.errors import GazelleError
 from gazelle.graph import MessageInfo, RawMessage
 from gazelle.graph.service_requests import InTurn, Turn, Turns
@@ -36,6 +35,10 @@ __all__ = [
     "check_type",
 ]
 
+MsgType = TypeVar("MsgType")
+SrvType = TypeVar("SrvType")
+SrvTypeRequest = TypeVar("SrvTypeRequest")
+SrvTypeResponse = TypeVar("SrvTypeResponse")
 RMW_IDENTIFIER = "rmw_zenoh_cpp"
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.compat.rclpy.clock import Clock
 from gazelle.compat.rclpy.duration import Infinite
+from gazelle.compat.rclpy.executors import Once
 from gazelle.compat.rclpy.qos import (
     QoSPolicyKind,
     QoSProfile,
@@ -20,7 +21,6 @@ from gazelle.compat.rclpy.qos import (
     clashing_policy,
 )
 from gazelle.compat.rclpy.time import ClockType
-from gazelle.compat.rclpy.work import Once
 from gazelle.graph import Entity, Kind
 
 if TYPE_CHECKING:

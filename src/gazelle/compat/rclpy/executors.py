@@ -1,4 +1,4 @@
-"""Executors run the callbacks of nodes (rclpy.executors)."""
+"""Executors run the callbacks of nodes (rclpy.executors), and what they have to run."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future as _PoolFuture
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
+from gazelle.compat.rclpy.callback_groups import CallbackGroup
 from gazelle.compat.rclpy.context import Context, get_default_context
 from gazelle.compat.rclpy.exceptions import (
     ExternalShutdownException,
@@ -18,7 +19,6 @@ from gazelle.compat.rclpy.exceptions import (
     TimeoutException,
 )
 from gazelle.compat.rclpy.task import Future, Task
-from gazelle.compat.rclpy.work import Work
 
 if TYPE_CHECKING:
     from gazelle.compat.rclpy.node import Node
@@ -27,10 +27,35 @@ __all__ = [
     "Executor",
     "ExternalShutdownException",
     "MultiThreadedExecutor",
+    "Once",
     "ShutdownException",
     "SingleThreadedExecutor",
     "TimeoutException",
+    "Work",
 ]
+
+
+class Work(Protocol):
+    """A subscription, timer, service … that has something to do."""
+
+    callback_group: CallbackGroup
+
+    def take(self) -> Callable[[], Any] | None:
+        """Return the next thing to do, None when it is done already."""
+        ...
+
+
+class Once:
+    """One call."""
+
+    def __init__(self, callback_group: CallbackGroup, callback: Callable[[], Any]) -> None:
+        self.callback_group = callback_group
+        self._callback: Callable[[], Any] | None = callback
+
+    def take(self) -> Callable[[], Any] | None:
+        """Return the call, the first time."""
+        callback, self._callback = self._callback, None
+        return callback
 
 
 class Executor:

@@ -1,4 +1,7 @@
-"""Loggers (rclpy.logging): ROS 2's layout on the console, and ``/rosout``."""
+"""Loggers (rclpy.logging): ROS 2's layout on the console, ``/rosout``, and their levels.
+
+Others get and set the levels by services, as rclpy.logging_service offers them.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +9,13 @@ import enum
 import sys
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.warn_once import is_news
+from gazelle.interfaces import message_type, service_type
+
+if TYPE_CHECKING:
+    from gazelle.compat.rclpy.node import Node
 
 __all__ = [
     "LoggingSeverity",
@@ -17,6 +24,7 @@ __all__ = [
     "get_logger_effective_level",
     "get_logger_level",
     "get_logging_severity_from_string",
+    "offer_logger_levels",
     "set_default_level",
     "set_logger_level",
 ]
@@ -186,3 +194,33 @@ def _write(level: LoggingSeverity, name: str, text: str) -> None:
         line = f"\033[{_COLOURS.get(level, '31')}m{line}\033[0m"
     sys.stderr.write(f"{line}\n")
     sys.stderr.flush()
+
+
+def offer_logger_levels(node: Node) -> None:
+    """Let others get and set the levels of this process's loggers."""
+    for name, handler in (
+        ("get_logger_levels", _answer_levels),
+        ("set_logger_levels", _take_levels),
+    ):
+        words = "".join(word.capitalize() for word in name.split("_"))
+        kind = service_type(f"rcl_interfaces/srv/{words}")
+        node.create_service(kind, f"{node.get_name()}/{name}", handler)
+
+
+def _answer_levels(request: Any, response: Any) -> Any:
+    make = message_type("rcl_interfaces/msg/LoggerLevel")
+    response.levels = [make(name=name, level=int(get_logger_level(name))) for name in request.names]
+    return response
+
+
+def _take_levels(request: Any, response: Any) -> Any:
+    make = message_type("rcl_interfaces/msg/SetLoggerLevelsResult")
+    for one in request.levels:
+        try:
+            set_logger_level(one.name, one.level)
+        except ValueError:
+            reason = "Failed reason: Invalid logger level."
+            response.results.append(make(successful=False, reason=reason))
+        else:
+            response.results.append(make(successful=True))
+    return response

@@ -10,7 +10,16 @@ from gazelle.compat.warn_once import warn_once
 from gazelle.graph import Node, Qos
 from gazelle.graph import tf as graph_tf
 
-__all__ = ["StaticTransformBroadcaster", "TransformBroadcaster", "TransformListener"]
+__all__ = [
+    "DEFAULT_STATIC_TF_TOPIC",
+    "DEFAULT_TF_TOPIC",
+    "StaticTransformBroadcaster",
+    "TransformBroadcaster",
+    "TransformListener",
+]
+
+DEFAULT_TF_TOPIC = "/tf"
+DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
 class TransformListener:
@@ -38,8 +47,8 @@ class TransformListener:
         spin_thread: bool = False,
         qos: Any = None,
         static_qos: Any = None,
-        tf_topic: str = "/tf",
-        tf_static_topic: str = "/tf_static",
+        tf_topic: str = DEFAULT_TF_TOPIC,
+        tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
     ) -> None:
         self.buffer = buffer
         if hasattr(node, "graph_node"):

@@ -10,7 +10,16 @@ from numpy.typing import NDArray
 
 from gazelle.compat.rospy.rostime import Time
 from gazelle.compat.rospy.state import STATE
-from gazelle.compat.tf import tf2_ros
+from gazelle.compat.tf.buffer import Buffer
+from gazelle.compat.tf.conversions import nanoseconds
+from gazelle.compat.tf.endpoints import TransformListener as Tf2TransformListener
+from gazelle.compat.tf.exceptions import (
+    ConnectivityException,
+    ExtrapolationException,
+    LookupException,
+    TransformException,
+    as_tf2_error,
+)
 from gazelle.compat.tf.tf2_geometry_msgs import (
     do_transform_point,
     do_transform_pose,
@@ -35,10 +44,7 @@ __all__ = [
     "xyzw_to_mat44",
 ]
 
-Exception = tf2_ros.TransformException
-LookupException = tf2_ros.LookupException
-ConnectivityException = tf2_ros.ConnectivityException
-ExtrapolationException = tf2_ros.ExtrapolationException
+Exception = TransformException
 
 Translation = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -53,7 +59,7 @@ class Transformer:
     """
 
     def __init__(self, interpolate: bool = True, cache_time: Any = None) -> None:
-        self._buffer = tf2_ros.Buffer(cache_time, debug=False)
+        self._buffer = Buffer(cache_time, debug=False)
 
     def lookupTransform(
         self, target_frame: str, source_frame: str, time: Any
@@ -175,7 +181,7 @@ class Transformer:
         try:
             return self._buffer.core.chain(_bare(target_frame), _bare(source_frame))
         except graph_tf.TransformError as error:
-            raise tf2_ros.as_tf2_error(error) from None
+            raise as_tf2_error(error) from None
 
     def allFramesAsString(self) -> str:
         """Return all frames as sentences."""
@@ -183,7 +189,7 @@ class Transformer:
 
     def allFramesAsDot(self, current_time: Any = None) -> str:
         """Return all frames as a Graphviz graph, recorded at a time when one is given."""
-        now_ns = 0 if current_time is None else tf2_ros.nanoseconds(current_time)
+        now_ns = 0 if current_time is None else nanoseconds(current_time)
         return graph_tf.frames_as_dot(self._buffer.core, now_ns)
 
     def clear(self) -> None:
@@ -260,7 +266,7 @@ class TransformListener(TransformerROS):
 
     def __init__(self, interpolate: bool = True, cache_time: Any = None) -> None:
         super().__init__(interpolate, cache_time)
-        self._listener = tf2_ros.TransformListener(self._buffer)
+        self._listener = Tf2TransformListener(self._buffer)
 
 
 class TransformBroadcaster:
@@ -279,7 +285,7 @@ class TransformBroadcaster:
     ) -> None:
         """Send the pose of `child` in `parent` at a time; rotation is (x, y, z, w)."""
         pose = _pose(translation, rotation)
-        stamp_ns = tf2_ros.nanoseconds(time)
+        stamp_ns = nanoseconds(time)
         self._core.send(graph_tf.StampedPose(_bare(parent), _bare(child), stamp_ns, pose))
 
     def sendTransformMessage(self, transform: Any) -> None:

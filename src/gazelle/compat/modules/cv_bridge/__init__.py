@@ -1,7 +1,7 @@
 """cv_bridge, on numpy and Pillow; on OpenCV where colours need it."""
 
 from gazelle.compat.images.cv_bridge import CvBridge, CvBridgeError
-from gazelle.compat.images.conversion import convert_image as cvtColor2
+from gazelle.compat.images.encodings import convert_image as cvtColor2
 from gazelle.compat.images.encodings import find_encoding as _find_encoding
 
 __all__ = ["CvBridge", "CvBridgeError", "cvtColor2", "getCvType"]

@@ -1,5 +1,5 @@
 """nav2_simple_commander.line_iterator, by Gazelle."""
 
-from gazelle.compat.nav2_simple_commander.lines import LineIterator
+from gazelle.compat.nav2_simple_commander.costmap_2d import LineIterator
 
 __all__ = ["LineIterator"]

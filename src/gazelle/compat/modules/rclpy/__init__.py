@@ -19,7 +19,6 @@ from gazelle.compat.rclpy import (
     logging,
     name_validation,
     node,
-    node_graph,
     parameter,
     parameter_client,
     parameter_event_handler,
@@ -29,6 +28,7 @@ from gazelle.compat.rclpy import (
     task,
     time,
     timer,
+    topic_endpoint_info,
     utilities,
 )
 from gazelle.compat.rclpy.action import client as _action_client
@@ -74,7 +74,7 @@ for _name, _module in {
     "task": task,
     "time": time,
     "timer": timer,
-    "topic_endpoint_info": node_graph,
+    "topic_endpoint_info": topic_endpoint_info,
     "utilities": utilities,
     "validate_full_topic_name": name_validation,
     "validate_namespace": name_validation,

@@ -1,3 +1,3 @@
 """tf2_py: the exceptions of tf2."""
 
-from gazelle.compat.tf.tf2_ros import *  # noqa: F403
+from gazelle.compat.tf.exceptions import *  # noqa: F403

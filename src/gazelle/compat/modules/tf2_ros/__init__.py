@@ -1,5 +1,8 @@
 """tf2_ros, on Gazelle's graph."""
 
-from gazelle.compat.tf.tf2_ros import *  # noqa: F403
+from gazelle.compat.tf.buffer import *  # noqa: F403
+from gazelle.compat.tf.buffer_interface import *  # noqa: F403
+from gazelle.compat.tf.endpoints import *  # noqa: F403
+from gazelle.compat.tf.exceptions import *  # noqa: F403
 
-from .transform_listener import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC
+from . import transform_listener

@@ -1,3 +1,6 @@
 """tf2_ros.buffer."""
 
-from gazelle.compat.tf.tf2_ros import *  # noqa: F403
+from gazelle.compat.tf.buffer import *  # noqa: F403
+from gazelle.compat.tf.buffer_interface import *  # noqa: F403
+from gazelle.compat.tf.endpoints import *  # noqa: F403
+from gazelle.compat.tf.exceptions import *  # noqa: F403

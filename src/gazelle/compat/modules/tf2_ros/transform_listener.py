@@ -1,6 +1,6 @@
 """tf2_ros.transform_listener."""
 
-from gazelle.compat.tf.tf2_ros import *  # noqa: F403
-
-DEFAULT_TF_TOPIC = "/tf"
-DEFAULT_STATIC_TF_TOPIC = "/tf_static"
+from gazelle.compat.tf.buffer import *  # noqa: F403
+from gazelle.compat.tf.buffer_interface import *  # noqa: F403
+from gazelle.compat.tf.endpoints import *  # noqa: F403
+from gazelle.compat.tf.exceptions import *  # noqa: F403

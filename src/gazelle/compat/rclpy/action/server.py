@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.rclpy.callback_groups import CallbackGroup
 from gazelle.compat.rclpy.endpoints import check_type
+from gazelle.compat.rclpy.executors import Once
 from gazelle.compat.rclpy.qos import (
     QoSProfile,
     qos_profile_action_status_default,
     qos_profile_services_default,
     tell_unusual_qos,
 )
-from gazelle.compat.rclpy.work import Once
 from gazelle.compat.warn_once import warn_once
 from gazelle.graph.actions import ActionServer as _Server
 from gazelle.graph.actions import (

@@ -1,9 +1,12 @@
-"""Action types and constants as actionlib's users see them."""
+"""Goals as actionlib's users see them: their ids and states, and what makes an action's class."""
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
+from gazelle.compat.rospy.client import get_name
+from gazelle.compat.rospy.rostime import get_rostime
 from gazelle.graph.actions import CommState as _CommState
 from gazelle.interfaces import ros1_message_type
 
@@ -11,6 +14,7 @@ __all__ = [
     "ActionException",
     "CommState",
     "GoalID",
+    "GoalIDGenerator",
     "GoalStatus",
     "GoalStatusArray",
     "check_spec",
@@ -20,6 +24,7 @@ __all__ = [
 GoalID: Any = ros1_message_type("actionlib_msgs/GoalID")
 GoalStatus: Any = ros1_message_type("actionlib_msgs/GoalStatus")
 GoalStatusArray: Any = ros1_message_type("actionlib_msgs/GoalStatusArray")
+_NUMBERS = itertools.count(1)
 
 
 class ActionException(Exception):  # noqa: N818 - actionlib's name
@@ -67,3 +72,24 @@ def check_spec(action_spec: Any) -> Any:
 
 # actionlib adds this to the message class, and programs print states with it.
 GoalStatus.to_string = classmethod(constant_name)
+
+
+class GoalIDGenerator:
+    """Makes ids out of a name, a count and the time.
+
+    Args:
+        name: the node's own by default.
+    """
+
+    def __init__(self, name: str | None = None) -> None:
+        self.name = get_name() if name is None else name
+
+    def set_name(self, name: str) -> None:
+        """Set what ids begin with."""
+        self.name = name
+
+    def generate_ID(self) -> Any:
+        """Return a new id, stamped with the time now."""
+        now = get_rostime()
+        text = f"{self.name}-{next(_NUMBERS)}-{now.secs}.{now.nsecs}"
+        return GoalID(stamp=now, id=text)
