@@ -27,10 +27,10 @@ from gazelle.description.srdf import load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics import Patience, Solver
 from gazelle.motion.model import RobotModel
 from gazelle.motion.scene import PlanningScene, WorldObject
-from gazelle.motion.space import FloatArray
 
 __all__ = ["ARMS", "FAMILIES", "Arm", "arm_named", "problem_of"]
 

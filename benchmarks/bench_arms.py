@@ -33,10 +33,10 @@ from gazelle.description.srdf import load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.model import RobotModel
 from gazelle.motion.planning import PlanningError, Search, plan
 from gazelle.motion.scene import AllowedCollisions, PlacedShape, PlanningScene, WorldObject
-from gazelle.motion.space import FloatArray
 
 Problem = tuple[PlanningScene, str, FloatArray, FloatArray]
 """Scene, group, start and goal."""

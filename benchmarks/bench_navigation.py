@@ -17,7 +17,7 @@ import numpy as np
 from scipy.ndimage import label
 
 from gazelle.mapping.grids import OccupancyGrid
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.laser_scan import Scan
 from gazelle.navigation.controllers import (
     CONTROLLERS,
     ControllerSetting,
@@ -41,9 +41,9 @@ from gazelle.navigation.costmap import (
     StaticOptions,
     inflated,
 )
-from gazelle.navigation.localisation import AmclOptions
-from gazelle.navigation.localisation.field import LikelihoodMap
-from gazelle.navigation.localisation.sensor import ScanModel, chosen_beams
+from gazelle.navigation.localization import AmclOptions
+from gazelle.navigation.localization.laser_model import ScanModel, chosen_beams
+from gazelle.navigation.localization.likelihood_field import LikelihoodMap
 from gazelle.navigation.planners import (
     GlobalPlannerOptions,
     NavfnOptions,

@@ -17,10 +17,10 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from gazelle.mapping.grids import OccupancyGrid
-from gazelle.mapping.poses import compose
-from gazelle.mapping.scans import Scan
-from gazelle.navigation.localisation import Amcl, AmclOptions
-from gazelle.navigation.localisation.kernels import cast_ray
+from gazelle.mapping.laser_scan import Scan
+from gazelle.mapping.se2 import compose
+from gazelle.navigation.localization import Amcl, AmclOptions
+from gazelle.navigation.localization.amcl_kernels import cast_ray
 
 TURTLEBOT3 = AmclOptions(
     min_particles=500, max_particles=3000, kld_err=0.02, update_min_d=0.2, update_min_a=0.2,

@@ -26,10 +26,10 @@ from tests.tutorial.rasterised import rasterise  # noqa: E402
 
 from gazelle.diagnostics import Diagnostics  # noqa: E402
 from gazelle.mapping.grids import OccupancyGrid, read_map  # noqa: E402
-from gazelle.mapping.poses import between, compose  # noqa: E402
-from gazelle.mapping.scans import Scan  # noqa: E402
-from gazelle.navigation.localisation import Amcl  # noqa: E402
-from gazelle.navigation.localisation.kernels import cast_ray  # noqa: E402
+from gazelle.mapping.laser_scan import Scan  # noqa: E402
+from gazelle.mapping.se2 import between, compose  # noqa: E402
+from gazelle.navigation.localization import Amcl  # noqa: E402
+from gazelle.navigation.localization.amcl_kernels import cast_ray  # noqa: E402
 from gazelle.workspace import Workspace  # noqa: E402
 
 FINE_M, LIDAR_M, MAX_LENGTH_M, BEAMS = 0.01, 0.172, 3.5, 360

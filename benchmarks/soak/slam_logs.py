@@ -23,8 +23,8 @@ import numpy as np
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.logs import LogRecord, read_log
-from gazelle.mapping.poses import Poses, between, compose
 from gazelle.mapping.relative_pose_error import absolute_error_m
+from gazelle.mapping.se2 import Poses, between, compose
 from gazelle.mapping.slam import Slam
 
 MAX_SHARE = 0.01

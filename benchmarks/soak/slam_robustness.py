@@ -21,8 +21,8 @@ import numpy as np
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.logs import LogRecord, read_log
-from gazelle.mapping.poses import between, compose
 from gazelle.mapping.relative_pose_error import absolute_error_m, relation_errors
+from gazelle.mapping.se2 import between, compose
 from gazelle.mapping.slam import Slam, SlamParameters
 
 BROKEN_M = 0.5

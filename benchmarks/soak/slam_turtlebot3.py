@@ -27,9 +27,9 @@ from gazelle.description.model import Cylinder, MeshShape
 from gazelle.description.writers.geometry_elements import mesh_of
 from gazelle.geometry import Pose
 from gazelle.interfaces.poses import twist_message
-from gazelle.mapping.poses import between, compose, transform_points
+from gazelle.mapping.laser_scan import Scan
 from gazelle.mapping.relative_pose_error import alignment
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.se2 import between, compose, transform_points
 from gazelle.mapping.slam import Slam, SlamResult
 from gazelle.nodes.slam.scan_messages import scan_of
 from gazelle.simulator import Simulation

@@ -11,8 +11,8 @@ from tests.control.fake_robot import RECORDER, Recorder, fake_robot
 
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.controllers import registry
-from gazelle.control.sources.files import FileSource
-from gazelle.control.sources.store import StoreSource
+from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
+from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
 from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph

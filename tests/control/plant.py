@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from tests.control.recording_ports import RecordingPorts
 
+from gazelle.control.controller_parameters import controller_parameters
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.interface_values import InterfaceBank
-from gazelle.control.parameters import controller_parameters
 from gazelle.control.robot import JointLimits, JointResource, Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics

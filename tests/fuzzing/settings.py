@@ -28,7 +28,7 @@ from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.launch_ros.parameter_descriptions import ParameterFile
 from gazelle.navigation.controllers import CONTROLLERS
-from gazelle.navigation.localisation import AmclOptions
+from gazelle.navigation.localization import AmclOptions
 from gazelle.navigation.planners import PLANNERS
 from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.filters.laser_filters import chain_of

@@ -10,8 +10,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.poses import between, compose
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.laser_scan import Scan
+from gazelle.mapping.se2 import between, compose
 from gazelle.mapping.slam import Slam, SlamParameters
 
 Segments = NDArray[np.float64]

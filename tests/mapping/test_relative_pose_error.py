@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.mapping.poses import compose
 from gazelle.mapping.relative_pose_error import (
     absolute_error_m,
     align,
     read_relations,
     relation_errors,
 )
+from gazelle.mapping.se2 import compose
 
 TRAJECTORY = np.array([(0, 0, 0), (1, 0, 0), (1, 1, np.pi / 2), (0, 1, np.pi)], dtype=float)
 

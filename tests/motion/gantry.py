@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from gazelle.motion.constraints.kinds import Parameterization, euler_xyz, matrix_of
+from gazelle.motion.constraints.kinematic_constraints import Parameterization, euler_xyz, matrix_of
+from gazelle.motion.joint_space import FloatArray, JointSpace
 from gazelle.motion.kinematics import Patience
-from gazelle.motion.space import FloatArray, JointSpace
 
 
 def gantry_space(*, velocity: float = 2.0, acceleration: float = 8.0) -> JointSpace:

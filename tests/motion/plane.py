@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from gazelle.motion.space import FloatArray, JointSpace
+from gazelle.motion.joint_space import FloatArray, JointSpace
 
 Circle = tuple[float, float, float]
 

@@ -15,9 +15,9 @@ from gazelle.description.srdf import load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker
+from gazelle.motion.joint_space import FloatArray, JointSpace
 from gazelle.motion.model import RobotModel
 from gazelle.motion.scene import PlanningScene, WorldObject
-from gazelle.motion.space import FloatArray, JointSpace
 
 OBSTACLES = 10
 REACHES_M = {"ur_like": 0.9, "seven": 0.9, "luck": 0.7}

@@ -9,9 +9,9 @@ import pytest
 
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.costmap import LAYER_TYPES, CostmapOptions, SourceOptions
-from gazelle.navigation.localisation import AmclOptions
+from gazelle.navigation.localization import AmclOptions
 from gazelle.navigation.planners import PLANNERS
-from gazelle.parameters.options import idle_of, rows_of
+from gazelle.parameters.dataclass_tables import idle_of, rows_of
 
 _SOURCE = Path(__file__).parents[2] / "src" / "gazelle"
 _CLASSES = sorted(

@@ -10,7 +10,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.navigation.costmap import CostmapOptions, SourceOptions
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
-from gazelle.parameters.options import table_of
+from gazelle.parameters.dataclass_tables import table_of
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.trees import nested
 

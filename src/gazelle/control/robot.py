@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from gazelle.control.hardware_lifecycle import HardwareLifecycle
+from gazelle.control.hardware.lifecycle import HardwareLifecycle
 from gazelle.control.interface_values import InterfaceBank
 from gazelle.description.model import Model
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.mapping.poses import Poses, between, transform_points
+from gazelle.mapping.se2 import Poses, between, transform_points
 
 __all__ = [
     "RelationErrors",

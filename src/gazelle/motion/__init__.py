@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gazelle.motion.planner import Goal, PlannedMotion, Planner, Search
+    from gazelle.motion.moveit_config_planner import Goal, PlannedMotion, Planner, Search
 
 __all__ = ["Goal", "PlannedMotion", "Planner", "Search"]
 
@@ -14,6 +14,6 @@ def __getattr__(name: str) -> Any:
     """Load the planner only when it is asked for: it brings MuJoCo and compiled kernels."""
     if name not in __all__:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-    from gazelle.motion import planner
+    from gazelle.motion import moveit_config_planner
 
-    return getattr(planner, name)
+    return getattr(moveit_config_planner, name)

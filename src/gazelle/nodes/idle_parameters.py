@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any, Literal, NamedTuple
 
 from gazelle.navigation.controllers import CONTROLLERS
-from gazelle.navigation.costmap.options import (
+from gazelle.navigation.costmap.costmap_options import (
     InflationOptions,
     ObstacleOptions,
     StaticOptions,

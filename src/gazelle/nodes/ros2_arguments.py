@@ -70,7 +70,7 @@ def file_params(files: Sequence[Path], full_name: str) -> dict[str, Any]:
     """
     if not files:
         return {}
-    from gazelle.control.sources.yaml_file import read_parameters_of
+    from gazelle.control.parameter_sources.ros2_parameter_file import read_parameters_of
     from gazelle.diagnostics import Diagnostics
 
     diagnostics = Diagnostics()

@@ -168,7 +168,7 @@ class ParameterReader:
         """Return an instance of the option class that the table was made of.
 
         Args:
-            options: the class, see `gazelle.parameters.options`.
+            options: the class, see `gazelle.parameters.dataclass_tables`.
             **others: values of fields that take the place of what was given.
         """
         own = {

@@ -118,7 +118,7 @@ def read_server_parameters(
         diagnostics: receives what is wrong.
         ros_version: 0 for none, or for both.
     """
-    from gazelle.control.sources.files import FileSource
+    from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
 
     name = node.name.rpartition("/")[2]
     source = FileSource(arguments.parameter_files, node.namespace, diagnostics, manager=name)

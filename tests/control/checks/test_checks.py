@@ -19,8 +19,8 @@ from gazelle.control.checks import (
     spectral_radius,
     table_text,
 )
+from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 from gazelle.control.robot import JointResource
-from gazelle.control.sources.store import StoreSource
 from gazelle.description.model import Joint, JointAxis, JointType
 from gazelle.diagnostics import Diagnostics
 from gazelle.simulator import Simulation

@@ -11,7 +11,7 @@ from tests.control.fake_robot import RECORDER, Hardware, Recorder, fake_robot
 
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.controllers import registry
-from gazelle.control.sources.store import StoreSource
+from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 from gazelle.diagnostics import Diagnostics
 from gazelle.simulator.local_node import LocalParameters
 

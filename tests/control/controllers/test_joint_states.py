@@ -13,7 +13,7 @@ from gazelle.control.controllers.joint_state_broadcaster import JointStateBroadc
 from gazelle.control.controllers.joint_state_controller import JointStateController
 from gazelle.control.controllers.publish_rate import PublishRate
 from gazelle.control.errors import ControllerError
-from gazelle.control.hardware_lifecycle import HardwareState
+from gazelle.control.hardware.lifecycle import HardwareState
 from gazelle.description.model import Joint, JointType, Model
 from gazelle.diagnostics import Diagnostics
 

@@ -10,12 +10,12 @@ import pytest
 from tests.control.plant import MS, PlantJoint, make_controller, make_robot, run
 from tests.control.recording_ports import RecordingPorts
 
-from gazelle.control.controllers.force_torque_broadcaster import ForceTorqueSensorBroadcaster
+from gazelle.control.controllers.force_torque_sensor_broadcaster import ForceTorqueSensorBroadcaster
 from gazelle.control.controllers.gps_sensor_broadcaster import GpsSensorBroadcaster
 from gazelle.control.controllers.imu_sensor_broadcaster import ImuSensorBroadcaster
 from gazelle.control.controllers.pose_broadcaster import PoseBroadcaster
 from gazelle.control.controllers.range_sensor_broadcaster import RangeSensorBroadcaster
-from gazelle.control.controllers.ros1_sensors import (
+from gazelle.control.controllers.ros1_sensor_controllers import (
     ForceTorqueSensorController,
     ImuSensorController,
 )

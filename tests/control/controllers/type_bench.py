@@ -11,8 +11,8 @@ from tests.control.plant import MS, PlantJoint, make_robot
 from tests.control.recording_ports import RecordingPorts
 
 from gazelle.control.controller_manager import ControllerManager
-from gazelle.control.sources.files import FileSource
-from gazelle.control.sources.store import StoreSource
+from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
+from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
 from gazelle.simulator.local_node import LocalParameters

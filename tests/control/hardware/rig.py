@@ -11,8 +11,8 @@ import numpy as np
 from gazelle.control.hardware.gazebo_system import SystemOptions
 from gazelle.control.hardware.ros1_robot import RobotParameters, build_ros1_robot
 from gazelle.control.hardware.ros2_robot import build_ros2_robot
+from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 from gazelle.control.robot import Robot
-from gazelle.control.sources.store import StoreSource
 from gazelle.description.model import Model, World
 from gazelle.description.read_context import ReadContext
 from gazelle.description.urdf_reader.reader import read_urdf

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.control.parameters import controller_parameters
+from gazelle.control.controller_parameters import controller_parameters
 from gazelle.control.pid import AntiWindup, PidGains, read_gains
 from gazelle.control.pid.reading import gain_rows
 from gazelle.diagnostics import Diagnostics

@@ -11,8 +11,8 @@ import pytest
 
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 from gazelle.control.robot import JointResource, Robot
-from gazelle.control.sources.store import StoreSource
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
 from gazelle.simulator.local_node import LocalParameters

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from gazelle.control.hardware.angle_error import shortest_angular_distance
+from gazelle.control.angles import shortest_angular_distance
 from gazelle.control.trajectory.waypoints import shortest_way, turns_to_nearest, wrap_in_place
 
 

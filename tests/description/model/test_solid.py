@@ -15,7 +15,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.engine.shapes import geom_shapes
 from gazelle.geometry import MassProperties, Mesh, MeshPart, Pose, mesh_mass_properties
 from gazelle.interfaces import message_type
-from gazelle.motion.collision.solids import object_solids
+from gazelle.motion.collision.convex_solids import object_solids
 from gazelle.motion.scene import WorldObject
 from gazelle.nodes.move_group.shape_messages import add_shapes
 from gazelle.sensors.scene_value import world_value

@@ -25,8 +25,8 @@ from gazelle.compat.commands.rosparam import RosParamException, load_str
 from gazelle.compat.moveit_configs.parameter_files import load_yaml as load_moveit_yaml
 from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
-from gazelle.control.sources.files import read_ros_arguments
-from gazelle.control.sources.yaml_file import read_parameter_file
+from gazelle.control.parameter_sources.ros2_node_parameters import read_ros_arguments
+from gazelle.control.parameter_sources.ros2_parameter_file import read_parameter_file
 from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics, SourceSpan
@@ -46,7 +46,7 @@ from gazelle.launch.ros2.launch_context import LaunchContext
 from gazelle.launch.ros2.launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 from gazelle.launch.ros2.nav2_common import RewrittenYaml
 from gazelle.launch.ros2.utilities.type_utils import coerce_to_type
-from gazelle.mapping.grids.map_file import read_map_file
+from gazelle.mapping.grids.map_yaml import read_map_file
 from gazelle.nodes.controller_manager.spawner import controllers_in_file
 from gazelle.nodes.ros_gz.bridge_config import read_file as read_bridge_rows
 from gazelle.simulator.parameter_input import give_parameters

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.laser_scan import Scan
 from gazelle.mapping.slam import Slam
 
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from tests.mapping import buildings as b
 
-from gazelle.mapping.poses import transform_points
 from gazelle.mapping.relative_pose_error import absolute_error_m, alignment
+from gazelle.mapping.se2 import transform_points
 from gazelle.mapping.slam import Slam, load_graph, save_graph
 
 BAD = b.Wheels(0.1, 0.15, 0.02, 0.01, 0.01, 10)

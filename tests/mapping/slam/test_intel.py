@@ -12,8 +12,8 @@ from tests.shared_files import skip_module_without_shared
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.logs import LogRecord, read_log
-from gazelle.mapping.poses import between, compose
 from gazelle.mapping.relative_pose_error import absolute_error_m, relation_errors
+from gazelle.mapping.se2 import between, compose
 from gazelle.mapping.slam import Slam, SlamParameters, slam
 
 skip_module_without_shared()

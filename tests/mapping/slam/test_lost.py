@@ -7,12 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from gazelle.mapping.matching.match import Match
-from gazelle.mapping.poses import Poses, compose
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.laser_scan import Scan
+from gazelle.mapping.scan_matching.scan_matcher import Match
+from gazelle.mapping.se2 import Poses, compose
 from gazelle.mapping.slam import Slam
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes, keyframe_of
-from gazelle.mapping.slam.parameters import SlamParameters
+from gazelle.mapping.slam.slam_parameters import SlamParameters
 from gazelle.mapping.slam.tracking import Tracker
 
 

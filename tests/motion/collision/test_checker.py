@@ -11,6 +11,7 @@ import pytest
 from gazelle.description.model import Box, Cone, Cylinder, Plane, Sphere
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker
+from gazelle.motion.joint_space import FloatArray, Validity
 from gazelle.motion.model import RobotModel
 from gazelle.motion.scene import (
     PlacedShape,
@@ -19,7 +20,6 @@ from gazelle.motion.scene import (
     SceneShape,
     WorldObject,
 )
-from gazelle.motion.space import FloatArray, Validity
 
 Make = Callable[..., RobotModel]
 

@@ -11,9 +11,9 @@ from gazelle.description.forward_kinematics import posed_model
 from gazelle.description.moveit import KinematicsSettings
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics import Patience, Solver, link_poses
 from gazelle.motion.model import RobotModel
-from gazelle.motion.space import FloatArray
 
 Make = Callable[..., RobotModel]
 

@@ -11,6 +11,7 @@ from gazelle.description.model import Sphere
 from gazelle.description.moveit import CartesianLimits
 from gazelle.geometry import Pose
 from gazelle.motion.collision import CollisionChecker
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics import Solver
 from gazelle.motion.model import RobotModel
 from gazelle.motion.pilz import (
@@ -23,7 +24,6 @@ from gazelle.motion.pilz import (
 )
 from gazelle.motion.planning import ErrorCode, PlanningError
 from gazelle.motion.scene import PlanningScene, WorldObject
-from gazelle.motion.space import FloatArray
 
 _START = np.array([0.0, -1.2, 1.8, -0.6, 1.5, 0.0])
 

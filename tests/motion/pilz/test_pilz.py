@@ -9,6 +9,7 @@ from tests.motion.gantry import Gantry, gantry_space
 from tests.motion.plane import Map2D
 
 from gazelle.description.moveit import CartesianLimits
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.pilz import (
     Auxiliary,
     AuxiliaryKind,
@@ -18,7 +19,6 @@ from gazelle.motion.pilz import (
     plan_sequence,
 )
 from gazelle.motion.planning import ErrorCode, PlanningError
-from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory
 
 _LIMITS = CartesianLimits(max_trans_vel=1.0, max_trans_acc=2.25, max_rot_vel=1.57)

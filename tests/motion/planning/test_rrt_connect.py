@@ -10,14 +10,14 @@ import pytest
 from tests.motion.problems import random_case
 
 from gazelle.motion.collision import CollisionChecker
+from gazelle.motion.joint_space import FloatArray, SweptValidity, Validity
 from gazelle.motion.model import RobotModel
 from gazelle.motion.planning import FINE_STEP, Search, plan
+from gazelle.motion.planning.path_validation import ends_of
 from gazelle.motion.planning.problem import PlannerSettings, Problem
 from gazelle.motion.planning.rrt_connect import rrt_connect
 from gazelle.motion.planning.rrt_connect_kernels import DOUBTFUL
-from gazelle.motion.planning.tree import TreeArrays
-from gazelle.motion.planning.validation import ends_of
-from gazelle.motion.space import FloatArray, SweptValidity, Validity
+from gazelle.motion.planning.search_tree import TreeArrays
 
 
 class _Asked:

@@ -23,7 +23,7 @@ from gazelle.navigation.controllers import (
     RobotState,
     TrajectoryPlannerOptions,
 )
-from gazelle.navigation.controllers.following import FollowedPlan
+from gazelle.navigation.controllers.followed_plan import FollowedPlan
 from gazelle.navigation.costmap import (
     CostGrid,
     Footprint,

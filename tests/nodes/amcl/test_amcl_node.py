@@ -13,7 +13,7 @@ from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, StaticTransformBroadcaster, TransformBroadcaster
 from gazelle.interfaces import message_type
 from gazelle.mapping.grids import OccupancyGrid
-from gazelle.navigation.localisation import AmclOptions
+from gazelle.navigation.localization import AmclOptions
 from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.amcl.scans import scan_of_message
 from gazelle.nodes.map_server.occupancy_grid import message_of_grid
@@ -35,7 +35,7 @@ def _room() -> OccupancyGrid:
 
 def _scan(pose: tuple[float, float, float], stamp_ns: int) -> Any:
     """What a lidar 10 cm before the robot's centre sees."""
-    from gazelle.navigation.localisation.kernels import cast_ray
+    from gazelle.navigation.localization.amcl_kernels import cast_ray
 
     message = message_type("sensor_msgs/msg/LaserScan")()
     message.header.frame_id = "base_scan"

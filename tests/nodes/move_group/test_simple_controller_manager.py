@@ -8,7 +8,7 @@ import pytest
 
 from gazelle.description.model import Model
 from gazelle.description.moveit import ControllerEntry, MoveItConfig
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.simple_controller_manager import (
     ControllerKind,

@@ -23,9 +23,9 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.motion import Planner
 from gazelle.motion.collision import CollisionChecker
+from gazelle.motion.joint_space import FloatArray, JointSpace
 from gazelle.motion.planning import FINE_STEP
 from gazelle.motion.scene import WorldObject
-from gazelle.motion.space import FloatArray, JointSpace
 from gazelle.parameters.trees import nested
 
 _WALL = ("wall", (0.3, 0.02, 0.4), (0.4, 0.0, 0.2))

@@ -23,7 +23,7 @@ from gazelle.mapping.logs import (
     write_carmen,
     write_tum,
 )
-from gazelle.mapping.logs.reading import is_carmen
+from gazelle.mapping.logs.log_formats import is_carmen
 from gazelle.mapping.relative_pose_error import align, read_relations, relation_errors
 from gazelle.mapping.slam import Slam, SlamResult
 

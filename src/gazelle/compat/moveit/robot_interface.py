@@ -11,9 +11,9 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
 from gazelle.graph import Node
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics import Solver, link_poses
 from gazelle.motion.model import JointGroup, RobotModel
-from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.current_state_monitor import StateMonitor
 from gazelle.workspace import Workspace
 

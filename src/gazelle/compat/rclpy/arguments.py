@@ -75,7 +75,7 @@ class RosArguments:
         """
         if not self.files and not self.params:
             return {}
-        from gazelle.control.sources.yaml_file import read_parameters_of
+        from gazelle.control.parameter_sources.ros2_parameter_file import read_parameters_of
         from gazelle.diagnostics import Diagnostics
         from gazelle.parameters.trees import flattened, values_only
 

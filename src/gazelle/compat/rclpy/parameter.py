@@ -124,7 +124,7 @@ def parameter_dict_from_yaml_file(
         RuntimeError: nothing is said about the nodes.
         UserFileError: the file has errors.
     """
-    from gazelle.control.sources.yaml_file import read_parameter_file
+    from gazelle.control.parameter_sources.ros2_parameter_file import read_parameter_file
     from gazelle.diagnostics import Diagnostics
     from gazelle.parameters.trees import flattened, values_only
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from gazelle.control.checks.all_checks import LoopDynamics, check_control
-from gazelle.control.checks.configured import ConfiguredController, configured_controllers
-from gazelle.control.checks.gains import largest_stable_factor, spectral_radius
+from gazelle.control.checks.configured_controllers import (
+    ConfiguredController,
+    configured_controllers,
+)
+from gazelle.control.checks.gain_stability import largest_stable_factor, spectral_radius
 from gazelle.control.checks.inertia import joint_inertias
+from gazelle.control.checks.joint_names import Disagreement, disagreements, table_text
 from gazelle.control.checks.moveit import MoveItController, moveit_controllers
-from gazelle.control.checks.names import Disagreement, disagreements, table_text
 
 __all__ = [
     "ConfiguredController",

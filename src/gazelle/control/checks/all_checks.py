@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from gazelle.control.checks.configured import ConfiguredController, Gains, configured_controllers
-from gazelle.control.checks.gains import largest_stable_factor
+from gazelle.control.checks.configured_controllers import (
+    ConfiguredController,
+    Gains,
+    configured_controllers,
+)
+from gazelle.control.checks.gain_stability import largest_stable_factor
+from gazelle.control.checks.joint_names import disagreements, table_text
 from gazelle.control.checks.moveit import MoveItController
-from gazelle.control.checks.names import disagreements, table_text
+from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
 from gazelle.control.robot import JointResource
-from gazelle.control.sources.store import ParameterSource
 from gazelle.description.model import Joint
 from gazelle.diagnostics import Diagnostics, SourceSpan
 

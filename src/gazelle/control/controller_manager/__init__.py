@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from gazelle.control.controller_manager.controller_manager import ControllerManager
-from gazelle.control.controller_manager.records import ControllerRecord, ControllerState
+from gazelle.control.controller_manager.controller_spec import ControllerRecord, ControllerState
 
 __all__ = ["ControllerManager", "ControllerRecord", "ControllerState"]

@@ -6,16 +6,16 @@ from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from gazelle.control.controller_manager.making import ControllerMaker
-from gazelle.control.controller_manager.records import (
+from gazelle.control.controller_manager.controller_loader import ControllerMaker
+from gazelle.control.controller_manager.controller_spec import (
     ControllerRecord,
     ControllerState,
     OwnedPorts,
 )
 from gazelle.control.controller_manager.switching import SwitchPlan, plan_switch
 from gazelle.control.errors import ControllerError
+from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
 from gazelle.control.robot import Robot
-from gazelle.control.sources.store import ParameterSource
 from gazelle.diagnostics import Diagnostics, did_you_mean
 
 if TYPE_CHECKING:
@@ -342,7 +342,7 @@ class ControllerManager:
 
     def _take_named(self, name: str) -> None:
         """Read what a spawner told of a controller before it was loaded."""
-        from gazelle.control.sources.files import FileSource
+        from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
 
         if isinstance(self.source, FileSource):
             self.source.take_named(name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
-from gazelle.control.controller_manager.records import ControllerRecord, ControllerState
+from gazelle.control.controller_manager.controller_spec import ControllerRecord, ControllerState
 from gazelle.control.errors import ControllerError
 from gazelle.diagnostics import did_you_mean
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from gazelle.control.controllers.page import tables_as_markdown
+from gazelle.control.controllers.docs_page import tables_as_markdown
 from gazelle.control.controllers.registry import all_tables
 
 if __name__ == "__main__":

@@ -6,13 +6,13 @@ import math
 from typing import Any
 
 from gazelle.control.controllers.controller import ControllerContext
-from gazelle.control.wheels.limiter import SpeedLimiter, read_limits
+from gazelle.control.wheels.kinematics import SteeringGeometry
 from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel
-from gazelle.control.wheels.odometry_output import OdometryOutput, read_frames
-from gazelle.control.wheels.steering import SteeringGeometry
-from gazelle.control.wheels.twist_input import REST, TwistInput
+from gazelle.control.wheels.odometry_publisher import OdometryOutput, read_frames
+from gazelle.control.wheels.speed_limiter import SpeedLimiter, read_limits
 from gazelle.control.wheels.urdf_geometry import joint_offset_m, wheel_radius_m
-from gazelle.control.wheels.wheel_measures import measure
+from gazelle.control.wheels.velocity_command import REST, TwistInput
+from gazelle.control.wheels.wheel_geometry import measure
 from gazelle.parameters import Parameter, ParameterKind
 
 __all__ = ["ROS1_ROWS", "Ros1AckermannDrive"]

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from gazelle.control.controller_node import Ports
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Indices
-from gazelle.control.ports import Ports
 from gazelle.control.robot import JointResource, Robot
 from gazelle.control.table import ControllerTable
 from gazelle.deprecation import warn_renamed

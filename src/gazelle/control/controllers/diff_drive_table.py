@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.control.table import ControllerTable
-from gazelle.control.wheels.base_parameters import command_rows, frame_rows, limit_rows
+from gazelle.control.wheels.drive_parameters import command_rows, frame_rows, limit_rows
 from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["TABLE"]

@@ -6,8 +6,8 @@ import math
 
 from gazelle.control.errors import ControllerError
 from gazelle.control.table import ControllerTable
-from gazelle.control.wheels.base_parameters import command_rows, frame_rows
-from gazelle.control.wheels.limiter import TractionLimits
+from gazelle.control.wheels.drive_parameters import command_rows, frame_rows
+from gazelle.control.wheels.speed_limiter import TractionLimits
 from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
 from gazelle.parameters.reader import ParameterReader
 

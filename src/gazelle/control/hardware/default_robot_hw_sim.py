@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from gazelle.control.hardware.joint_states import JOINT_STATES, JointStates
+from gazelle.control.hardware.ros1_joint_group import Ros1Section
 from gazelle.control.hardware.ros1_joints import Ros1Joint
-from gazelle.control.hardware.ros1_section import Ros1Section
 from gazelle.control.hardware.sensor_states import SensorStates
 from gazelle.control.interface_values import InterfaceBank
 from gazelle.control.pid import PidBank, PidGains

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from gazelle.control.hardware.joint_states import JointStates
+from gazelle.control.hardware.ros2_joint_group import Ros2Section
 from gazelle.control.hardware.ros2_joints import Ros2Joint, Ros2Mimic
-from gazelle.control.hardware.ros2_section import Ros2Section
 from gazelle.control.hardware.ros2_tags import HardwareTag
 from gazelle.control.hardware.sensor_states import SensorStates
 from gazelle.control.interface_values import Array, InterfaceBank

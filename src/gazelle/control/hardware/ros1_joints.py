@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.control.hardware.description import ControlDescription
+from gazelle.control.controller_parameters import controller_parameters
 from gazelle.control.hardware.host import HardwareHost, ParameterStore
+from gazelle.control.hardware.robot_description import ControlDescription
 from gazelle.control.joint_limits import limits_from_parameters, limits_of
-from gazelle.control.parameters import controller_parameters
+from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
 from gazelle.control.pid import PidGains, read_gains
 from gazelle.control.pid.reading import gain_rows
 from gazelle.control.robot import JointLimits, JointResource
-from gazelle.control.sources.store import ParameterSource
 from gazelle.control.transmissions.transmission import read_transmission
 from gazelle.description.model import (
     JointType,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from gazelle.control.controller_node import Ports
 from gazelle.control.pid.pid import Pid
-from gazelle.control.ports import Ports
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import stamped
 

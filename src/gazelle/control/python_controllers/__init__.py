@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from gazelle.control.python_controllers.adapter import PythonController
+from gazelle.control.python_controllers.controller_api import UserJoint, UserNode, UserRobot
 from gazelle.control.python_controllers.finder import (
     find_installed_controller,
     find_python_controller,
 )
 from gazelle.control.python_controllers.pid import Pid
-from gazelle.control.python_controllers.views import UserJoint, UserNode, UserRobot
 
 __all__ = [
     "Pid",

@@ -9,9 +9,9 @@ from typing import Any, ClassVar
 
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
+from gazelle.control.python_controllers.controller_api import UserNode, UserRobot
 from gazelle.control.python_controllers.source_positions import located
 from gazelle.control.python_controllers.times import ControlPeriod, ControlTime
-from gazelle.control.python_controllers.views import UserNode, UserRobot
 from gazelle.control.table import ControllerTable
 from gazelle.parameters import ParameterTable
 

@@ -9,7 +9,7 @@ from gazelle.control.pid import Pid as ControlPid
 from gazelle.control.pid import PidGains
 
 if TYPE_CHECKING:
-    from gazelle.control.python_controllers.views import UserNode
+    from gazelle.control.python_controllers.controller_api import UserNode
 
 __all__ = ["Pid"]
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.control.interface_values import Array, Indices
-from gazelle.control.trajectory.segments import Segment, SegmentTrajectory, Track
+from gazelle.control.trajectory.ros1_trajectory import Segment, SegmentTrajectory, Track
 from gazelle.control.trajectory.splines import JointState
 from gazelle.control.trajectory.tolerances import Tolerances
 from gazelle.control.trajectory.waypoints import (

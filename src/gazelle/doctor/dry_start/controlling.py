@@ -8,7 +8,7 @@ from pathlib import Path
 from gazelle.control.checks import configured_controllers
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.errors import ControllerError
-from gazelle.control.sources.files import FileSource
+from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.dry_start.plan import ControllerStart, Manager
 from gazelle.graph.names import resolve

@@ -66,7 +66,7 @@ def check_parameter_file(
 
 def _check_map(path: Path, ros_version: int, diagnostics: Diagnostics) -> None:
     """Report what the map server would."""
-    from gazelle.mapping.grids.map_file import read_map_file, report_missing_image
+    from gazelle.mapping.grids.map_yaml import read_map_file, report_missing_image
 
     found = read_map_file(path, diagnostics, ros_version)
     if found is not None and not exists(found.image):

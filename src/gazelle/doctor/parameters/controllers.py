@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
+from gazelle.control.controller_parameters import controller_parameters
 from gazelle.control.controllers.registry import controller_class
-from gazelle.control.parameters import controller_parameters
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.parameters.document import Document, plain
 from gazelle.doctor.parameters.parameter_file import MARK, Layout

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gazelle.control.checks.configured import configured_controllers
+from gazelle.control.checks.configured_controllers import configured_controllers
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.errors import ControllerError
 from gazelle.description.model import JointType, Model

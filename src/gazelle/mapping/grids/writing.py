@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError
-from gazelle.mapping.grids.grid import OccupancyGrid
+from gazelle.mapping.grids.occupancy_grid import OccupancyGrid
 from gazelle.mapping.grids.pixels import MapMode, pixels_of_cells
 
 __all__ = ["MapWriteError", "SaveOptions", "write_map"]

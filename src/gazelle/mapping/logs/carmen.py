@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.mapping.laser_scan import Scan
 from gazelle.mapping.logs.lines import lines_of
-from gazelle.mapping.logs.record import LogRecord
-from gazelle.mapping.poses import between
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.logs.log_record import LogRecord
+from gazelle.mapping.se2 import between
 
 __all__ = ["read_carmen"]
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.mapping.poses import Poses
+from gazelle.mapping.se2 import Poses
 
 __all__ = ["DOUBTFUL", "UNKNOWN", "Edges", "bounded", "doubtful", "no_edges", "seen_from"]
 

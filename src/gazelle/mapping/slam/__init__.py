@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from gazelle.mapping.slam.engine import Slam, SlamResult, Update, slam
 from gazelle.mapping.slam.occupancy_counts import MapDrawer
-from gazelle.mapping.slam.parameters import SlamParameters
 from gazelle.mapping.slam.pose_graph_files import SUFFIX, SavedGraphError, load_graph, save_graph
+from gazelle.mapping.slam.slam_engine import Slam, SlamResult, Update, slam
+from gazelle.mapping.slam.slam_parameters import SlamParameters
 
 __all__ = [
     "SUFFIX",

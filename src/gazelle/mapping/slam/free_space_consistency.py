@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.poses import Poses, compose, transform_points
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.laser_scan import Scan
+from gazelle.mapping.se2 import Poses, compose, transform_points
 from gazelle.mapping.slam.free_space_kernels import contradictions
 from gazelle.mapping.slam.keyframes import Keyframe
 from gazelle.mapping.slam.ray_kernels import BeamCounts, count_beams

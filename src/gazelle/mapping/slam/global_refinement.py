@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.matching.match import Match, Prior, match
 from gazelle.mapping.pose_graph.constraints import Edges, bounded, seen_from
-from gazelle.mapping.pose_graph.optimise import optimise
-from gazelle.mapping.poses import Poses, between, wrap_angle
+from gazelle.mapping.pose_graph.optimizer import optimise
+from gazelle.mapping.scan_matching.scan_matcher import Match, Prior, match
+from gazelle.mapping.se2 import Poses, between, wrap_angle
 from gazelle.mapping.slam.keyframes import Keyframes
-from gazelle.mapping.slam.parameters import SlamParameters
 from gazelle.mapping.slam.settings import PolishSettings, SlamSettings
+from gazelle.mapping.slam.slam_parameters import SlamParameters
 
 __all__ = ["polished"]
 

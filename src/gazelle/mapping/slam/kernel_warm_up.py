@@ -8,8 +8,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gazelle.mapping.scans import Scan
-from gazelle.mapping.slam.engine import Slam
+from gazelle.mapping.laser_scan import Scan
+from gazelle.mapping.slam.slam_engine import Slam
 
 __all__ = ["warm_up"]
 

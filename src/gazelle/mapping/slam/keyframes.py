@@ -9,12 +9,12 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.mapping.matching.field import Field, field_of
-from gazelle.mapping.matching.point_kernels import placed
-from gazelle.mapping.matching.surfaces import dense_surface, even_points
-from gazelle.mapping.poses import Poses
-from gazelle.mapping.scans import Scan
-from gazelle.mapping.slam.parameters import SlamParameters
+from gazelle.mapping.laser_scan import Scan
+from gazelle.mapping.scan_matching.likelihood_field import Field, field_of
+from gazelle.mapping.scan_matching.point_kernels import placed
+from gazelle.mapping.scan_matching.surfaces import dense_surface, even_points
+from gazelle.mapping.se2 import Poses
+from gazelle.mapping.slam.slam_parameters import SlamParameters
 
 __all__ = ["Keyframe", "Keyframes", "keyframe_of"]
 

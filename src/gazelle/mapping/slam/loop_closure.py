@@ -6,14 +6,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gazelle.mapping.loops.candidates import places_near
-from gazelle.mapping.loops.detection import recognise
-from gazelle.mapping.loops.hypotheses import Hypotheses, Hypothesis
+from gazelle.mapping.loop_detection.candidates import places_near
+from gazelle.mapping.loop_detection.hypotheses import Hypotheses, Hypothesis
+from gazelle.mapping.loop_detection.loop_search import recognise
 from gazelle.mapping.pose_graph.constraints import Edges, doubtful
-from gazelle.mapping.pose_graph.optimise import optimise, residuals
-from gazelle.mapping.poses import Poses, between, compose
+from gazelle.mapping.pose_graph.optimizer import optimise, residuals
+from gazelle.mapping.se2 import Poses, between, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
-from gazelle.mapping.slam.parameters import SlamParameters
+from gazelle.mapping.slam.slam_parameters import SlamParameters
 from gazelle.mapping.slam.tracking import Tracker
 
 __all__ = ["LoopCloser", "Track"]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.mapping.grids import OccupancyGrid
-from gazelle.mapping.poses import Poses, compose
+from gazelle.mapping.se2 import Poses, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.ray_kernels import BeamCounts, count_beams
 from gazelle.mapping.slam.settings import DrawingSettings

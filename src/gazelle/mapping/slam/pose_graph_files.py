@@ -10,11 +10,11 @@ import numpy as np
 from gazelle.documents.npz_files import read_arrays
 from gazelle.documents.versions import refused_version
 from gazelle.errors import GazelleError
+from gazelle.mapping.laser_scan import Scan
 from gazelle.mapping.pose_graph.constraints import Edges, doubtful
-from gazelle.mapping.scans import Scan
-from gazelle.mapping.slam.engine import Slam
 from gazelle.mapping.slam.keyframes import keyframe_of
-from gazelle.mapping.slam.parameters import SlamParameters
+from gazelle.mapping.slam.slam_engine import Slam
+from gazelle.mapping.slam.slam_parameters import SlamParameters
 
 __all__ = ["SUFFIX", "SavedGraphError", "load_graph", "save_graph"]
 

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gazelle.mapping.matching.branch_and_bound import best_of_sectors
-from gazelle.mapping.matching.field import Field
-from gazelle.mapping.matching.match import Match, Prior, refined
-from gazelle.mapping.poses import Poses, between
+from gazelle.mapping.scan_matching.branch_and_bound import best_of_sectors
+from gazelle.mapping.scan_matching.likelihood_field import Field
+from gazelle.mapping.scan_matching.scan_matcher import Match, Prior, refined
+from gazelle.mapping.se2 import Poses, between
 from gazelle.mapping.slam.free_space_consistency import SeenSpace, seen_space
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.settings import SlamSettings, WeighingSettings

@@ -10,14 +10,14 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 
-from gazelle.mapping.loops.settings import (
+from gazelle.mapping.loop_detection.settings import (
     AgreementSettings,
     AmbiguitySettings,
     PlaceSettings,
     RecognitionSettings,
 )
-from gazelle.mapping.matching.settings import FieldSettings, MatchSettings, SurfaceSettings
-from gazelle.mapping.pose_graph.optimise import GraphSettings
+from gazelle.mapping.pose_graph.optimizer import GraphSettings
+from gazelle.mapping.scan_matching.settings import FieldSettings, MatchSettings, SurfaceSettings
 
 __all__ = [
     "ClosingSettings",

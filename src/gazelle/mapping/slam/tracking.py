@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.matching.field import Field
-from gazelle.mapping.matching.match import Match, Prior, match, refined
-from gazelle.mapping.poses import Poses, between, compose
+from gazelle.mapping.scan_matching.likelihood_field import Field
+from gazelle.mapping.scan_matching.scan_matcher import Match, Prior, match, refined
+from gazelle.mapping.se2 import Poses, between, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
-from gazelle.mapping.slam.parameters import SlamParameters
 from gazelle.mapping.slam.pose_selection import surroundings, weighed
 from gazelle.mapping.slam.settings import JumpSettings
+from gazelle.mapping.slam.slam_parameters import SlamParameters
 
 __all__ = ["Tracker", "is_jump", "motion_information"]
 

@@ -9,12 +9,12 @@ from functools import cached_property
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.motion.collision.building import collision_bodies
+from gazelle.motion.collision.collision_model import collision_bodies
 from gazelle.motion.collision.contacts import CollisionContact, SceneContacts
 from gazelle.motion.collision.continuous import Sweeper, Verdict
+from gazelle.motion.joint_space import FloatArray, SweptMotions
 from gazelle.motion.model import JointGroup
 from gazelle.motion.scene import PlanningScene
-from gazelle.motion.space import FloatArray, SweptMotions
 
 __all__ = ["CollisionChecker"]
 

@@ -12,16 +12,16 @@ import numpy as np
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mujoco_library import mujoco
-from gazelle.motion.collision.building import (
+from gazelle.motion.collision.collision_model import (
     CollisionBody,
     CollisionModel,
     Owner,
     build_collision_model,
     may_touch,
 )
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.model import JointGroup
 from gazelle.motion.scene import PlanningScene
-from gazelle.motion.space import FloatArray
 
 __all__ = ["CollisionContact", "SceneContacts"]
 

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
-from gazelle.motion.collision.building import CollisionBody, may_touch
+from gazelle.motion.collision.collision_model import CollisionBody, may_touch
 from gazelle.motion.collision.convex_rows import ConvexRows, rows_of
+from gazelle.motion.collision.convex_solids import Solid
 from gazelle.motion.collision.gjk_kernels import (
     APART,
     CENTRE,
@@ -24,7 +25,6 @@ from gazelle.motion.collision.gjk_kernels import (
     RADIUS,
     SLACK,
 )
-from gazelle.motion.collision.solids import Solid
 from gazelle.motion.collision.sweep_arguments import (
     PASSING,
     Bodies,
@@ -41,12 +41,12 @@ from gazelle.motion.collision.sweep_kernels import (
     pair_clear,
     sweep,
 )
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics import link_poses
 from gazelle.motion.kinematics.chain import LinkTree, link_tree
 from gazelle.motion.kinematics.kernels import tree
 from gazelle.motion.model import JointGroup, JointKind, RobotJoint
 from gazelle.motion.scene import PlanningScene
-from gazelle.motion.space import FloatArray
 
 __all__ = ["Sweeper", "Verdict"]
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.geometry import convex_hull
+from gazelle.motion.collision.convex_solids import Solid
 from gazelle.motion.collision.gjk_kernels import (
     BOX,
     BOX_HALF,
@@ -28,8 +29,7 @@ from gazelle.motion.collision.gjk_kernels import (
     SLACK,
     outside_m,
 )
-from gazelle.motion.collision.solids import Solid
-from gazelle.motion.space import FloatArray
+from gazelle.motion.joint_space import FloatArray
 
 __all__ = ["ConvexRows", "rows_of"]
 

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.motion.joint_space import BoolArray, FloatArray
 from gazelle.motion.kinematics.chain import LinkTree
-from gazelle.motion.space import BoolArray, FloatArray
 
 __all__ = [
     "PASSING",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.motion.constraints.kinds import (
+from gazelle.motion.constraints.kinematic_constraints import (
     ForwardKinematics,
     JointConstraint,
     OrientationConstraint,
@@ -11,7 +11,7 @@ from gazelle.motion.constraints.kinds import (
     PositionConstraint,
     Region,
 )
-from gazelle.motion.constraints.path import Constrained, narrowed, projection
+from gazelle.motion.constraints.path_constraints import Constrained, narrowed, projection
 
 __all__ = [
     "Constrained",

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics.kernels import QUATERNION, SLIDE, TURN, tree
 from gazelle.motion.model import JointGroup, JointKind, RobotJoint, RobotModel
-from gazelle.motion.space import FloatArray
 
 __all__ = ["Chain", "Goal", "LinkTree", "chain_to", "link_tree"]
 

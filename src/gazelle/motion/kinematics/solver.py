@@ -13,10 +13,10 @@ import numpy as np
 from gazelle.description.moveit import KinematicsSettings
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
+from gazelle.motion.joint_space import BoolArray, FloatArray, Validity
 from gazelle.motion.kinematics.chain import Chain, Goal, LinkTree, chain_to, link_tree
 from gazelle.motion.kinematics.kernels import chain_jacobian, chain_pose, solve, tree
 from gazelle.motion.model import JointGroup, JointKind, RobotModel
-from gazelle.motion.space import BoolArray, FloatArray, Validity
 
 __all__ = ["Patience", "Solver", "link_poses"]
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from gazelle.motion.model.groups import JointGroup
+from gazelle.motion.model.joint_groups import JointGroup
 from gazelle.motion.model.joints import JointKind, MimicRule, RobotJoint, VariableLimit
-from gazelle.motion.model.robot import RobotModel
+from gazelle.motion.model.robot_model import RobotModel
 
 __all__ = ["JointGroup", "JointKind", "MimicRule", "RobotJoint", "RobotModel", "VariableLimit"]

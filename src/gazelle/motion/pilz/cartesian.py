@@ -8,10 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.motion.constraints.kinds import Parameterization, matrix_of, rotation_vector
+from gazelle.motion.constraints.kinematic_constraints import (
+    Parameterization,
+    matrix_of,
+    rotation_vector,
+)
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.pilz.command import Auxiliary, AuxiliaryKind
-from gazelle.motion.planning.failure import ErrorCode, PlanningError
-from gazelle.motion.space import FloatArray
+from gazelle.motion.planning.error_codes import ErrorCode, PlanningError
 
 __all__ = ["CartesianPath", "circle", "line"]
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.motion.planning.failure import ErrorCode, PlanningError
-from gazelle.motion.space import FloatArray
+from gazelle.motion.joint_space import FloatArray
+from gazelle.motion.planning.error_codes import ErrorCode, PlanningError
 
 __all__ = ["Auxiliary", "AuxiliaryKind", "Command", "CommandKind"]
 

@@ -8,14 +8,21 @@ from typing import Protocol
 import numpy as np
 
 from gazelle.description.moveit import CartesianLimits
-from gazelle.motion.constraints.kinds import rotation_vector
+from gazelle.motion.constraints.kinematic_constraints import rotation_vector
+from gazelle.motion.joint_space import FloatArray, JointSpace, Validity
 from gazelle.motion.kinematics import Patience
 from gazelle.motion.pilz.cartesian import CartesianPath, circle, line
 from gazelle.motion.pilz.command import Command, CommandKind
-from gazelle.motion.pilz.motion import Motion, Trapezoid, check_limits, grid, measured, thinned
-from gazelle.motion.planning.failure import ErrorCode, PlanningError
-from gazelle.motion.planning.validation import FINE_STEP, first_fault
-from gazelle.motion.space import FloatArray, JointSpace, Validity
+from gazelle.motion.pilz.joint_motion import (
+    Motion,
+    Trapezoid,
+    check_limits,
+    grid,
+    measured,
+    thinned,
+)
+from gazelle.motion.planning.error_codes import ErrorCode, PlanningError
+from gazelle.motion.planning.path_validation import FINE_STEP, first_fault
 from gazelle.motion.timing.trajectory import Trajectory
 
 __all__ = ["Kinematics", "PilzPlanner"]

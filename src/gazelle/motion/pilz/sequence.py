@@ -6,12 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gazelle.motion.constraints.kinds import Parameterization, matrix_of, rotation_vector
+from gazelle.motion.constraints.kinematic_constraints import (
+    Parameterization,
+    matrix_of,
+    rotation_vector,
+)
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.pilz.command import Command
-from gazelle.motion.pilz.motion import Motion, check_limits, grid, joined, measured, thinned
+from gazelle.motion.pilz.joint_motion import Motion, check_limits, grid, joined, measured, thinned
 from gazelle.motion.pilz.planner import PilzPlanner
-from gazelle.motion.planning.failure import ErrorCode, PlanningError
-from gazelle.motion.space import FloatArray
+from gazelle.motion.planning.error_codes import ErrorCode, PlanningError
 from gazelle.motion.timing.trajectory import Trajectory
 
 __all__ = ["plan_sequence"]

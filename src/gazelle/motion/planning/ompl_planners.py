@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.planning.problem import Problem, Waypoints
-from gazelle.motion.space import FloatArray
 
 __all__ = ["NATIVE_PARAMETERS", "PIP_LINE", "solver", "why_missing"]
 

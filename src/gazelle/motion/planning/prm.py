@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.planning.problem import Problem, Waypoints
-from gazelle.motion.planning.tree import Tree
-from gazelle.motion.space import FloatArray
+from gazelle.motion.planning.search_tree import Tree
 
 __all__ = ["prm", "prm_star"]
 

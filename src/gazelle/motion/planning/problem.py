@@ -10,8 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
-from gazelle.motion.planning.validation import FINE_STEP, SWEPT_STEP, ends_of
-from gazelle.motion.space import FloatArray, JointSpace, SweptMotions, SweptValidity, Validity
+from gazelle.motion.joint_space import FloatArray, JointSpace, SweptMotions, SweptValidity, Validity
+from gazelle.motion.planning.path_validation import FINE_STEP, SWEPT_STEP, ends_of
 
 __all__ = ["GoalSource", "Path", "PlannerSettings", "Problem", "Projection", "Search", "Waypoints"]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.motion.collision.sweep_kernels import MAX_STEPS
+from gazelle.motion.joint_space import FloatArray, JointSpace, SweptMotions, SweptValidity, Validity
 from gazelle.motion.planning.problem import Problem, Waypoints
 from gazelle.motion.planning.rrt_connect_kernels import ARRIVED, DOUBTFUL, Draws, connect_trees
-from gazelle.motion.planning.tree import Tree, warm_up_trees
-from gazelle.motion.space import FloatArray, JointSpace, SweptMotions, SweptValidity, Validity
+from gazelle.motion.planning.search_tree import Tree, warm_up_trees
 
 __all__ = ["rrt_connect", "warm_up"]
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from gazelle.compiling import njit
 from gazelle.motion.collision.sweep_kernels import COLLIDES, FREE, sweep
-from gazelle.motion.planning.tree import TreeArrays
-from gazelle.motion.planning.tree_kernels import drawn, nearest
-from gazelle.motion.space import BoolArray, FloatArray
+from gazelle.motion.joint_space import BoolArray, FloatArray
+from gazelle.motion.planning.search_tree import TreeArrays
+from gazelle.motion.planning.search_tree_kernels import drawn, nearest
 
 __all__ = ["ARRIVED", "BLOCKED", "DOUBTFUL", "Draws", "connect_trees"]
 

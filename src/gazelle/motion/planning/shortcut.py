@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.planning.problem import Problem, Waypoints
-from gazelle.motion.space import FloatArray
 
 __all__ = ["shortcut"]
 

@@ -10,7 +10,7 @@ from gazelle.motion.scene.objects import (
     SceneShape,
     WorldObject,
 )
-from gazelle.motion.scene.scene import PlanningScene
+from gazelle.motion.scene.planning_scene import PlanningScene
 
 __all__ = [
     "AllowedCollisions",

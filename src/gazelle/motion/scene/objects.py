@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.description.model import MeshShape, Plane, Solid
 from gazelle.geometry import IDENTITY_POSE, Pose
-from gazelle.motion.space import FloatArray
+from gazelle.motion.joint_space import FloatArray
 
 __all__ = ["AttachedBody", "PlacedShape", "SceneMesh", "SceneShape", "WorldObject"]
 

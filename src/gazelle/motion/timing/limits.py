@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.motion.space import FloatArray, JointSpace
+from gazelle.motion.joint_space import FloatArray, JointSpace
 
 __all__ = ["Limits", "limits_of"]
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.motion.space import FloatArray
-from gazelle.motion.timing.profile import Span
+from gazelle.motion.joint_space import FloatArray
+from gazelle.motion.timing.velocity_profile import Span
 
 __all__ = ["States", "Trajectory", "states_at", "times_of"]
 

@@ -2,6 +2,13 @@
 
 from __future__ import annotations
 
+from gazelle.navigation.controllers.controller import (
+    Command,
+    Controller,
+    NoCommand,
+    RobotState,
+    Velocity,
+)
 from gazelle.navigation.controllers.mppi import MppiController, MppiOptions
 from gazelle.navigation.controllers.options import (
     DwaOptions,
@@ -15,14 +22,7 @@ from gazelle.navigation.controllers.registry import (
     ControllerSetting,
 )
 from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController, PursuitOptions
-from gazelle.navigation.controllers.sampling import SamplingController
-from gazelle.navigation.controllers.state import (
-    Command,
-    Controller,
-    NoCommand,
-    RobotState,
-    Velocity,
-)
+from gazelle.navigation.controllers.sampling_controller import SamplingController
 from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = [

@@ -10,7 +10,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.controllers.following import FollowedPlan, angle_between
+from gazelle.navigation.controllers.controller import Command, NoCommand, RobotState
+from gazelle.navigation.controllers.followed_plan import FollowedPlan, angle_between
 from gazelle.navigation.controllers.rollout_arguments import (
     CRITIC_WEIGHTS,
     Limits,
@@ -18,10 +19,9 @@ from gazelle.navigation.controllers.rollout_arguments import (
     Variations,
     Way,
 )
-from gazelle.navigation.controllers.state import Command, NoCommand, RobotState
+from gazelle.navigation.costmap.cost_grid import CostGrid
 from gazelle.navigation.costmap.footprint import Footprint
-from gazelle.navigation.costmap.grid import CostGrid
-from gazelle.parameters.options import flag, integer, number, text, texts
+from gazelle.parameters.dataclass_tables import flag, integer, number, text, texts
 
 __all__ = ["MppiController", "MppiOptions"]
 
@@ -207,7 +207,7 @@ class MppiController:
         anew: bool,
     ) -> bool:
         """Take one round; tells whether any trajectory was free."""
-        from gazelle.navigation.controllers.mppi_kernel import score_batch
+        from gazelle.navigation.controllers.mppi_kernels import score_batch
 
         assert self._plan is not None
         o, noise = self._options, self._variations(anew)
@@ -230,7 +230,7 @@ class MppiController:
         return True
 
     def _command(self, start: PlanarState) -> Command:
-        from gazelle.navigation.controllers.mppi_kernel import roll_out
+        from gazelle.navigation.controllers.mppi_kernels import roll_out
 
         poses, driven = np.empty_like(self._controls), np.empty_like(self._controls)
         roll_out(start, self._controls, self._limits(), poses, driven)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from gazelle.parameters.options import flag, integer, number, text, texts
+from gazelle.parameters.dataclass_tables import flag, integer, number, text, texts
 
 __all__ = ["DwaOptions", "DwbOptions", "TrajectoryPlannerOptions"]
 

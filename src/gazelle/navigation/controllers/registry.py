@@ -6,17 +6,17 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from gazelle.navigation.controllers.maneuver import Maneuvering, Pace
+from gazelle.navigation.controllers.controller import Controller
 from gazelle.navigation.controllers.mppi import MppiController, MppiOptions
 from gazelle.navigation.controllers.options import (
     DwaOptions,
     DwbOptions,
     TrajectoryPlannerOptions,
 )
-from gazelle.navigation.controllers.profile import dwa_profile, dwb_profile
+from gazelle.navigation.controllers.recovery_maneuver import Maneuvering, Pace
 from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController, PursuitOptions
-from gazelle.navigation.controllers.sampling import SamplingController
-from gazelle.navigation.controllers.state import Controller
+from gazelle.navigation.controllers.sampling_controller import SamplingController
+from gazelle.navigation.controllers.sampling_profiles import dwa_profile, dwb_profile
 from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = ["CONTROLLERS", "REFUSED_CONTROLLERS", "ControllerKind", "ControllerSetting"]

@@ -10,11 +10,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.controllers.following import FollowedPlan, angle_between
-from gazelle.navigation.controllers.state import Command, NoCommand, RobotState, Velocity
+from gazelle.navigation.controllers.controller import Command, NoCommand, RobotState, Velocity
+from gazelle.navigation.controllers.followed_plan import FollowedPlan, angle_between
+from gazelle.navigation.costmap.cost_grid import INSCRIBED, UNKNOWN, CostGrid
 from gazelle.navigation.costmap.footprint import Footprint, footprint_cost
-from gazelle.navigation.costmap.grid import INSCRIBED, UNKNOWN, CostGrid
-from gazelle.parameters.options import flag, number
+from gazelle.parameters.dataclass_tables import flag, number
 
 __all__ = ["PursuitController", "PursuitOptions"]
 

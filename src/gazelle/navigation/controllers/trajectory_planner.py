@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.controllers.arrival import Arrival
-from gazelle.navigation.controllers.following import FollowedPlan, angle_between
+from gazelle.navigation.controllers.controller import Command, NoCommand, RobotState, Velocity
+from gazelle.navigation.controllers.followed_plan import FollowedPlan, angle_between
 from gazelle.navigation.controllers.options import TrajectoryPlannerOptions
 from gazelle.navigation.controllers.rollout_arguments import Distances, RolloutTerms, Timing
-from gazelle.navigation.controllers.state import Command, NoCommand, RobotState, Velocity
+from gazelle.navigation.controllers.stop_rotate import Arrival
+from gazelle.navigation.costmap.cost_grid import CostGrid
 from gazelle.navigation.costmap.footprint import Footprint, footprint_cost
-from gazelle.navigation.costmap.grid import CostGrid
 
 __all__ = ["TrajectoryPlanner"]
 
@@ -234,9 +234,9 @@ class _Rollout:
         plan: NDArray[np.float64],
     ) -> None:
         """Measure how far all cells of a costmap are from the path and from its end."""
-        from gazelle.navigation.controllers.kernels import distance_field
-        from gazelle.navigation.controllers.trajectory_kernel import HIT, NO_WAY
-        from gazelle.navigation.costmap.kernels import fill_polygon
+        from gazelle.navigation.controllers.sampling_kernels import distance_field
+        from gazelle.navigation.controllers.trajectory_planner_kernels import HIT, NO_WAY
+        from gazelle.navigation.costmap.costmap_kernels import fill_polygon
 
         self.hit, self.no_way = HIT, NO_WAY
         self._options, self._terms = options, terms
@@ -257,7 +257,7 @@ class _Rollout:
 
     def of(self, samples: list[Velocity]) -> NDArray[np.float64]:
         """Return costs and ends, (n, 4): cost, x, y, yaw."""
-        from gazelle.navigation.controllers.trajectory_kernel import roll_out
+        from gazelle.navigation.controllers.trajectory_planner_kernels import roll_out
 
         found = roll_out(
             self._grid.cells, self._distances, self._footprint.points, self._state.planar,
@@ -286,7 +286,7 @@ class _Rollout:
 
     def command(self, velocity: Velocity, cost: float = 0.0) -> Command:
         """Return a command with its trajectory."""
-        from gazelle.navigation.controllers.kernels import simulate
+        from gazelle.navigation.controllers.sampling_kernels import simulate
 
         out = np.empty((_SHOWN_POSES, 3))
         step_s = self._options.sim_time / _SHOWN_POSES

@@ -7,8 +7,7 @@ lethal, and updates of the changed window only.
 
 from __future__ import annotations
 
-from gazelle.navigation.costmap.footprint import Footprint, footprint_cost
-from gazelle.navigation.costmap.grid import (
+from gazelle.navigation.costmap.cost_grid import (
     FREE,
     INSCRIBED,
     LETHAL,
@@ -17,11 +16,7 @@ from gazelle.navigation.costmap.grid import (
     Window,
     occupancy_of_costs,
 )
-from gazelle.navigation.costmap.inflation import InflationLayer, inflated, inflation_costs
-from gazelle.navigation.costmap.layered import Layer, LayeredCostmap
-from gazelle.navigation.costmap.observation import Observation, observation_of_scan
-from gazelle.navigation.costmap.obstacles import ObstacleLayer
-from gazelle.navigation.costmap.options import (
+from gazelle.navigation.costmap.costmap_options import (
     LAYER_TYPES,
     REFUSED_LAYERS,
     CostmapOptions,
@@ -31,7 +26,12 @@ from gazelle.navigation.costmap.options import (
     StaticOptions,
     VoxelOptions,
 )
-from gazelle.navigation.costmap.static import StaticLayer, costs_of_map
+from gazelle.navigation.costmap.footprint import Footprint, footprint_cost
+from gazelle.navigation.costmap.inflation_layer import InflationLayer, inflated, inflation_costs
+from gazelle.navigation.costmap.layered_costmap import Layer, LayeredCostmap
+from gazelle.navigation.costmap.observation import Observation, observation_of_scan
+from gazelle.navigation.costmap.obstacle_layer import ObstacleLayer
+from gazelle.navigation.costmap.static_layer import StaticLayer, costs_of_map
 
 __all__ = [
     "FREE",

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.costmap.grid import CostGrid
+from gazelle.navigation.costmap.cost_grid import CostGrid
 
 __all__ = ["Footprint", "footprint_cost"]
 
@@ -119,7 +119,7 @@ def footprint_cost(grid: CostGrid, footprint: Footprint, pose: tuple[float, floa
         0 … 253 where it fits; −1 when an obstacle is in the way, −2 when it stands on what is
         unknown, −3 when it is outside the grid, as ``CostmapModel::footprintCost``.
     """
-    from gazelle.navigation.costmap.kernels import outline_cost
+    from gazelle.navigation.costmap.costmap_kernels import outline_cost
 
     x, y, yaw = pose
     return int(

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.poses import compose, transform_points
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.laser_scan import Scan
+from gazelle.mapping.se2 import compose, transform_points
 
 __all__ = ["Observation", "observation_of_scan"]
 

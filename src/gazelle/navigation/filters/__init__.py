@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.navigation.filters.chain import (
+from gazelle.navigation.filters.laser_filters import (
     FILTERS,
     REFUSED_FILTERS,
     FilterSetup,

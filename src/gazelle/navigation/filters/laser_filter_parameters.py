@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from gazelle.parameters.options import flag, integer, number, text
+from gazelle.parameters.dataclass_tables import flag, integer, number, text
 
 __all__ = [
     "BoundsOptions",

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from gazelle.navigation.planners.options import (
+from gazelle.navigation.planners.path_planning import make_plan
+from gazelle.navigation.planners.plan import NoPlan, Plan, PlanFailure
+from gazelle.navigation.planners.planner import PlannerKind, PlannerOptions
+from gazelle.navigation.planners.planner_options import (
     GlobalPlannerOptions,
     Nav2NavfnOptions,
     NavfnOptions,
     Smac2DOptions,
     ThetaStarOptions,
 )
-from gazelle.navigation.planners.plan import NoPlan, Plan, PlanFailure
-from gazelle.navigation.planners.planner import PlannerKind, PlannerOptions
-from gazelle.navigation.planners.planning import make_plan
 from gazelle.navigation.planners.registry import PLANNERS, REFUSED_PLANNERS
 
 __all__ = [

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.costmap.grid import INSCRIBED, UNKNOWN
-from gazelle.navigation.planners.options import (
+from gazelle.navigation.costmap.cost_grid import INSCRIBED, UNKNOWN
+from gazelle.navigation.planners.planner_options import (
     GlobalPlannerOptions,
     Smac2DOptions,
     ThetaStarOptions,

@@ -13,7 +13,7 @@ __all__ = ["Facing", "PlannerKind", "PlannerOptions", "Route", "Search"]
 
 
 class PlannerOptions(Protocol):
-    """Options of any planner; classes are frozen dataclasses of `gazelle.parameters.options`."""
+    """Options of any planner: frozen dataclasses of `gazelle.parameters.dataclass_tables`."""
 
     IDLE: ClassVar[Mapping[str, str]]
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from gazelle.navigation.costmap.grid import INSCRIBED, LETHAL, UNKNOWN, CostGrid
+from gazelle.navigation.costmap.cost_grid import INSCRIBED, LETHAL, UNKNOWN, CostGrid
 from gazelle.navigation.planners.plan import NoPlan, PlanFailure
 
 __all__ = ["refuse_ends", "why_no_path"]

@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from typing import Protocol
 
 from gazelle.navigation.planners import searches
-from gazelle.navigation.planners.options import (
+from gazelle.navigation.planners.planner import Facing, PlannerKind, PlannerOptions
+from gazelle.navigation.planners.planner_options import (
     GlobalPlannerOptions,
     Nav2NavfnOptions,
     NavfnOptions,
     Smac2DOptions,
     ThetaStarOptions,
 )
-from gazelle.navigation.planners.planner import Facing, PlannerKind, PlannerOptions
 
 __all__ = ["PLANNERS", "REFUSED_PLANNERS", "kind_of"]
 

@@ -13,14 +13,14 @@ from gazelle.navigation.planners.cost_tables import (
     smac_table,
     theta_table,
 )
-from gazelle.navigation.planners.options import (
+from gazelle.navigation.planners.planner import Route, Search
+from gazelle.navigation.planners.planner_options import (
     GlobalPlannerOptions,
     Nav2NavfnOptions,
     NavfnOptions,
     Smac2DOptions,
     ThetaStarOptions,
 )
-from gazelle.navigation.planners.planner import Route, Search
 
 __all__ = ["any_angle", "global_planner", "nav2_navfn", "navfn", "smac_2d"]
 
@@ -64,7 +64,7 @@ def smac_2d(search: Search, options: Smac2DOptions) -> Route | None:
 
 def any_angle(search: Search, options: ThetaStarOptions) -> Route | None:
     """Go straight from corner to corner."""
-    from gazelle.navigation.planners.search_kernels import theta_star
+    from gazelle.navigation.planners.astar_kernels import theta_star
 
     costs, start, goal, _reach = search
     width, table = costs.shape[1], theta_table(options)
@@ -85,7 +85,11 @@ def _down(
     straight: bool = False,
 ) -> Route | None:
     """Spread a potential from the start and go down from the goal."""
-    from gazelle.navigation.planners.kernels import descend_cells, descend_gradient, navfn_potential
+    from gazelle.navigation.planners.navfn_kernels import (
+        descend_cells,
+        descend_gradient,
+        navfn_potential,
+    )
 
     costs, start, goal, reach = search
     width = costs.shape[1]
@@ -101,7 +105,7 @@ def _down(
 
 
 def _nearest_reached(potential: NDArray[np.float32], goal: int, reach: float) -> int | None:
-    from gazelle.navigation.planners.kernels import HIGH
+    from gazelle.navigation.planners.navfn_kernels import HIGH
 
     height, width = potential.shape
     gx, gy, r = goal % width, goal // width, int(reach)
@@ -120,8 +124,8 @@ def _nearest_reached(potential: NDArray[np.float32], goal: int, reach: float) ->
 
 def _cells(search: Search, table: NDArray[np.float32], most: int, smooth: bool) -> Route | None:
     """Search by A*."""
-    from gazelle.navigation.planners.kernels import smooth_path
-    from gazelle.navigation.planners.search_kernels import astar
+    from gazelle.navigation.planners.astar_kernels import astar
+    from gazelle.navigation.planners.navfn_kernels import smooth_path
 
     costs, start, goal, reach = search
     width = costs.shape[1]

@@ -17,8 +17,8 @@ from gazelle.graph.tf import TransformError
 from gazelle.interfaces import service_type
 from gazelle.interfaces.poses import unit_pose_of
 from gazelle.interfaces.stamps import ns_of
-from gazelle.mapping.poses import between, compose, inverse
-from gazelle.navigation.localisation import MOTION_MODELS, Amcl, AmclOptions, Estimate
+from gazelle.mapping.se2 import between, compose, inverse
+from gazelle.navigation.localization import MOTION_MODELS, Amcl, AmclOptions, Estimate
 from gazelle.nodes.amcl.outputs import Outputs
 from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.amcl.scans import scan_of_message

@@ -12,7 +12,7 @@ from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_plane_pose
 from gazelle.interfaces.stamps import set_header
-from gazelle.navigation.localisation import Estimate
+from gazelle.navigation.localization import Estimate
 from gazelle.nodes.navigation.robot_pose import PlanePose
 
 if TYPE_CHECKING:

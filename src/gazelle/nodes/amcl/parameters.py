@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from gazelle.navigation.localisation import AmclOptions
+from gazelle.navigation.localization import AmclOptions
 from gazelle.parameters import Parameter, ParameterTable, refused
-from gazelle.parameters.options import table_of
+from gazelle.parameters.dataclass_tables import table_of
 
 __all__ = ["AMCL", "NAV2_AMCL"]
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.geometry import Pose
 from gazelle.interfaces.stamps import ns_of
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.laser_scan import Scan
 
 __all__ = ["scan_of_message"]
 

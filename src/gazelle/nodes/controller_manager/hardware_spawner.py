@@ -6,7 +6,7 @@ import threading
 from argparse import Namespace
 from collections.abc import Sequence
 
-from gazelle.control.hardware_lifecycle import HardwareState
+from gazelle.control.hardware.lifecycle import HardwareState
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GraphError
 from gazelle.graph import Graph, Node

@@ -28,7 +28,7 @@ from gazelle.nodes.parameter_reading import private_parameters
 from gazelle.nodes.parameters import start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.coercion import flag_of, number_of
-from gazelle.parameters.options import table_of
+from gazelle.parameters.dataclass_tables import table_of
 from gazelle.parameters.owner import ParameterOwner
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.sources import TreeSource

@@ -14,7 +14,7 @@ from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
 from gazelle.nodes.navigation.robot_pose import PlanePose, path_message
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import ParameterTable
-from gazelle.parameters.options import table_of
+from gazelle.parameters.dataclass_tables import table_of
 
 if TYPE_CHECKING:
     from gazelle.graph import Node

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.interfaces import message_type
-from gazelle.mapping.poses import compose
+from gazelle.mapping.se2 import compose
 from gazelle.navigation.controllers import (
     CONTROLLERS,
     REFUSED_CONTROLLERS,
@@ -25,7 +25,7 @@ from gazelle.nodes.navigation.odometry import Odometry
 from gazelle.nodes.navigation.robot_pose import PlanePose, path_message
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import Parameter, ParameterTable
-from gazelle.parameters.options import table_of
+from gazelle.parameters.dataclass_tables import table_of
 
 if TYPE_CHECKING:
     from gazelle.graph import Node

@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.graph.actions import ActionServer, ServerGoal
 from gazelle.interfaces import action_type
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.goals import Goal

@@ -8,9 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.motion.constraints import PathConstraint
-from gazelle.motion.constraints.kinds import Parameterization, matrix_of, rotation_vector
+from gazelle.motion.constraints.kinematic_constraints import (
+    Parameterization,
+    matrix_of,
+    rotation_vector,
+)
+from gazelle.motion.joint_space import FloatArray, Validity
 from gazelle.motion.kinematics import Patience, Solver
-from gazelle.motion.space import FloatArray, Validity
 
 __all__ = ["JumpLimits", "straight_path"]
 

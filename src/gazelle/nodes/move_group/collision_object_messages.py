@@ -10,7 +10,7 @@ from typing import Any
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.motion.scene import AttachedBody, PlacedShape, PlanningScene, WorldObject
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.error_codes import MoveGroupError

@@ -21,9 +21,9 @@ from gazelle.motion.constraints import (
     PositionConstraint,
     Region,
 )
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.model import JointGroup, RobotModel
-from gazelle.motion.planning.failure import ErrorCode
-from gazelle.motion.space import FloatArray
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 
 __all__ = ["ConstraintReader", "Frames", "pose_of"]

@@ -13,10 +13,10 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.graph import Node, Publisher
 from gazelle.interfaces import message_type
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.model import JointKind, RobotModel
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.motion.scene import PlanningScene
-from gazelle.motion.space import FloatArray
 from gazelle.nodes.findings import log_findings
 from gazelle.nodes.move_group.current_state_monitor import StateMonitor
 from gazelle.nodes.move_group.error_codes import MoveGroupError

@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.graph.actions import ClientGoal
 from gazelle.interfaces import action_type, message_type
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.simple_controller_manager import ControllerKind, ControllerSpec
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.interfaces import message_type
-from gazelle.motion.planning.failure import CodedError, ErrorCode
+from gazelle.motion.planning.error_codes import CodedError, ErrorCode
 
 __all__ = ["MoveGroupError", "code_message"]
 

@@ -13,9 +13,9 @@ from gazelle.motion.constraints import (
     PathConstraint,
     PositionConstraint,
 )
-from gazelle.motion.constraints.kinds import matrix_of
+from gazelle.motion.constraints.kinematic_constraints import matrix_of
+from gazelle.motion.joint_space import FloatArray, Validity
 from gazelle.motion.kinematics import Patience, Solver
-from gazelle.motion.space import FloatArray, Validity
 
 __all__ = ["Goal", "GoalSampler"]
 

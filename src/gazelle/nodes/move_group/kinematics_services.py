@@ -10,10 +10,10 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import set_xyz
 from gazelle.interfaces.stamps import seconds_of, set_stamp
 from gazelle.motion.constraints import Constrained
+from gazelle.motion.joint_space import FloatArray, Validity
 from gazelle.motion.kinematics import Patience, link_poses
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.motion.scene import PlanningScene
-from gazelle.motion.space import FloatArray, Validity
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message

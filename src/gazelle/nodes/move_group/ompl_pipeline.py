@@ -19,7 +19,7 @@ from gazelle.motion.planning import (
     configured,
     plan,
 )
-from gazelle.motion.planning.planners import DEFAULT
+from gazelle.motion.planning.planner_registry import DEFAULT
 from gazelle.motion.timing import Trajectory, method_of, parameterise
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.goals import Goal, GoalSampler

@@ -9,6 +9,7 @@ import numpy as np
 from gazelle.description.moveit import MoveItConfig
 from gazelle.diagnostics import did_you_mean
 from gazelle.motion.constraints import OrientationConstraint, PositionConstraint
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.pilz import (
     Auxiliary,
     AuxiliaryKind,
@@ -17,8 +18,7 @@ from gazelle.motion.pilz import (
     PilzPlanner,
     plan_sequence,
 )
-from gazelle.motion.planning.failure import ErrorCode
-from gazelle.motion.space import FloatArray
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.error_codes import MoveGroupError

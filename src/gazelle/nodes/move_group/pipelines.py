@@ -9,7 +9,7 @@ from gazelle.description.moveit import MoveItConfig, Pipeline
 from gazelle.diagnostics import did_you_mean
 from gazelle.extensions import ExtensionGroup, load_extensions
 from gazelle.motion.model import JointGroup
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.ompl_pipeline import OMPL
 from gazelle.nodes.move_group.pilz_pipeline import PILZ

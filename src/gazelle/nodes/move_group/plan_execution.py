@@ -9,8 +9,8 @@ from typing import Any
 
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import set_stamp
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.planning import ErrorCode, first_fault
-from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError

@@ -12,11 +12,11 @@ from gazelle.geometry import Pose
 from gazelle.motion import kinematics, planning
 from gazelle.motion.collision import CollisionChecker
 from gazelle.motion.constraints import PathConstraint
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics import Patience, Solver
 from gazelle.motion.model import JointGroup, RobotModel
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.motion.scene import PlanningScene
-from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.collision_object_messages import FrameOf
 from gazelle.nodes.move_group.constraint_messages import ConstraintReader
 from gazelle.nodes.move_group.error_codes import MoveGroupError

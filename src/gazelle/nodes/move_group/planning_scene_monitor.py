@@ -13,7 +13,7 @@ from gazelle.graph import Node
 from gazelle.graph.tf import TransformBuffer, TransformError, TransformListener
 from gazelle.interfaces import message_type
 from gazelle.motion.model import RobotModel
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.motion.scene import PlanningScene
 from gazelle.nodes.move_group.collision_object_messages import apply_attached, apply_object
 from gazelle.nodes.move_group.current_state_monitor import StateMonitor

@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.interfaces import message_type, service_type
 from gazelle.motion.model import JointKind
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.motion.timing import parameterise
 from gazelle.nodes.move_group.cartesian_interpolator import JumpLimits, straight_path
 from gazelle.nodes.move_group.constraint_messages import pose_of

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.planning import ErrorCode, PlanningError
 from gazelle.motion.scene import PlanningScene
-from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.collision_object_messages import FrameOf
 from gazelle.nodes.move_group.error_codes import MoveGroupError

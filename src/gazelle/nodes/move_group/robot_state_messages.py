@@ -9,9 +9,9 @@ from gazelle.geometry import quat_xyzw_from_yaw, yaw_from_quat_xyzw
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import quat_xyzw_of, set_quat_xyzw
 from gazelle.interfaces.stamps import set_stamp
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.model import JointKind, RobotJoint, RobotModel
-from gazelle.motion.planning.failure import ErrorCode
-from gazelle.motion.space import FloatArray
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 
 __all__ = ["joint_state_message", "positions_of", "robot_state_message"]

@@ -11,10 +11,10 @@ from typing import Any
 
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type, service_type
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.planning import ErrorCode
-from gazelle.motion.planning.failure import CodedError
+from gazelle.motion.planning.error_codes import CodedError
 from gazelle.motion.scene import PlanningScene
-from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.action_servers import OneAtATime
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message

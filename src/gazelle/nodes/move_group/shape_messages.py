@@ -18,7 +18,7 @@ from gazelle.description.model import (
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_pose
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.motion.scene import PlacedShape, SceneMesh, SceneShape
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 

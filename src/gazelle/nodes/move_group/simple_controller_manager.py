@@ -14,7 +14,7 @@ from typing import Any
 
 from gazelle.description.moveit import ControllerEntry, MoveItConfig
 from gazelle.diagnostics import did_you_mean
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 
 __all__ = [

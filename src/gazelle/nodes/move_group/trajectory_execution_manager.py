@@ -14,7 +14,7 @@ from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.interfaces.stamps import ns_of
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.controller_goals import controller_goal, goal_end, part_of
 from gazelle.nodes.move_group.current_state_monitor import StateMonitor
 from gazelle.nodes.move_group.error_codes import MoveGroupError

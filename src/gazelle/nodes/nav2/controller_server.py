@@ -14,7 +14,7 @@ from gazelle.graph import Graph
 from gazelle.graph.actions import ServerGoal
 from gazelle.interfaces import action_type, message_type
 from gazelle.interfaces.poses import unit_pose_of
-from gazelle.mapping.poses import compose
+from gazelle.mapping.se2 import compose
 from gazelle.navigation.controllers import (
     CONTROLLERS,
     REFUSED_CONTROLLERS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.planners import PLANNERS
 from gazelle.parameters import Parameter, ParameterTable, refused
-from gazelle.parameters.options import table_of
+from gazelle.parameters.dataclass_tables import table_of
 
 __all__ = [
     "BEHAVIOR_SERVER",

@@ -25,7 +25,7 @@ from gazelle.navigation.costmap import (
 )
 from gazelle.nodes.parameter_reading import node_reader
 from gazelle.parameters import ParameterTable
-from gazelle.parameters.options import table_of
+from gazelle.parameters.dataclass_tables import table_of
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["COSTMAP_TABLES", "INHERITED", "Assembly", "assemble", "costmap_table", "layer_table"]

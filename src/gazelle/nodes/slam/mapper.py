@@ -12,7 +12,7 @@ from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces import message_type
 from gazelle.mapping.grids import OccupancyGrid
-from gazelle.mapping.poses import Poses, between, compose, inverse
+from gazelle.mapping.se2 import Poses, between, compose, inverse
 from gazelle.mapping.slam import MapDrawer, Slam
 from gazelle.nodes.map_server.occupancy_grid import message_of_grid
 from gazelle.nodes.navigation.robot_pose import Frames

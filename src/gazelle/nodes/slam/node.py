@@ -13,7 +13,7 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import service_type
-from gazelle.mapping.poses import Poses
+from gazelle.mapping.se2 import Poses
 from gazelle.mapping.slam.kernel_warm_up import warm_up
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.findings import log_findings

@@ -11,8 +11,8 @@ import numpy as np
 from gazelle.geometry import Pose
 from gazelle.graph.tf import MessageFilter, TransformBuffer, TransformError
 from gazelle.interfaces.stamps import ns_of
-from gazelle.mapping.poses import Poses
-from gazelle.mapping.scans import Scan
+from gazelle.mapping.laser_scan import Scan
+from gazelle.mapping.se2 import Poses
 
 __all__ = ["PlacedScan", "ScanQueue", "scan_of"]
 

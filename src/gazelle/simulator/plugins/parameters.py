@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.control.sources.files import read_ros_arguments
+from gazelle.control.parameter_sources.ros2_node_parameters import read_ros_arguments
 from gazelle.description.model import PluginTag
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import bool_from, floats_from

@@ -18,7 +18,7 @@ from gazelle.simulator.plugins.table import PluginTable
 if TYPE_CHECKING:
     from gazelle.control.controller_manager import ControllerManager
     from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
-    from gazelle.control.hardware.description import ControlDescription
+    from gazelle.control.hardware.robot_description import ControlDescription
     from gazelle.control.robot import Robot
 
 __all__ = ["DEFAULT_ROBOT_SIM", "OF_2011", "TABLE", "load"]
@@ -221,7 +221,7 @@ def _offer_gains(context: PluginContext, manager: ControllerManager, namespace: 
 
 
 def _source(context: PluginContext, namespace: str) -> Any:
-    from gazelle.control.sources.store import StoreSource
+    from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 
     return StoreSource(context.host.node.parameters, namespace)
 
@@ -230,7 +230,7 @@ def _description(
     context: PluginContext, parameters: PluginReader, namespace: str
 ) -> ControlDescription | None:
     """Return the description in the parameter store; None when it is not this robot's."""
-    from gazelle.control.hardware.description import read_description
+    from gazelle.control.hardware.robot_description import read_description
 
     name = parameters.text("robotParam")
     words = [word for word in namespace.split("/") if word]

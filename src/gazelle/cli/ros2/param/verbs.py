@@ -109,7 +109,7 @@ def run_dump(options: argparse.Namespace) -> int:
 
 def run_load(options: argparse.Namespace) -> int:
     """Set what a parameter file says about a node."""
-    from gazelle.control.sources.yaml_file import read_parameter_file
+    from gazelle.control.parameter_sources.ros2_parameter_file import read_parameter_file
     from gazelle.diagnostics import Diagnostics, Severity, render
     from gazelle.parameters.trees import flattened, nested
 

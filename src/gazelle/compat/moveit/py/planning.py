@@ -18,7 +18,7 @@ from gazelle.graph import Graph
 from gazelle.interfaces import convert, message_type
 from gazelle.interfaces.poses import pose_of
 from gazelle.motion.model import RobotModel as MotionRobot
-from gazelle.motion.planning.failure import ErrorCode
+from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.arguments import read_arguments
 from gazelle.nodes.move_group.context import MoveGroupContext, make_context
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message

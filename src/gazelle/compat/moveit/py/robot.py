@@ -9,9 +9,9 @@ import numpy as np
 from gazelle.geometry import Pose
 from gazelle.interfaces import convert, message_type
 from gazelle.motion import model as motion_model
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics import Patience, Solver, link_poses
 from gazelle.motion.model import JointGroup
-from gazelle.motion.space import FloatArray
 from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.robot_state_messages import positions_of, robot_state_message

@@ -14,9 +14,9 @@ from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.interfaces import convert, message_type
 from gazelle.motion.collision import CollisionChecker
+from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.planning import FINE_STEP, ErrorCode
 from gazelle.motion.scene import PlanningScene as MotionScene
-from gazelle.motion.space import FloatArray
 from gazelle.nodes.move_group.collision_object_messages import apply_attached, apply_object
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.control.controller_manager.controller_manager import ControllerManager
-from gazelle.control.controller_manager.records import ControllerRecord
-from gazelle.control.controller_manager.services.acting import Actor
+from gazelle.control.controller_manager.controller_spec import ControllerRecord
+from gazelle.control.controller_manager.services.requests import Actor
+from gazelle.control.controller_node import Ports
 from gazelle.control.controllers.registry import known_types
-from gazelle.control.ports import Ports
 
 __all__ = ["offer_ros1"]
 

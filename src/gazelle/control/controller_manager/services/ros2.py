@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.control.controller_manager.controller_manager import ControllerManager
-from gazelle.control.controller_manager.records import ControllerRecord, OwnedPorts
-from gazelle.control.controller_manager.services.acting import Actor
+from gazelle.control.controller_manager.controller_spec import ControllerRecord, OwnedPorts
+from gazelle.control.controller_manager.services.requests import Actor
 from gazelle.control.controllers.registry import known_types
-from gazelle.control.hardware_lifecycle import HardwareState
+from gazelle.control.hardware.lifecycle import HardwareState
 from gazelle.control.robot import HardwareComponent
 from gazelle.diagnostics import did_you_mean
 from gazelle.parameters.trees import flattened

@@ -1,0 +1,123 @@
+"""``mecanum_drive_controller/MecanumDriveController`` of ROS 2."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from gazelle.control.controllers.controller import Controller, ControllerContext
+from gazelle.control.controllers.mecanum_drive_table import TABLE as _TABLE
+from gazelle.control.controllers.mecanum_drive_table import WHEELS
+from gazelle.control.wheels.mecanum import MecanumDrive, MecanumSpeeds, PlanarTwist
+from gazelle.control.wheels.odometry import PlanarOdometry, offer_set_odometry
+from gazelle.control.wheels.odometry_publisher import OdometryOutput, read_frames
+from gazelle.control.wheels.speed_limiter import SpeedLimiter, read_limits
+from gazelle.control.wheels.velocity_command import TwistInput
+from gazelle.control.wheels.wheel_geometry import positive
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import header
+
+__all__ = ["MecanumDriveController"]
+
+
+class MecanumDriveController(Controller):
+    """Drives four mecanum wheels in any direction."""
+
+    TABLE = _TABLE
+
+    def __init__(self, context: ControllerContext) -> None:
+        """Read the parameters and offer the topics."""
+        super().__init__(context)
+        parameters = context.parameters
+        joints, read = [], []
+        for wheel in WHEELS:
+            parameters.require(f"{wheel}_wheel_command_joint_name")
+            joints.append(parameters.text(f"{wheel}_wheel_command_joint_name"))
+            read.append(parameters.text(f"{wheel}_wheel_state_joint_name") or joints[-1])
+        self.commands = tuple(f"{name}/velocity" for name in joints)
+        self.states = tuple(f"{name}/velocity" for name in read)
+        self._command_places = context.command_places(self.commands)
+        self._state_places = context.state_places(self.states)
+        self._drive = MecanumDrive(
+            positive(context, "kinematics.wheels_radius"),
+            positive(context, "kinematics.sum_of_robot_center_projection_on_X_Y_axis"),
+            *(parameters.number(f"kinematics.base_frame_offset.{k}") for k in ("x", "y", "theta")),
+        )
+        axes = ("linear.x", "linear.y", "angular.z")
+        self._limiters = tuple(SpeedLimiter(read_limits(parameters, axis, 2)) for axis in axes)
+        self._active = False
+        self._offer()
+
+    def start(self, time_ns: int) -> None:
+        """Wait for a reference."""
+        self._active = True
+        self._input.open(time_ns)
+        self._output.start(time_ns, self._odometry)
+        for limiter in self._limiters:
+            limiter.reset()
+
+    def update(self, time_ns: int, period_ns: int) -> None:
+        """Follow the wheels, then command them."""
+        period_s = period_ns * 1e-9
+        speeds = MecanumSpeeds(*self.robot.bank.states[self._state_places].tolist())
+        if not any(map(math.isnan, speeds)):
+            self._odometry.drive(*self._drive.twist(speeds), period_s)
+        twist = self._input.current(time_ns)
+        values = (0.0,) * 4
+        if twist is None:
+            for limiter in self._limiters:
+                limiter.reset()
+        else:
+            pairs = zip(self._limiters, twist, strict=True)
+            twist = PlanarTwist(*(limiter.limit(value, period_s) for limiter, value in pairs))
+            values = self._drive.wheel_speeds(twist)
+        self.robot.bank.commands[self._command_places] = values
+        self._output.publish(time_ns, self._odometry)
+        if self._state.matched:
+            self._publish_state(time_ns, speeds, twist)
+
+    def stop(self, time_ns: int) -> None:
+        """Stop the wheels."""
+        self._active = False
+        self._input.close()
+        self.robot.bank.commands[self._command_places] = 0.0
+
+    def changed(self, values: dict[str, Any]) -> str:
+        """Take over the timeout and whether to send tf."""
+        if "reference_timeout" in values:
+            self._input.timeout_s = float(values["reference_timeout"])
+        self._output.changed(values)
+        return ""
+
+    def _offer(self) -> None:
+        context, ports = self.context, self.context.ports
+        self._odometry = PlanarOdometry()
+        self._output = OdometryOutput(
+            context,
+            read_frames(context, namespace_prefix=True),
+            odom_topic="~/odometry",
+            tf_topic="~/tf_odometry",
+        )
+        type_name = "control_msgs/MecanumDriveControllerState"
+        self._state = ports.publisher("~/controller_state", type_name)
+        timeout_s = context.parameters.number("reference_timeout")
+        uses_stamps = context.parameters.flag("use_stamped_vel")
+        self._input = TwistInput(ports, timeout_s, uses_stamps=uses_stamps)
+        self._input.listen("~/reference", stamped_first=True)
+        self._input.listen("~/reference_unstamped")
+        offer_set_odometry(ports, self._odometry, lambda: self._active)
+
+    def _publish_state(
+        self, time_ns: int, speeds: MecanumSpeeds, twist: PlanarTwist | None
+    ) -> None:
+        message = message_type("control_msgs/MecanumDriveControllerState")(
+            header=header(time_ns, self._output.frames.odom),
+            front_left_wheel_velocity=speeds.front_left,
+            front_right_wheel_velocity=speeds.front_right,
+            back_right_wheel_velocity=speeds.rear_right,
+            back_left_wheel_velocity=speeds.rear_left,
+        )
+        reference = message.reference_velocity
+        values = twist or (math.nan,) * 3
+        reference.linear.x, reference.linear.y, reference.angular.z = values
+        self._state.publish(message)

@@ -1,0 +1,118 @@
+"""Looking whether the robot is where it has been before."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.mapping.loop_detection.candidates import Place
+from gazelle.mapping.loop_detection.hypotheses import Hypothesis, ambiguous
+from gazelle.mapping.loop_detection.settings import RecognitionSettings
+from gazelle.mapping.pose_graph.constraints import seen_from
+from gazelle.mapping.scan_matching.branch_and_bound import WideSearch
+from gazelle.mapping.scan_matching.likelihood_field import Field
+from gazelle.mapping.scan_matching.scan_matcher import Prior, refined
+from gazelle.mapping.scan_matching.surfaces import even_points
+from gazelle.mapping.se2 import Poses, between, transform_points
+from gazelle.mapping.slam.keyframes import Keyframes
+from gazelle.mapping.slam.slam_parameters import SlamParameters
+
+__all__ = ["recognise"]
+
+
+def recognise(keyframes: Keyframes, place: Place, parameters: SlamParameters) -> Hypothesis | None:
+    """Return where the last keyframe is seen from a place, None when it does not look like it.
+
+    What the last few keyframes see together is matched with what those around the place saw: single
+    scans of a building resemble each other too often.
+    """
+    settings = parameters.settings
+    told, head = settings.recognition, len(keyframes) - 1
+    if keyframes.tears.intersection(range(head - told.fewest_scans, head + 1)):
+        return None
+    points = _patch(keyframes, head, told)
+    if len(points) < told.fewest_points:
+        return None
+    pose = keyframes.poses[head]
+    reach = float(np.sqrt((points**2).sum(axis=1).max())) + place.reach_m
+    near = _around(keyframes, place, head, told)
+    field = keyframes.field(near, pose, reach)
+    rough = _nearest_match(field.pooled(), points, pose, place, parameters)
+    if rough is None:
+        return None
+    found = refined(field, points, rough, Prior(rough, np.zeros((3, 3))), settings.match)
+    if found.score < parameters.least_loop:
+        return None
+    tail = place.keyframe
+    relative = between(keyframes.poses[tail], found.pose)
+    shifts_m = max(told.least_doubt_m, place.reach_m)
+    information = ambiguous(field, points, found, shifts_m, settings.ambiguity)
+    information = seen_from(keyframes.poses[tail], information)
+    return Hypothesis(tail, head, relative, information, found.score, place.reach_m)
+
+
+def _nearest_match(
+    field: Field,
+    points: NDArray[np.float64],
+    pose: Poses,
+    place: Place,
+    parameters: SlamParameters,
+) -> Poses | None:
+    """Return the match that needs the smallest window, unless one farther away is much better.
+
+    Corridors look alike wherever one stands in them; then the robot is where it thinks it is.
+    """
+    told, least = parameters.settings.recognition, parameters.least_loop
+    best: Poses | None = None
+    reach, done = told.first_reach_m, None
+    search = WideSearch.around(field, points, pose, place.reach_rad)
+    while True:
+        reach = min(reach, place.reach_m)
+        found = search.best(reach, least=least, done_m=done)
+        if found is not None:
+            best, least = found.pose, found.value + told.much_better
+        if reach >= place.reach_m or least >= 1.0:
+            return best
+        reach, done = 2.0 * reach, reach
+
+
+def _patch(keyframes: Keyframes, head: int, settings: RecognitionSettings) -> NDArray[np.float64]:
+    """Return what the last keyframes see, in the frame of the last one."""
+    near = _along(keyframes, head, -1, settings.patch_m, settings)[: settings.patch_scans]
+    seen = between(keyframes.poses[head], keyframes.poses[near])
+    parts = [
+        transform_points(pose, keyframes[i].points_m) for i, pose in zip(near, seen, strict=True)
+    ]
+    return even_points(np.concatenate(parts), settings.patch_cell_m, settings.patch_points)
+
+
+def _around(
+    keyframes: Keyframes, place: Place, head: int, settings: RecognitionSettings
+) -> list[int]:
+    """Return the keyframes around a place that are not of the present.
+
+    They reach as far as the patch does wherever it may be in the window: where they see less, it
+    would be drawn to where they see more.
+    """
+    reach = settings.place_m + min(place.reach_m, settings.place_m)
+    both = {
+        i
+        for way in (-1, 1)
+        for i in _along(keyframes, place.keyframe, way, reach, settings)[: settings.place_scans]
+    }
+    present = keyframes[head].way_m - settings.patch_m
+    return sorted(i for i in both if keyframes[i].way_m < present)
+
+
+def _along(
+    keyframes: Keyframes, start: int, step: int, reach_m: float, settings: RecognitionSettings
+) -> list[int]:
+    """Return keyframes from one on, forwards or back, some way apart, as far as all is sure."""
+    chosen, index, count = [start], start + step, len(keyframes)
+    while 0 <= index < count and abs(keyframes[index].way_m - keyframes[start].way_m) < reach_m:
+        if max(index, index - step) in keyframes.tears:
+            break
+        if abs(keyframes[index].way_m - keyframes[chosen[-1]].way_m) >= settings.apart_m:
+            chosen.append(index)
+        index += step
+    return chosen
