@@ -32,9 +32,9 @@ def test_an_unknown_code_is_refused():
 
 
 def test_two_definitions_of_one_code_are_refused(monkeypatch):
-    from gazelle.diagnostics.catalogue import workspace, xml
+    from gazelle.diagnostics.catalogue import documents, workspace
 
-    monkeypatch.setattr(workspace, "ENTRIES", xml.ENTRIES[:1])
+    monkeypatch.setattr(workspace, "ENTRIES", documents.ENTRIES[:1])
     all_entries.cache_clear()
     try:
         with pytest.raises(ValueError, match=r"'xml\.malformed' is defined twice"):

@@ -1,4 +1,4 @@
-"""The catalogue of diagnostic codes: one module per layer, one entry per code.
+"""The catalogue of diagnostic codes: one module per area, one entry per code.
 
 A code is ``<area>.<what-is-wrong>``. It never changes its meaning; `docs/diagnostics.md` is
 generated from the entries and every code has a test that provokes it.
@@ -6,13 +6,40 @@ generated from the entries and every code has a test that provokes it.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
-
-from gazelle.diagnostics.catalogue.entry import Entry
+from typing import Literal
 
 __all__ = ["Entry", "all_entries", "entry_for"]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One code of the catalogue.
+
+    Attributes:
+        code: ``<area>.<what-is-wrong>``, stable for ever.
+        severity: default severity.
+        title: one line for the docs' headline.
+        why: why it matters and what Gazelle does about it.
+        fix: the general remedy.
+        phrase: the words ROS or Gazebo print in this case, empty when they are silent.
+        idle: it says of a setting that it is known and has no effect here; at a start such findings
+            are summed, see `gazelle.diagnostics.brief`.
+        quiet: it says of something that it is done, or that nothing is to be done about it; at a
+            start it goes to the log file alone.
+    """
+
+    code: str
+    severity: Literal["info", "warning", "error"]
+    title: str
+    why: str
+    fix: str
+    phrase: str = ""
+    idle: bool = False
+    quiet: bool = False
 
 
 @cache

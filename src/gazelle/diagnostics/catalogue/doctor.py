@@ -1,12 +1,12 @@
-"""Codes of the doctor: what shows only when all files of a launch are looked at together."""
+"""Codes of the doctor: launches as a whole, packages, and probes by short runs of physics."""
 
 from __future__ import annotations
 
-from gazelle.diagnostics.catalogue.entry import Entry
+from gazelle.diagnostics.catalogue import Entry
 
 __all__ = ["ENTRIES"]
 
-ENTRIES = (
+_LAUNCHES = (
     Entry(
         "doctor.unreadable",
         "error",
@@ -236,3 +236,316 @@ ENTRIES = (
         "SpawnModel: Failure - model name … already exist.",
     ),
 )
+
+_PACKAGES = (
+    Entry(
+        "package.manifest",
+        "warning",
+        "A package.xml breaks the rules of its format",
+        "Gazelle needs the name only. catkin and colcon check more and stop.",
+        "write what the message names",
+        "InvalidPackage: Error(s) in package.xml",
+    ),
+    Entry(
+        "package.build-type",
+        "warning",
+        "The manifest's build type is not that of the build files",
+        "colcon goes by <build_type>; without one a package counts as catkin's (REP-149).",
+        "add <export><build_type>…</build_type></export>",
+        "colcon build: ignored, or CMake Error: Could not find catkin",
+    ),
+    Entry(
+        "package.no-build-file",
+        "info",
+        "A package has no CMakeLists.txt or setup.py",
+        "It is found and used from its source folder; a real build stops.",
+        "add the file",
+        "Failed to find CMakeLists.txt",
+    ),
+    Entry(
+        "package.names",
+        "warning",
+        "A package has one name in its manifest and another in its build file",
+        "Real builds refuse that, or install the package under two names.",
+        "use one name",
+        "package name does not match current PROJECT_NAME",
+    ),
+    Entry(
+        "package.cmake-syntax",
+        "error",
+        "CMakeLists.txt cannot be read to its end",
+        "CMake stops at the place shown; rules after it are not read here either.",
+        "mend the parentheses or quotes",
+        "CMake Error: Parse error",
+    ),
+    Entry(
+        "package.setup-syntax",
+        "error",
+        "setup.py cannot be read",
+        "It is no Python 3; nothing of it is installed.",
+        "mend it at the place shown",
+        "SyntaxError",
+    ),
+    Entry(
+        "package.not-installed",
+        "warning",
+        "Files that nodes look for are not installed",
+        "Gazelle finds them in the source folder. A real launch looks into the share folder,"
+        " where installing has to put them. In ROS 1 the workspace's devel space does without.",
+        "add an install rule",
+        "was not found in the share directory of package",
+    ),
+    Entry(
+        "package.install-missing",
+        "error",
+        "Something is to be installed that does not exist",
+        "The build stops there.",
+        "correct the name, or remove the rule",
+        "file INSTALL cannot find; error: can't copy: doesn't exist or not a regular file",
+    ),
+    Entry(
+        "package.install-place",
+        "warning",
+        "Files are installed to a place where nobody looks",
+        "A folder without a slash at its end is put into the destination as a whole.",
+        "write a slash at the folder's end, or the folder above as destination",
+        "was not found in the share directory of package",
+    ),
+    Entry(
+        "package.install-unread",
+        "info",
+        "What is installed is known at build time only",
+        "The rules are computed in a way that a reading without running them does not follow.",
+        "nothing, or write the rules out",
+    ),
+    Entry(
+        "package.empty-glob",
+        "warning",
+        "A glob of setup.py finds no file",
+        "Nothing is installed by it, and nothing says so.",
+        "correct the pattern",
+        "was not found in the share directory of package",
+    ),
+    Entry(
+        "package.index-marker",
+        "error",
+        "A Python package is not entered in the index of packages",
+        "ros2 finds packages by a marker file in share/ament_index.",
+        "install resource/<package> and package.xml with data_files",
+        "PackageNotFoundError: package not found, searching: ",
+    ),
+    Entry(
+        "package.module",
+        "error",
+        "A Python module is not installed, or not there",
+        "setup.py lists modules one by one; those inside others do not follow by themselves.",
+        "use find_packages()",
+        "ModuleNotFoundError: No module named",
+    ),
+    Entry(
+        "package.scripts-folder",
+        "warning",
+        "setup.cfg puts executables where ros2 run does not look",
+        "ROS 2 looks into lib/<package>; setuptools' own place is bin.",
+        "write script_dir and install_scripts into setup.cfg",
+        "No executable found",
+    ),
+    Entry(
+        "package.entry-point",
+        "error",
+        "An executable of setup.py starts a function that is not there",
+        "Module or function are misspelt, or missing.",
+        "correct 'name = package.module:function'",
+        "ModuleNotFoundError, AttributeError: module has no attribute 'main'",
+    ),
+    Entry(
+        "package.script-not-executable",
+        "warning",
+        "A script lacks the executable bit",
+        "Gazelle runs it all the same; ROS would not find it.",
+        "chmod +x on the file",
+        "Couldn't find executable named",
+    ),
+    Entry(
+        "package.script-not-installed",
+        "warning",
+        "A script is not installed",
+        "Gazelle runs it from the source folder.",
+        "install(PROGRAMS …)",
+        "No executable found",
+    ),
+    Entry(
+        "package.message-unlisted",
+        "warning",
+        "A message file is not listed in CMakeLists.txt",
+        "Gazelle reads the file itself; a build generates code for listed ones only.",
+        "list it",
+        "ImportError: cannot import name",
+    ),
+    Entry(
+        "package.message-missing",
+        "error",
+        "CMakeLists.txt lists a message file that is not there",
+        "CMake stops there.",
+        "correct the name",
+        "add_message_files() the given file does not exist",
+    ),
+    Entry(
+        "package.message-build",
+        "warning",
+        "Messages cannot be generated as the package is",
+        "A call, a manifest entry or a name that the generators need is missing or wrong.",
+        "add what the message names",
+    ),
+    Entry(
+        "package.undeclared",
+        "info",
+        "Packages are used and not declared",
+        "It works where they happen to be installed; rosdep and build order go by the manifest.",
+        "declare them in package.xml",
+        "ResourceNotFound, PackageNotFoundError",
+    ),
+    Entry(
+        "package.unknown-dependency",
+        "warning",
+        "A declared dependency looks mistyped",
+        "There is no package of that name, and one that is nearly the same.",
+        "correct the name",
+        "Cannot locate rosdep definition for",
+    ),
+    Entry(
+        "package.generations-mixed",
+        "warning",
+        "A file is for the other generation of ROS than its package",
+        "Gazelle reads both; a real ROS has only one of them.",
+        "port the file, or move it to a package of its own",
+    ),
+    Entry(
+        "package.ros-mixed",
+        "warning",
+        "The shell has a mixture of ROS distributions sourced",
+        "Libraries and Python modules of two distributions, or of conda, do not fit each other.",
+        "open a new shell and source one",
+        "ROS_DISTRO was set to … before",
+    ),
+    Entry(
+        "package.ros-ended",
+        "info",
+        "The sourced ROS is out of support",
+        "Its package servers and keys are going away; Gazelle needs neither.",
+        "nothing",
+        "EXPKEYSIG F42ED6FBAB17C654 Open Robotics",
+    ),
+)
+
+_PROBES = (
+    Entry(
+        "probe.controller-sags",
+        "warning",
+        "A joint gives way under its controller",
+        "The controller is to hold the joint and cannot: gains or effort limit are too small for "
+        "the weight on it.",
+        "raise the gains or the effort limit",
+        "arm collapses when the simulation starts",
+    ),
+    Entry(
+        "probe.controller-shakes",
+        "warning",
+        "A joint shakes under its controller",
+        "Gains too large for the joint's inertia and the period of control make it oscillate.",
+        "lower p or raise d",
+        "robot shakes when the controller starts",
+    ),
+    Entry(
+        "probe.controller-start",
+        "error",
+        "A configured controller cannot be started",
+        "It was loaded and started as a spawner does it.",
+        "correct the controller's parameters: its type, its joints and what the message names",
+        "Failed to load controller; Could not start controller",
+    ),
+    Entry(
+        "probe.diverged",
+        "error",
+        "The simulation diverges within seconds",
+        "A position or speed became no finite number. Gazebo shows such a robot nowhere, or "
+        "stops; the message names link and line.",
+        "check mass, inertia, gains and overlapping collisions of the link named",
+        'ODE INTERNAL ERROR 1: assertion "bNormalizationResult" failed',
+    ),
+    Entry(
+        "probe.does-not-drive",
+        "warning",
+        "A robot does not move when it is told to",
+        "Its wheels turn in the air, slip, have too little torque, or something holds them.",
+        "look at the wheels' collisions, friction and torque",
+        "wheels spin but robot does not move",
+    ),
+    Entry(
+        "probe.drives-wrong",
+        "warning",
+        "A robot does not drive straight ahead when it is told to",
+        "Positive speed about the wheels' axes drives it along -x, or turns it on the spot.",
+        "turn the axes of the wheel joints around",
+    ),
+    Entry(
+        "probe.falls",
+        "error",
+        "A robot falls without end",
+        "Nothing holds it: the world has no ground, or the robot's collisions are missing.",
+        "add a ground plane or collisions",
+        "robot falls through the ground plane",
+    ),
+    Entry(
+        "probe.idle-drift",
+        "warning",
+        "A robot that nobody commands moves",
+        "An idle robot stays within 1 mm and 0.1° in 10 s. One that does not stands on a slope, "
+        "is driven by something, is not at rest yet, or has wheels or contacts that creep.",
+        "look at the contacts named: round wheels, friction mu1 and mu2 of 1, no overlaps; give "
+        "free joints a damping",
+        "robot slides, sinks, jitters or drifts slowly",
+    ),
+    Entry(
+        "probe.not-built",
+        "error",
+        "The world cannot be built",
+        "Physics needs bodies with mass and shapes of finite size, and one name for one model.",
+        "correct the link or model that the message names",
+    ),
+    Entry(
+        "probe.spawn-overlap",
+        "warning",
+        "A robot is spawned inside something",
+        "Gazebo parts what overlaps with force: the robot jumps. Gazelle parts it slowly.",
+        "spawn it higher or somewhere free",
+        "robot jumps or flies away when it is spawned",
+    ),
+    Entry(
+        "probe.speed-differs",
+        "warning",
+        "A robot drives at another speed than commanded",
+        "The drive's wheel diameter is not that of the wheels, they slip, or it cannot reach the "
+        "speed.",
+        "set wheel diameter (radius) and separation to the geometry's values",
+        "odometry does not match the real position",
+    ),
+    Entry(
+        "probe.thrown",
+        "warning",
+        "A robot is thrown when it is spawned",
+        "Overlaps, joints outside their limits or impossible inertias give it a kick.",
+        "spawn it free of everything, with its joints within their limits",
+        "robot flies away when it is spawned",
+    ),
+    Entry(
+        "probe.turns-wrong",
+        "warning",
+        "A robot turns right when it is told to turn left",
+        "Positive angular.z turns left (REP 103). Left and right wheel joints are exchanged.",
+        "exchange the left and right joints of the drive, or change <legacyMode>",
+        "robot turns in the wrong direction",
+    ),
+)
+
+ENTRIES = (*_LAUNCHES, *_PACKAGES, *_PROBES)

@@ -1,12 +1,12 @@
-"""Codes of robots whose motion is planned."""
+"""Codes of arm planning: SRDF, MoveIt's configuration, planners."""
 
 from __future__ import annotations
 
-from gazelle.diagnostics.catalogue.entry import Entry
+from gazelle.diagnostics.catalogue import Entry
 
 __all__ = ["ENTRIES"]
 
-ENTRIES = (
+_ROBOTS = (
     Entry(
         "motion.continuous-limit",
         "warning",
@@ -37,3 +37,251 @@ ENTRIES = (
         "correct the limits in URDF, safety_controller or joint_limits.yaml",
     ),
 )
+
+_PLANNERS = (
+    Entry(
+        "motion.no-such-parameter",
+        "warning",
+        "A planner configuration has a parameter that no planner knows",
+        "OMPL prints a line that nobody sees and goes on without it.",
+        "correct the name in ompl_planning.yaml, or remove the line",
+        "Parameter was not found",
+    ),
+    Entry(
+        "motion.bad-parameter",
+        "warning",
+        "A parameter of a planner has a value that it cannot have",
+        "The planner goes on with its default.",
+        "correct the value in ompl_planning.yaml",
+        "Unable to convert parameter",
+    ),
+    Entry(
+        "motion.parameter-without-effect",
+        "info",
+        "A parameter means nothing to the planner that is used",
+        "It belongs to another planner, or to one of OMPL that another one stands in for.",
+        "nothing has to be done",
+        "ompl_planning.yaml",
+        idle=True,
+    ),
+    Entry(
+        "motion.no-such-planner",
+        "warning",
+        "A planner is asked for that does not exist",
+        "MoveIt plans with the default of the group then, and so does Gazelle.",
+        "name one of the planner_configs of ompl_planning.yaml",
+        "Cannot find planning configuration for group",
+    ),
+)
+
+_MOVEIT = (
+    Entry(
+        "moveit.bad-limit",
+        "warning",
+        "A number of MoveIt's configuration cannot be",
+        "Limits are above 0, lower ones below upper ones, factors between 0 and 1.",
+        "write a number in the range the message names",
+    ),
+    Entry(
+        "moveit.bad-yaml",
+        "error",
+        "A file of a MoveIt config package cannot be read",
+        "It is no YAML, not UTF-8, or holds no mapping.",
+        "mend the file at the place given",
+        "Failed to parse",
+    ),
+    Entry(
+        "moveit.controller",
+        "warning",
+        "A controller of MoveIt is not described",
+        "It is named and has no parameters, or has parameters and no name.",
+        "give its name, action_ns, type and joints",
+        "No action namespace specified for controller",
+    ),
+    Entry(
+        "moveit.double-key",
+        "warning",
+        "A file of a MoveIt config package has a key twice",
+        "YAML keeps the last one and says nothing.",
+        "remove one of them",
+    ),
+    Entry(
+        "moveit.limit-without-flag",
+        "warning",
+        "A limit of joint_limits.yaml has no effect",
+        "MoveIt reads max_velocity only beside has_velocity_limits: true, and says nothing.",
+        "add the flag",
+    ),
+    Entry(
+        "moveit.limit-without-value",
+        "warning",
+        "A joint has a limit without a value",
+        "The flag says that there is one, the number is missing.",
+        "add the number",
+        "but did not set a max velocity",
+    ),
+    Entry(
+        "moveit.no-argument",
+        "warning",
+        "A file of MoveIt needs the value of an argument",
+        "ROS 1's launch files put arguments into YAML (subst_value); the SRDF's defaults are used"
+        " where they have the same name.",
+        "give the value with mappings={...}",
+    ),
+    Entry(
+        "moveit.no-description",
+        "error",
+        "There is no robot to plan for",
+        "A MoveIt config package names its URDF in .setup_assistant or has it in config.",
+        "write the robot into config, with the ending .urdf.xacro, or run the Setup Assistant",
+        "Cannot infer URDF",
+    ),
+    Entry(
+        "moveit.no-pipeline",
+        "warning",
+        "A planning pipeline has no parameters",
+        "Its name is in planning_pipelines and nothing stands below that name.",
+        "add its file, whose name ends in _planning.yaml, or take the name out",
+        "Failed to initialize planning pipeline",
+    ),
+    Entry(
+        "moveit.no-planner",
+        "warning",
+        "A planner configuration is named and not described",
+        "MoveIt leaves it out.",
+        "describe it below planner_configs",
+        "Could not find the planner configuration",
+    ),
+    Entry(
+        "moveit.no-solver",
+        "info",
+        "A group of kinematics.yaml names no solver",
+        "MoveIt would give the group no inverse kinematics; Gazelle uses its own solver for all.",
+        "add kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin",
+        "No kinematics solver instantiated for group",
+    ),
+    Entry(
+        "moveit.no-srdf",
+        "error",
+        "A robot has no planning groups",
+        "Groups stand in an SRDF, and there is none.",
+        "write config/….srdf, or run the MoveIt Setup Assistant",
+        "Could not find parameter robot_description_semantic",
+    ),
+    Entry(
+        "moveit.several-files",
+        "warning",
+        "A package has several files for one purpose",
+        "One of them is used, the message says which.",
+        "name the one that is meant",
+        "Unable to guess which parameter file to load",
+    ),
+    Entry(
+        "moveit.unknown-key",
+        "warning",
+        "MoveIt does not know a parameter",
+        "A mistyped key changes nothing and nobody says so.",
+        "use MoveIt's name",
+    ),
+    Entry(
+        "moveit.wrong-type",
+        "warning",
+        "A parameter of MoveIt has the wrong type",
+        "The value is not used where it has no meaning as the right type.",
+        "write a value of the right type",
+        "expected [double] got",
+    ),
+)
+
+_SRDF = (
+    Entry(
+        "srdf.double-name",
+        "warning",
+        "An SRDF names two groups or states alike",
+        "Of groups the first counts, of states the last, as in MoveIt.",
+        "rename or remove one of them",
+        "A group named '...' already exists. Not adding.",
+    ),
+    Entry(
+        "srdf.empty-group",
+        "warning",
+        "A planning group has no joints",
+        "Nothing in it leads to a joint; every request for it fails.",
+        "add a <chain>, <joint>, <link> or <group> that exists",
+        "must have at least one valid joint",
+    ),
+    Entry(
+        "srdf.group-ring",
+        "error",
+        "Planning groups hold each other",
+        "A group cannot be part of itself. It and all groups that hold it are left out.",
+        "remove one of the inner <group> elements",
+        "has unsatisfied subgroups",
+    ),
+    Entry(
+        "srdf.missing-attribute",
+        "warning",
+        "An element of an SRDF lacks an attribute",
+        "srdfdom prints an error and leaves the element out; so does Gazelle.",
+        "add the attribute",
+        "is not specified",
+    ),
+    Entry(
+        "srdf.no-chain",
+        "warning",
+        "A chain's links are not connected",
+        "The two links belong to different trees, or one of them to none.",
+        "name two links with joints between them, the one nearer to the base first",
+        "do not form a chain",
+    ),
+    Entry(
+        "srdf.no-robot",
+        "error",
+        "The file is no SRDF",
+        "An SRDF's outermost element is <robot>.",
+        'write <robot name="..."> around everything',
+        "Could not find the 'robot' element in the xml file",
+    ),
+    Entry(
+        "srdf.robot-name",
+        "warning",
+        "SRDF and URDF are about different robots",
+        "MoveIt compares the two names, prints an error and goes on; so does Gazelle.",
+        "give both <robot> elements the same name",
+        "Semantic description is not specified for the same robot as the URDF",
+    ),
+    Entry(
+        "srdf.spheres",
+        "info",
+        "Spheres of an SRDF have no effect",
+        "Collisions are checked with the links' own shapes.",
+        "nothing: the shapes are more exact",
+        idle=True,
+    ),
+    Entry(
+        "srdf.fixed-state",
+        "warning",
+        "A named state gives a fixed joint a position",
+        "A fixed joint has none. MoveIt writes a line to its log and goes on.",
+        "remove the <joint> from the <group_state>",
+        "The model for joint '...' requires 0 variable values",
+    ),
+    Entry(
+        "srdf.state-outside-limits",
+        "warning",
+        "A named state lies outside a joint's limits",
+        "A plan to it is refused, and a robot that stands there cannot start.",
+        "change the value, or the joint's limits",
+        "Joint '...' from the starting state is outside bounds",
+    ),
+    Entry(
+        "srdf.virtual-joint",
+        "warning",
+        "A virtual joint has an unknown type",
+        "There are fixed, planar and floating ones.",
+        'write type="fixed", "planar" or "floating"',
+        "Assuming 'fixed' instead",
+    ),
+)
+
+ENTRIES = (*_ROBOTS, *_PLANNERS, *_MOVEIT, *_SRDF)

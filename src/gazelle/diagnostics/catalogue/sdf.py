@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.diagnostics.catalogue.entry import Entry
+from gazelle.diagnostics.catalogue import Entry
 
 __all__ = ["ENTRIES"]
 
