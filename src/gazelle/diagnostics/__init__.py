@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.diagnostics.brief import Brief, brief
-from gazelle.diagnostics.collection import Diagnostics, grouped
+from gazelle.diagnostics.collection import Brief, Diagnostics, brief, grouped
 from gazelle.diagnostics.diagnostic import Diagnostic, Severity, SourceSpan
 from gazelle.diagnostics.render import render, render_text
 from gazelle.diagnostics.suggestions import did_you_mean, nearest_names

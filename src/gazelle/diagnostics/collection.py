@@ -1,4 +1,4 @@
-"""The list that collects findings."""
+"""The list that collects findings, and the ways to say many of them shortly."""
 
 from __future__ import annotations
 
@@ -6,91 +6,33 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import PurePath
+from typing import NamedTuple
 
 from gazelle.diagnostics.catalogue import entry_for
 from gazelle.diagnostics.diagnostic import Diagnostic, Severity, SourceSpan
 from gazelle.diagnostics.share_links import as_written
 from gazelle.errors import UserFileError
 
-__all__ = ["Diagnostics", "grouped"]
-
+__all__ = ["Brief", "Diagnostics", "brief", "grouped"]
 
 # What differs between two findings of one kind: quoted names, elements, numbers.
 _COUNT = re.compile(r" \(and \d+ more in this file\)")
-
 _VARYING = re.compile(r"'[^'\n]*'|<[^<>\n]*>|(?<![\w.])-?\d[\w.+-]*")
-
 _MIN_COUNT = 3
-
 _SHOWN = 8
 
 
-def grouped(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    """Merge three or more findings that differ only in names, numbers and places.
+class Brief(NamedTuple):
+    """Findings as they are said at a start.
 
-    The first one stays and lists what the others are about. Errors are merged only when they
-    say the very same, such as one missing model that is included ten times.
-
-    Args:
-        findings: in the order they were made.
-
-    Returns:
-        The findings in the order of the first of each group.
+    Attributes:
+        shown: those that are said.
+        kept: those that are for a list elsewhere: what one of the shown sums up, and what nobody
+            has to do anything about.
     """
-    groups: dict[tuple[str, Severity, str], list[Diagnostic]] = {}
-    for item in findings:
-        groups.setdefault((item.code, item.severity, _kind(item)), []).append(item)
-    merged: list[Diagnostic] = []
-    for group in groups.values():
-        merged += group if len(group) < _MIN_COUNT else [_merged(group)]
-    return tuple(merged)
 
-
-def _kind(item: Diagnostic) -> str:
-    line = item.message.partition("\n")[0]
-    return line if item.severity is Severity.ERROR else _VARYING.sub("*", _COUNT.sub("", line))
-
-
-def _merged(group: Sequence[Diagnostic]) -> Diagnostic:
-    first, others = group[0], group[1:]
-    column = _varying_column(group)
-    places: dict[str, list[str]] = {}
-    for item in others:
-        label = _pieces(item)[column] if column is not None else ""
-        places.setdefault(label, []).append(_place(item, first))
-    shown = [_described(label, lines) for label, lines in list(places.items())[:_SHOWN]]
-    rest = len(places) - len(shown)
-    tail = f" and {rest} more" if rest else ""
-    text = f"{first.message}\n  the same {len(others)} more times: {', '.join(shown)}{tail}"
-    return replace(first, message=text)
-
-
-def _described(label: str, lines: Sequence[str]) -> str:
-    where = list(dict.fromkeys(line for line in lines if line))
-    text = f"{', '.join(where[:_SHOWN])}{' …' if len(where) > _SHOWN else ''}"
-    if not label:
-        return text or "at the same place"
-    return f"{label} ({text})" if text else label
-
-
-def _pieces(item: Diagnostic) -> list[str]:
-    return _VARYING.findall(item.message.partition("\n")[0])
-
-
-def _varying_column(group: Sequence[Diagnostic]) -> int | None:
-    """Return which of the varying pieces tells the findings apart: the first that differs."""
-    for index, pieces in enumerate(zip(*map(_pieces, group), strict=False)):
-        if len(set(pieces)) > 1:
-            return index
-    return None
-
-
-def _place(item: Diagnostic, first: Diagnostic) -> str:
-    if item.span is None or not item.span.line or item.span == first.span:
-        return ""
-    if first.span is not None and item.span.file == first.span.file:
-        return "" if item.span.line == first.span.line else f"line {item.span.line}"
-    return f"{PurePath(item.span.file).name}:{item.span.line}"
+    shown: tuple[Diagnostic, ...]
+    kept: tuple[Diagnostic, ...]
 
 
 class Diagnostics:
@@ -170,6 +112,116 @@ class Diagnostics:
         """
         if self.errors:
             raise UserFileError(tuple(self._items))
+
+
+def brief(findings: Iterable[Diagnostic], kept: str = "") -> Brief:
+    """Sum up the findings about settings that are known and have no effect here.
+
+    One of them is said as it is, without its general remedy; of several the first is said, with
+    their number. What works and asks for nothing is not said. Warnings and errors stay whole, and
+    so does everything else.
+
+    Args:
+        findings: in the order they were made.
+        kept: where all of them can be read, such as a file.
+    """
+    items = tuple(findings)
+    quiet = tuple(item for item in items if _is_quiet(item))
+    items = tuple(item for item in items if not _is_quiet(item))
+    idle = [item for item in items if _is_idle(item)]
+    if not idle:
+        return Brief(items, quiet)
+    first, summed = idle[0], tuple(idle) if len(idle) > 1 else ()
+    if not summed:
+        summary = replace(first, fix=_own_fix(first))
+    else:
+        where = f"; all of them: {kept}" if kept else ""
+        line = first.message.partition("\n")[0]
+        text = f"{len(idle)} settings are known and have no effect here{where}; the first: {line}"
+        summary = replace(first, message=text, fix="", phrase="")
+    shown = [summary if item is first else item for item in items
+             if item is first or not _is_idle(item)]  # fmt: skip
+    return Brief(tuple(shown), (*summed, *quiet))
+
+
+def grouped(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Merge three or more findings that differ only in names, numbers and places.
+
+    The first one stays and lists what the others are about. Errors are merged only when they
+    say the very same, such as one missing model that is included ten times.
+
+    Args:
+        findings: in the order they were made.
+
+    Returns:
+        The findings in the order of the first of each group.
+    """
+    groups: dict[tuple[str, Severity, str], list[Diagnostic]] = {}
+    for item in findings:
+        groups.setdefault((item.code, item.severity, _kind(item)), []).append(item)
+    merged: list[Diagnostic] = []
+    for group in groups.values():
+        merged += group if len(group) < _MIN_COUNT else [_merged(group)]
+    return tuple(merged)
+
+
+def _is_quiet(item: Diagnostic) -> bool:
+    return item.severity is Severity.INFO and entry_for(item.code).quiet
+
+
+def _is_idle(item: Diagnostic) -> bool:
+    return item.severity is Severity.INFO and entry_for(item.code).idle
+
+
+def _own_fix(item: Diagnostic) -> str:
+    return "" if item.fix == entry_for(item.code).fix else item.fix
+
+
+def _kind(item: Diagnostic) -> str:
+    line = item.message.partition("\n")[0]
+    return line if item.severity is Severity.ERROR else _VARYING.sub("*", _COUNT.sub("", line))
+
+
+def _merged(group: Sequence[Diagnostic]) -> Diagnostic:
+    first, others = group[0], group[1:]
+    column = _varying_column(group)
+    places: dict[str, list[str]] = {}
+    for item in others:
+        label = _pieces(item)[column] if column is not None else ""
+        places.setdefault(label, []).append(_place(item, first))
+    shown = [_described(label, lines) for label, lines in list(places.items())[:_SHOWN]]
+    rest = len(places) - len(shown)
+    tail = f" and {rest} more" if rest else ""
+    text = f"{first.message}\n  the same {len(others)} more times: {', '.join(shown)}{tail}"
+    return replace(first, message=text)
+
+
+def _described(label: str, lines: Sequence[str]) -> str:
+    where = list(dict.fromkeys(line for line in lines if line))
+    text = f"{', '.join(where[:_SHOWN])}{' …' if len(where) > _SHOWN else ''}"
+    if not label:
+        return text or "at the same place"
+    return f"{label} ({text})" if text else label
+
+
+def _pieces(item: Diagnostic) -> list[str]:
+    return _VARYING.findall(item.message.partition("\n")[0])
+
+
+def _varying_column(group: Sequence[Diagnostic]) -> int | None:
+    """Return which of the varying pieces tells the findings apart: the first that differs."""
+    for index, pieces in enumerate(zip(*map(_pieces, group), strict=False)):
+        if len(set(pieces)) > 1:
+            return index
+    return None
+
+
+def _place(item: Diagnostic, first: Diagnostic) -> str:
+    if item.span is None or not item.span.line or item.span == first.span:
+        return ""
+    if first.span is not None and item.span.file == first.span.file:
+        return "" if item.span.line == first.span.line else f"line {item.span.line}"
+    return f"{PurePath(item.span.file).name}:{item.span.line}"
 
 
 def _of_users_files(item: Diagnostic) -> Diagnostic:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from gazelle.doctor.examine import examine
-from gazelle.doctor.options import Options
-from gazelle.doctor.report import Report, Section
+from gazelle.doctor.report import Options, Report, Section
 
 __all__ = ["Options", "Report", "Section", "examine"]

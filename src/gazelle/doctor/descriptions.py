@@ -1,17 +1,33 @@
-"""Robots and worlds: what their readers do not say."""
+"""Robots and worlds: what their readers do not say, and the files that texts came from."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 from gazelle.description.checks import SUPERSEDED_CODES, check_description
 from gazelle.description.loader import load_models
 from gazelle.description.model import World
+from gazelle.description.robot_description import TEXT_FILES_VARIABLE
 from gazelle.diagnostics import Diagnostic
-from gazelle.doctor.examination import Examination
-from gazelle.doctor.text_files import texts_known
+from gazelle.doctor.report import Examination
 
-__all__ = ["examine_models", "examine_text", "without_superseded"]
+__all__ = ["examine_models", "examine_text", "texts_known", "without_superseded"]
+
+
+@contextmanager
+def texts_known(files: Sequence[str]) -> Iterator[None]:
+    """Let readers find the files that parameters' texts came from, as a launcher does."""
+    before = os.environ.get(TEXT_FILES_VARIABLE)
+    os.environ[TEXT_FILES_VARIABLE] = os.pathsep.join(dict.fromkeys(files))
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[TEXT_FILES_VARIABLE]
+        else:
+            os.environ[TEXT_FILES_VARIABLE] = before
 
 
 def examine_models(world: World, examination: Examination) -> None:

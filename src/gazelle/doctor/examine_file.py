@@ -12,13 +12,12 @@ from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.doctor.descriptions import examine_models
 from gazelle.doctor.dry_start import Program, StartPlan, dry_start
-from gazelle.doctor.examination import Examination
 from gazelle.doctor.file_kinds import Kind, is_semantic
 from gazelle.doctor.launch_ros1 import examine_launch
 from gazelle.doctor.launch_ros2 import check_launch
 from gazelle.doctor.parameters import check_package_parameters, check_parameter_file
-from gazelle.doctor.probing import probe
-from gazelle.doctor.simulated import simulation_sections
+from gazelle.doctor.report import Examination
+from gazelle.doctor.simulated_world import probe, simulation_sections
 from gazelle.doctor.target import package_at
 from gazelle.documents.files import is_file
 from gazelle.workspace.environment_paths import BUILTIN

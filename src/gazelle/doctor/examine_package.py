@@ -9,11 +9,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.examination import Examination
 from gazelle.doctor.examine_file import examine_file
 from gazelle.doctor.file_kinds import Kind, kind_of, looks_like
 from gazelle.doctor.packages import check_package
 from gazelle.doctor.parameters import check_package_parameters
+from gazelle.doctor.report import Examination
 from gazelle.workspace import Package
 
 __all__ = ["examine_folder", "examine_package"]

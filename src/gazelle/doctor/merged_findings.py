@@ -8,8 +8,7 @@ from dataclasses import replace
 from pathlib import PurePath
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, nearest_names
-from gazelle.doctor.packages.dependency_checks import is_slip
-from gazelle.doctor.packages.known_packages import is_ros_package, known_packages
+from gazelle.doctor.packages.dependency_checks import is_ros_package, is_slip, known_packages
 
 __all__ = ["condensed"]
 

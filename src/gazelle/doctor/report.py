@@ -1,14 +1,35 @@
-"""What an examination found."""
+"""What an examination is asked for, carries from check to check, and reports."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
 
-from gazelle.diagnostics import Diagnostic, Severity
+from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
+from gazelle.workspace import Workspace
 
-__all__ = ["Report", "Section"]
+__all__ = ["Examination", "Options", "Report", "Section"]
 
 _EXIT_CODES = {None: 0, Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Choices of one examination.
+
+    Attributes:
+        arguments: ``name:=value`` words: arguments of a launch file or of a xacro file.
+        probe: let short simulations run as well.
+        world: world that a robot on its own is put into for the dry start and the probes.
+        environ: environment that launch files and the search for a ROS see.
+    """
+
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    probe: bool = False
+    world: str = "empty"
+    environ: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,3 +83,41 @@ class Report:
     def count(self, severity: Severity) -> int:
         """Return how many findings have a severity."""
         return sum(item.severity is severity for item in self.findings)
+
+
+def _say_nothing(_text: str) -> None:
+    """Nobody wants to hear of the progress."""
+
+
+@dataclass(slots=True)
+class Examination:
+    """One examination: where things are found, what has been found.
+
+    Attributes:
+        workspace: finds packages, models and worlds.
+        options: what the caller chose.
+        diagnostics: receives every finding.
+        sections: tables of the report, in the order made.
+        seen: files that have been examined, alone or as part of something else.
+        is_wide: a whole package is looked at, and nobody has given arguments for its files.
+        say: told what is being looked at, for a person who waits.
+    """
+
+    workspace: Workspace
+    options: Options = field(default_factory=Options)
+    diagnostics: Diagnostics = field(default_factory=Diagnostics)
+    sections: list[Section] = field(default_factory=list)
+    seen: set[Path] = field(default_factory=set)
+    is_wide: bool = False
+    say: Callable[[str], None] = _say_nothing
+
+    def see(self, path: Path) -> bool:
+        """Note that a file is examined; False when it has been before."""
+        place = path.resolve()
+        is_new = place not in self.seen
+        self.seen.add(place)
+        return is_new
+
+    def add(self, *sections: Section) -> None:
+        """Keep the tables that have rows."""
+        self.sections += [section for section in sections if section.rows]

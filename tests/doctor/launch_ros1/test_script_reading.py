@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.doctor.launch_ros1.script_reading import ScriptTopics, read_script
+from gazelle.doctor.launch_ros1.topics import ScriptTopics, read_script
 
 Read = Callable[[str], ScriptTopics]
 

@@ -14,7 +14,7 @@ from gazelle.description.loader import load_models
 from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.probes import run_probes, stood_on_ground
-from gazelle.doctor.probes.robots import robots_of
+from gazelle.doctor.probes.robot_motion import robots_of
 from gazelle.workspace import Workspace
 
 MODELS = "turtlebot3_ws/src/turtlebot3_simulations/turtlebot3_gazebo/models"

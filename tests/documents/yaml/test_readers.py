@@ -30,7 +30,7 @@ from gazelle.control.parameter_sources.ros2_parameter_file import read_parameter
 from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.launch_ros1.parameter_places import parameter_places
+from gazelle.doctor.launch_ros1.launched_nodes import parameter_places
 from gazelle.doctor.launch_ros2.xml_yaml_file import read_yaml_file
 from gazelle.doctor.parameters.check_parameters import check_parameter_file
 from gazelle.documents.yaml import YamlError

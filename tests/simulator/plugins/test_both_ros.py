@@ -9,7 +9,7 @@ import pytest
 
 from gazelle.description.loader import load_models, load_world
 from gazelle.diagnostics import Diagnostics
-from gazelle.doctor.dry_start.node import DryNode
+from gazelle.doctor.dry_start.plan import DryNode
 from gazelle.simulator.plugins.registry import all_tables
 from gazelle.simulator.world_server import ServerSettings, WorldServer
 

@@ -10,8 +10,7 @@ from typing import NamedTuple
 
 from gazelle.control.controllers.registry import known_types as controller_types
 from gazelle.diagnostics import nearest_names
-from gazelle.doctor.packages.dependency_checks import is_slip
-from gazelle.doctor.packages.known_packages import is_ros_package, known_packages
+from gazelle.doctor.packages.dependency_checks import is_ros_package, is_slip, known_packages
 from gazelle.interfaces import known_types as message_types
 from gazelle.launch.environment import drop_in_folder
 from gazelle.node_specs.registry import builtin_packages

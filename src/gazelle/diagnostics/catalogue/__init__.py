@@ -27,7 +27,7 @@ class Entry:
         fix: the general remedy.
         phrase: the words ROS or Gazebo print in this case, empty when they are silent.
         idle: it says of a setting that it is known and has no effect here; at a start such findings
-            are summed, see `gazelle.diagnostics.brief`.
+            are summed, see `gazelle.diagnostics.collection`.
         quiet: it says of something that it is done, or that nothing is to be done about it; at a
             start it goes to the log file alone.
     """

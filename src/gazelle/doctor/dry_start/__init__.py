@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from gazelle.doctor.dry_start.bringup import dry_start
-from gazelle.doctor.dry_start.node import DryNode
-from gazelle.doctor.dry_start.plan import ControllerStart, DryStart, Program, StartPlan
+from gazelle.doctor.dry_start.plan import ControllerStart, DryNode, DryStart, Program, StartPlan
 
 __all__ = ["ControllerStart", "DryNode", "DryStart", "Program", "StartPlan", "dry_start"]

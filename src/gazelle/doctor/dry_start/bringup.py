@@ -1,19 +1,18 @@
-"""A simulation brought up in this process, up to its first step."""
+"""A simulation brought up in this process, through its first quarter of a second."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.doctor.dry_start.controlling import managers_of, start_controllers
-from gazelle.doctor.dry_start.first_moments import FirstMoments
-from gazelle.doctor.dry_start.node import DryNode
-from gazelle.doctor.dry_start.plan import DryStart, StartPlan
-from gazelle.doctor.dry_start.spawners import Spawning
-from gazelle.doctor.text_files import texts_known
+from gazelle.doctor.descriptions import texts_known
+from gazelle.doctor.dry_start.plan import DryNode, DryStart, StartPlan
+from gazelle.doctor.dry_start.spawners import Spawning, managers_of, start_controllers
 from gazelle.documents.files import is_folder
-from gazelle.errors import GazelleError, NotFoundError, UserFileError
+from gazelle.errors import GazelleError, NotFoundError, SimulationDivergedError, UserFileError
 from gazelle.geometry import without_splitting
 from gazelle.graph.names import resolve
 from gazelle.simulator.description_sources import world_from
@@ -23,7 +22,55 @@ from gazelle.simulator.server_options import ServerOptions, read_server_options
 from gazelle.simulator.world_server import ServerSettings, WorldServer
 from gazelle.workspace import Workspace
 
-__all__ = ["dry_start"]
+__all__ = ["FirstMoments", "dry_start"]
+
+_SECONDS = 0.25
+_MAX_STEPS = 500
+
+
+class FirstMoments:
+    """Listens to tf and joint states.
+
+    Plug-ins and controllers publish with a rate of their own, most at 10 Hz or more, and what
+    they will publish stands nowhere but in what they do.
+
+    Attributes:
+        transforms: parent and child frame → whether it is static.
+        joint_states: names of joints by topic.
+        diverged: why the time ended early, empty when it did not.
+    """
+
+    def __init__(self) -> None:
+        self.transforms: dict[tuple[str, str], bool] = {}
+        self.joint_states: dict[str, set[str]] = {}
+        self.diverged = ""
+
+    def listen(self, server: WorldServer, node: DryNode) -> None:
+        """Let a little time pass; the world is of no use for anything else afterwards."""
+        own = dict(node.heard)
+        for topic in ("/tf", "/tf_static"):
+            node.create_subscription(topic, None, self._take_transforms(topic == "/tf_static"))
+        for topic, kind in tuple(node.offered.items()):
+            if kind.endswith("/JointState"):
+                self.joint_states[topic] = set()
+                node.create_subscription(topic, None, self._take_joints(topic))
+        node.heard = own
+        step_s = server.engine.step_ns * 1e-9
+        try:
+            server.step(min(_MAX_STEPS, math.ceil(_SECONDS / step_s)))
+        except SimulationDivergedError as error:
+            self.diverged = str(error)
+
+    def _take_transforms(self, is_static: bool) -> Any:
+        def take(message: Any) -> None:
+            for item in message.transforms:
+                edge = (item.header.frame_id.lstrip("/"), item.child_frame_id.lstrip("/"))
+                self.transforms.setdefault(edge, is_static)
+
+        return take
+
+    def _take_joints(self, topic: str) -> Any:
+        return lambda message: self.joint_states[topic].update(message.name)
 
 
 def dry_start(

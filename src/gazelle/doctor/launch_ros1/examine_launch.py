@@ -7,25 +7,26 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
-from gazelle.doctor.descriptions import examine_models, examine_text
+from gazelle.doctor.descriptions import examine_models, examine_text, texts_known
 from gazelle.doctor.dry_start import DryStart, dry_start
-from gazelle.doctor.examination import Examination
-from gazelle.doctor.launch_ros1.clock_checks import check_clock
-from gazelle.doctor.launch_ros1.frame_checks import check_frames, frames_section
-from gazelle.doctor.launch_ros1.frames import frames_of
-from gazelle.doctor.launch_ros1.launched_nodes import Launched, Role, launched_from
+from gazelle.doctor.launch_ros1.frames import check_frames, frames_of, frames_section
+from gazelle.doctor.launch_ros1.launched_nodes import (
+    Launched,
+    Role,
+    launched_from,
+    placed,
+    start_plan,
+)
 from gazelle.doctor.launch_ros1.name_checks import check_descriptions, check_remaps, check_topics
 from gazelle.doctor.launch_ros1.node_checks import (
+    check_clock,
     check_idle_parameters,
     check_nodes,
     nodes_section,
 )
-from gazelle.doctor.launch_ros1.parameter_places import placed
-from gazelle.doctor.launch_ros1.plan import start_plan
 from gazelle.doctor.launch_ros1.topics import topics_of
-from gazelle.doctor.probing import probe
-from gazelle.doctor.simulated import simulation_sections
-from gazelle.doctor.text_files import texts_known
+from gazelle.doctor.report import Examination
+from gazelle.doctor.simulated_world import probe, simulation_sections
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.executables import Executable, find_executable
 from gazelle.launch.ros1.loader import load_launch_files

@@ -1,24 +1,40 @@
-"""A launch as it would be started: nodes with their roles, names and parameters."""
+"""A launch as it would be started: nodes with roles and parameters, and what its simulator gets."""
 
 from __future__ import annotations
 
+import re
 import shlex
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import Enum
+from functools import reduce
 from pathlib import Path
 from typing import Any
 
-from gazelle.diagnostics import SourceSpan
-from gazelle.doctor.dry_start import Program
-from gazelle.doctor.launch_ros1.parameter_places import parameter_places
+from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan
+from gazelle.doctor.dry_start import ControllerStart, Program, StartPlan
+from gazelle.documents.yaml import entries, read_yaml_file
+from gazelle.errors import LaunchError
 from gazelle.graph.names import parse_command_line, remap, resolve
 from gazelle.graph.parameter_tree import ParameterTree
 from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.executables import Executable
 from gazelle.node_specs.spec import NodeRole
+from gazelle.nodes.controller_manager.spawner import is_ros2, spawner_parser
+from gazelle.nodes.controller_manager.spawner_ros2 import spawner_options
 
-__all__ = ["Launched", "LaunchedNode", "Role", "launched_from"]
+__all__ = [
+    "Launched",
+    "LaunchedNode",
+    "Role",
+    "controller_start",
+    "launched_from",
+    "parameter_places",
+    "placed",
+    "start_plan",
+]
+
+_NAME = re.compile(r"'(/[^'\s]+)'")
 
 
 class Role(Enum):
@@ -43,6 +59,7 @@ class Role(Enum):
 _BY_ROLE: dict[NodeRole, Role] = {
     role: Role(role.value) for role in NodeRole if role is not NodeRole.ENTITY_SPAWNER
 }
+_LOADS = frozenset({"load", "spawn", "sp", "start"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +138,24 @@ class Launched:
         return text if text.strip() else None
 
 
+def parameter_places(config: LaunchConfig) -> dict[str, SourceSpan]:
+    """Return where each parameter is set; the line of the YAML file where one is loaded."""
+    places = dict(config.param_spans)
+    for element, (file, target) in config.yaml_files.items():
+        for name, span in _lines(file, target):
+            if config.param_spans.get(name) == element:
+                places[name] = replace(span, via=(element, *element.via))
+    return places
+
+
+def placed(item: Diagnostic, places: Mapping[str, SourceSpan]) -> Diagnostic:
+    """Return a finding that names a parameter at the place where that is set."""
+    if item.span is not None:
+        return item
+    named = (places[name] for name in _NAME.findall(item.message) if name in places)
+    return replace(item, span=next(named, None))
+
+
 def launched_from(
     config: LaunchConfig,
     executables: Sequence[Executable | None],
@@ -143,6 +178,50 @@ def launched_from(
     for key, value in config.params.items():
         parameters.set(key, value)
     return Launched(config, nodes, parameters, name, is_whole, parameter_places(config))
+
+
+def start_plan(launched: Launched, server: LaunchedNode, diagnostics: Diagnostics) -> StartPlan:
+    """Return what a simulator of a launch is brought up with.
+
+    Args:
+        launched: the launch.
+        server: the simulator among its nodes.
+        diagnostics: receives spawners whose arguments are wrong.
+    """
+    starts = [
+        controller_start(node, diagnostics) for node in launched.of_role(Role.CONTROLLER_SPAWNER)
+    ]
+    return StartPlan(
+        server=server.program,
+        parameters=dict(launched.config.params),
+        text_files=tuple(dict.fromkeys(launched.config.text_files)),
+        spawners=tuple(node.program for node in launched.of_role(Role.MODEL_SPAWNER)),
+        controllers=tuple(start for start in starts if start is not None),
+        started_by=1,
+    )
+
+
+def controller_start(node: LaunchedNode, diagnostics: Diagnostics) -> ControllerStart | None:
+    """Return what a spawner of controllers would do; None when its arguments are wrong."""
+    assert node.executable is not None and node.executable.builtin is not None
+    executable = node.executable.builtin.executable
+    try:
+        if executable == "controller_manager":
+            return _of_command(node)
+        if executable == "spawner.py" or is_ros2(node.program.words):
+            return _of_ros2(node)
+        return _of_ros1(node)
+    except LaunchError as error:
+        text = f"'{node.full_name}' ends at once: {error}"
+        diagnostics.report("doctor.bad-arguments", text, node.spec.span)
+        return None
+
+
+def _lines(file: str, target: str) -> Iterator[tuple[str, SourceSpan]]:
+    # Whoever loaded it has told why it cannot be read.
+    root = read_yaml_file(file).root
+    for path, key, *_ in entries(root) if root is not None else ():
+        yield reduce(lambda above, name: resolve(name, above), path, target or "/"), key.span
 
 
 def _node(spec: NodeTag, executable: Executable | None) -> LaunchedNode:
@@ -172,3 +251,39 @@ def _role(executable: Executable | None) -> Role:
     if executable.script is not None:
         return Role.SCRIPT
     return Role.COMMAND if executable.folder is None else Role.NATIVE
+
+
+def _of_ros1(node: LaunchedNode) -> ControllerStart:
+    options = spawner_parser().parse_args(list(node.program.words))
+    name = f"{options.namespace.rstrip('/')}/controller_manager".lstrip("/")
+    if options.namespace.startswith("/"):
+        name = f"/{name}"
+    return ControllerStart(
+        node.resolve(name), tuple(options.controllers), node.program, starts=not options.stopped
+    )
+
+
+def _of_ros2(node: LaunchedNode) -> ControllerStart:
+    options = spawner_options(node.program.words)
+    name = options.controller_manager
+    if options.namespace and not name.startswith("/"):
+        name = f"/{options.namespace.strip('/')}/{name}"
+    return ControllerStart(
+        node.resolve(name),
+        tuple(options.controller_names),
+        node.program,
+        options.controller_type,
+        tuple(options.param_file),
+        not (options.inactive or options.load_only),
+    )
+
+
+def _of_command(node: LaunchedNode) -> ControllerStart | None:
+    """``controller_manager spawn NAME``: other commands change nothing before the first step."""
+    words = [word for word in node.program.words if not word.startswith("-")]
+    if not words or words[0] not in _LOADS:
+        return None
+    starts = words[0] != "load"
+    return ControllerStart(
+        node.resolve("controller_manager"), tuple(words[1:]), node.program, starts=starts
+    )

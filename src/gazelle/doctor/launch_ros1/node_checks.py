@@ -1,22 +1,48 @@
-"""Checks of nodes: what ends the launch by its own end, what is started again and again."""
+"""Checks of nodes: how they end and respawn, parameters without effect, and their clock."""
 
 from __future__ import annotations
 
 import shlex
+from collections.abc import Mapping
+from difflib import SequenceMatcher
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.report import Section
 from gazelle.nodes.idle_parameters import idle_parameters
 
-__all__ = ["check_idle_parameters", "check_nodes", "nodes_section"]
+__all__ = ["check_clock", "check_idle_parameters", "check_nodes", "nodes_section"]
 
+_NAME = "/use_sim_time"
+_WORD = "use_sim_time"
+_MIN_LIKENESS = 0.76
 _ENDS = frozenset({Role.MODEL_SPAWNER})
 _BOND = "-b"
 _REPLACEMENTS = {
     Role.VIEW: "a window: stays alive",
     Role.BUILTIN: "built in",
 }
+
+
+def check_clock(
+    launched: Launched, starts: Mapping[str, DryStart], diagnostics: Diagnostics
+) -> None:
+    """Report clocks that contradict each other.
+
+    Args:
+        launched: the launch.
+        starts: simulators that came up.
+        diagnostics: receives the findings.
+    """
+    owners = [node for node in launched.nodes if _owns_clock(node)]
+    if len(owners) > 1:
+        names = " and ".join(f"'{node.full_name}'" for node in owners)
+        text = f"{names} both publish /clock: time jumps back and forth for every node"
+        diagnostics.report("doctor.two-clocks", text, owners[1].spec.span)
+    _check_names(launched, diagnostics)
+    _check_value(launched, owners, diagnostics)
+    _check_pause(launched, starts, diagnostics)
 
 
 def check_nodes(launched: Launched, diagnostics: Diagnostics) -> None:
@@ -53,10 +79,6 @@ def check_idle_parameters(launched: Launched, diagnostics: Diagnostics) -> None:
             diagnostics.report("parameter.idle", text, span)
 
 
-def _has_own(launched: Launched, node: LaunchedNode) -> bool:
-    return launched.parameters.has(node.full_name)
-
-
 def nodes_section(launched: Launched) -> Section:
     """Return the table of what is started, and by what."""
     rows = tuple(
@@ -65,6 +87,79 @@ def nodes_section(launched: Launched) -> Section:
     )
     return Section("nodes", "nodes", ("node", "package/type", "what it is", "place"), rows,
                    launched.name)  # fmt: skip
+
+
+def _owns_clock(node: LaunchedNode) -> bool:
+    plays = (node.spec.package, node.spec.type) == ("rosbag", "play")
+    return node.role is Role.SIMULATOR or (plays and "--clock" in node.program.words)
+
+
+def _check_names(launched: Launched, diagnostics: Diagnostics) -> None:
+    """Report values under names that no node of ROS 1 looks at."""
+    fix = f'write <param name="{_NAME}" …/> with the slash'
+    for name, value in launched.config.params.items():
+        last = name.rpartition("/")[2]
+        if name == _NAME or not isinstance(value, bool):
+            continue
+        if last == _WORD:
+            text = f"parameter '{name}' has no effect: nodes of ROS 1 look at {_NAME} only"
+        elif _is_misspelled(last):
+            text = f"parameter '{name}' is looked at by no node; did you mean '{_WORD}'?"
+        else:
+            continue
+        place = launched.places.get(name)
+        diagnostics.report("doctor.sim-time-name", text, place, fix=fix)
+
+
+def _is_misspelled(name: str) -> bool:
+    """Tell whether a name is a slip for the clock's: ``use_map_topic`` is another thing."""
+    words = name.casefold().replace("_", "")
+    likeness = SequenceMatcher(None, words, _WORD.replace("_", "")).ratio()
+    return name.startswith("use") and likeness >= _MIN_LIKENESS
+
+
+def _check_value(launched: Launched, owners: list[LaunchedNode], diagnostics: Diagnostics) -> None:
+    value = launched.config.params.get(_NAME)
+    if owners and value is not True:
+        how = "not set" if value is None else f"{value!r}"
+        others = [node for node in launched.nodes if _has_a_clock(node)]
+        if not others:
+            return
+        names = ", ".join(node.full_name for node in others[:4])
+        text = f"{_NAME} is {how} while '{owners[0].full_name}' publishes /clock: nodes that start "
+        text += f"before it sets the parameter keep the wall's time ({names}), and their stamps "
+        text += "lie decades apart from the simulator's"
+        diagnostics.report("doctor.sim-time-off", text, owners[0].spec.span)
+    elif not owners and value is True:
+        text = f"{_NAME} is true and nothing in this launch publishes /clock: time stands at 0 "
+        text += "until a simulator or `rosbag play --clock` runs elsewhere"
+        diagnostics.report("doctor.no-clock", text, launched.places.get(_NAME))
+
+
+def _has_a_clock(node: LaunchedNode) -> bool:
+    """Tell whether a node stamps or compares times on its own."""
+    return node.role in {
+        Role.STATE_PUBLISHER,
+        Role.JOINT_STATES,
+        Role.STATIC_TRANSFORM,
+        Role.SCRIPT,
+        Role.NATIVE,
+        Role.BUILTIN,
+    }
+
+
+def _check_pause(
+    launched: Launched, starts: Mapping[str, DryStart], diagnostics: Diagnostics
+) -> None:
+    for name, start in starts.items():
+        if start.paused and not start.unpaused_by:
+            node = next(item for item in launched.nodes if item.full_name == name)
+            text = f"'{name}' starts paused and nothing in this launch unpauses it"
+            diagnostics.report("doctor.paused", text, node.spec.span)
+
+
+def _has_own(launched: Launched, node: LaunchedNode) -> bool:
+    return launched.parameters.has(node.full_name)
 
 
 def _runs(node: LaunchedNode) -> str:

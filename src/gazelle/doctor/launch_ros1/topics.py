@@ -2,21 +2,80 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import ast
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
 
+from gazelle.compat.python2 import is_python2, translated
 from gazelle.doctor.dry_start import DryStart
-from gazelle.doctor.launch_ros1.builtin_topics import builtin_topics
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
-from gazelle.doctor.launch_ros1.script_reading import read_script
 from gazelle.graph.names import resolve
+from gazelle.node_specs.patterns import ValueOf, expanded, holds
 from gazelle.node_specs.registry import node_specs
+from gazelle.node_specs.spec import Direction, Interface, NodeSpec
 from gazelle.node_specs.unavailable_package_rows import Sends
 from gazelle.node_specs.unavailable_packages import what_it_sends
 
-__all__ = ["KnownNode", "NodeTopics", "topics_of"]
+__all__ = [
+    "BuiltinTopics",
+    "KnownNode",
+    "NodeTopics",
+    "ScriptTopics",
+    "builtin_topics",
+    "read_script",
+    "topics_of",
+]
 
+_EKF = frozenset({"ekf_localization_node", "ekf_node"})
+_PUBLISHERS = frozenset({"Publisher", "create_publisher"})
+_SUBSCRIBERS = frozenset({"Subscriber", "create_subscription"})
+_BROADCASTERS = frozenset(
+    {"StaticTransformBroadcaster", "TransformBroadcaster", "sendTransform", "sendTransformMessage"}
+)
+# Whatever else may talk to topics without naming them here.
+_OPAQUE = frozenset({"__import__", "eval", "exec", "exec_module", "import_module"})
+_ROS_MODULES = frozenset({"rclpy", "rospy"})
 _JOINT_STATE = "sensor_msgs/msg/JointState"
+
+
+@dataclass(frozen=True, slots=True)
+class BuiltinTopics:
+    """What one node has.
+
+    Attributes:
+        publishes, listens: types by global topic, after remapping; a type may be empty.
+        written: names before remapping that its code uses, global.
+        transforms: parent and child of each it sends; None when they cannot be told.
+        joints: whose states it sends; None when they cannot be told.
+        is_complete: there are no further topics.
+    """
+
+    publishes: Mapping[str, str]
+    listens: Mapping[str, str]
+    written: frozenset[str]
+    transforms: tuple[tuple[str, str], ...] | None
+    joints: frozenset[str] | None
+    is_complete: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ScriptTopics:
+    """Topics of a script, as written in its source.
+
+    Attributes:
+        publishes: names with types, a type is empty when it is not plain.
+        listens: the same for subscriptions.
+        sends_transforms: it has a broadcaster of tf.
+        is_complete: these are all; False when a name is computed or code of other files may
+            talk as well.
+    """
+
+    publishes: tuple[tuple[str, str], ...] = ()
+    listens: tuple[tuple[str, str], ...] = ()
+    sends_transforms: bool = False
+    is_complete: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +111,50 @@ class NodeTopics:
     joints: frozenset[str] = frozenset()
 
 
+def builtin_topics(node: LaunchedNode, launched: Launched) -> BuiltinTopics | None:
+    """Return what a built-in node has; None for other nodes."""
+    spec = node.executable.builtin if node.executable is not None else None
+    if spec is None:
+        return None
+
+    def value_of(name: str, default: str) -> str:
+        full = name if name.startswith("~") else node.resolve(name)
+        full = resolve(full, node.program.namespace, node=node.full_name)
+        has_own = launched.parameters.has(full)
+        return str(launched.parameters.get(full)) if has_own else default
+
+    rows = [row for row in spec.topics if holds(row.when, value_of)]
+    others = (*spec.services, *spec.actions)
+    names = [expanded(row.name, value_of) for row in (*rows, *others)]
+    return BuiltinTopics(
+        _by_topic(_of(rows, Direction.GIVES), node, spec, value_of),
+        _by_topic(_of(rows, Direction.TAKES), node, spec, value_of),
+        frozenset(_global(name, node) for name in (*names, *spec.namespaces)),
+        _transforms(spec, node, launched, value_of),
+        None if spec.joints is None else frozenset(expanded(one, value_of) for one in spec.joints),
+        spec.is_complete,
+    )
+
+
+@lru_cache(maxsize=64)
+def read_script(path: Path) -> ScriptTopics:
+    """Read a Python node; one that cannot be read is not complete."""
+    try:
+        source = path.read_bytes()
+        text = source.decode("utf-8", "replace")
+        tree = ast.parse(translated(text) if is_python2(source) else text)
+    except (OSError, SyntaxError, ValueError):
+        return ScriptTopics(is_complete=False)
+    reader = _Reader(_constants(tree), set(_imports(tree)))
+    reader.visit(tree)
+    return ScriptTopics(
+        tuple(dict.fromkeys(reader.publishes)),
+        tuple(dict.fromkeys(reader.listens)),
+        reader.sends_transforms,
+        reader.is_complete and _stands_alone(tree, path),
+    )
+
+
 def topics_of(launched: Launched, starts: Mapping[str, DryStart]) -> tuple[NodeTopics, ...]:
     """Return what is known of every node's topics.
 
@@ -60,6 +163,144 @@ def topics_of(launched: Launched, starts: Mapping[str, DryStart]) -> tuple[NodeT
         starts: simulators that came up, by global name of their node.
     """
     return tuple(_topics(node, launched, starts) for node in launched.nodes)
+
+
+def _of(rows: Iterable[Interface], direction: Direction) -> list[Interface]:
+    return [row for row in rows if row.direction is direction]
+
+
+def _by_topic(
+    rows: Iterable[Interface], node: LaunchedNode, spec: NodeSpec, value_of: ValueOf
+) -> dict[str, str]:
+    return {_remapped(expanded(row.name, value_of), node, spec): row.type for row in rows}
+
+
+def _remapped(name: str, node: LaunchedNode, spec: NodeSpec) -> str:
+    """Return the global name of a topic; a namespace that is remapped by itself comes first."""
+    first, _, rest = name.partition("/")
+    return node.resolve(f"{node.resolve(first)}/{rest}" if first in spec.namespaces else name)
+
+
+def _global(name: str, node: LaunchedNode) -> str:
+    return resolve(name, node.program.namespace, node=node.full_name)
+
+
+def _transforms(
+    spec: NodeSpec, node: LaunchedNode, launched: Launched, value_of: ValueOf
+) -> tuple[tuple[str, str], ...] | None:
+    if spec.executable in _EKF:
+        return _filtered(node, launched)
+    if spec.frames is None:
+        return None
+    return tuple(
+        (expanded(row.parent, value_of).strip("/"), expanded(row.child, value_of).strip("/"))
+        for row in spec.frames
+        if holds(row.when, value_of)
+    )
+
+
+def _filtered(node: LaunchedNode, launched: Launched) -> tuple[tuple[str, str], ...]:
+    """Return what a filter of robot_localization sends, by REP 105 from its world frame."""
+
+    def frame(name: str, default: str) -> str:
+        return str(launched.private(node, name, default)).strip("/")
+
+    if launched.private(node, "publish_tf", True) is False:
+        return ()
+    odom = frame("odom_frame", "odom")
+    world = frame("world_frame", odom)
+    base = frame("base_link_frame", "base_link")
+    return ((world, odom if world == frame("map_frame", "map") else base),)
+
+
+class _Reader(ast.NodeVisitor):
+    def __init__(self, constants: dict[str, str], imports: set[str]) -> None:
+        self._constants = constants
+        self._imports = imports
+        self.publishes: list[tuple[str, str]] = []
+        self.listens: list[tuple[str, str]] = []
+        self.sends_transforms = False
+        self.is_complete = True
+
+    def visit_Call(self, node: ast.Call) -> None:
+        name = _called(node.func)
+        if name in _PUBLISHERS | _SUBSCRIBERS:
+            self._topic(node, name)
+        elif name in _BROADCASTERS:
+            self.sends_transforms = True
+        elif name in _OPAQUE or name == "SimpleActionClient" or name.endswith("ActionServer"):
+            self.is_complete = False
+        self.generic_visit(node)
+
+    def _topic(self, node: ast.Call, called: str) -> None:
+        is_ros2 = called.startswith("create_")
+        words = {item.arg: item.value for item in node.keywords if item.arg}
+        places = (1, 0) if is_ros2 else (0, 1)
+        given: list[ast.expr | None] = []
+        for place, keys in zip(
+            places, (("topic", "name"), ("msg_type", "data_class")), strict=True
+        ):
+            found = next((words[key] for key in keys if key in words), None)
+            given.append(node.args[place] if place < len(node.args) else found)
+        name = self._text(given[0])
+        if name is None:
+            self.is_complete = False
+            return
+        kind = _called(given[1]) if given[1] is not None else ""
+        target = self.publishes if called in _PUBLISHERS else self.listens
+        target.append((name, kind))
+
+    def _text(self, node: ast.expr | None) -> str | None:
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            return node.value
+        return self._constants.get(node.id) if isinstance(node, ast.Name) else None
+
+
+def _called(node: ast.expr | None) -> str:
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def _constants(tree: ast.Module) -> dict[str, str]:
+    """Return the texts that names of the module stand for, each bound once."""
+    found: dict[str, str | None] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                if isinstance(target, ast.Name):
+                    value = node.value
+                    text = value.value if isinstance(value, ast.Constant) else None
+                    is_new = target.id not in found and isinstance(text, str)
+                    found[target.id] = text if is_new else None  # type: ignore[assignment]
+    return {name: text for name, text in found.items() if text is not None}
+
+
+def _imports(tree: ast.Module) -> list[str]:
+    names = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            names.append("." * node.level + (node.module or ""))
+    return names
+
+
+def _stands_alone(tree: ast.Module, path: Path) -> bool:
+    """Tell whether no other file of the user's can open topics for this one."""
+    names = _imports(tree)
+    uses_ros = any(name.partition(".")[0] in _ROS_MODULES for name in names)
+    folders = (path.parent, path.parent.parent, path.parent.parent / "src")
+    own = any(
+        name.startswith(".")
+        or any(
+            (folder / name.partition(".")[0]).is_dir()
+            or (folder / f"{name.partition('.')[0]}.py").is_file()
+            for folder in folders
+        )
+        for name in names
+    )
+    return uses_ros and not own
 
 
 def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStart]) -> NodeTopics:

@@ -7,11 +7,15 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.launch_ros2.argument_checks import check_arguments
-from gazelle.doctor.launch_ros2.command_checks import check_commands, robots_of
-from gazelle.doctor.launch_ros2.file_checks import check_packages, check_paths, paths_of
+from gazelle.doctor.launch_ros2.file_checks import (
+    check_commands,
+    check_packages,
+    check_paths,
+    paths_of,
+    robots_of,
+)
 from gazelle.doctor.launch_ros2.launch_file import LaunchReading
-from gazelle.doctor.launch_ros2.launch_tree import Followed, follow
-from gazelle.doctor.launch_ros2.locating import located
+from gazelle.doctor.launch_ros2.launch_tree import Followed, follow, located
 from gazelle.doctor.launch_ros2.node_checks import (
     check_clocks,
     check_executables,

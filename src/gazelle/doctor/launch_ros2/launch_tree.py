@@ -1,4 +1,4 @@
-"""A launch file and all it includes."""
+"""A launch file and all it includes, and where their paths lie in the source tree."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.launch_file import Include, LaunchFile
-from gazelle.doctor.launch_ros2.locating import located
 from gazelle.doctor.launch_ros2.python_file import read_python_file
 from gazelle.doctor.launch_ros2.xml_yaml_file import read_xml_file, read_yaml_file
-from gazelle.documents.files import is_file
-from gazelle.workspace import Workspace
+from gazelle.documents.files import exists, is_file
+from gazelle.workspace import Package, Workspace
+from gazelle.workspace.installed_files import installed_source
 
-__all__ = ["Followed", "follow"]
+__all__ = ["Followed", "follow", "located", "package_of"]
 
 _MAX_DEPTH = 8
 _MAX_FILES = 60
@@ -41,6 +41,31 @@ class Followed:
     def walk(self) -> list[Followed]:
         """Return this file and all below it."""
         return [self, *(item for child in self.children for item in child.walk())]
+
+
+def located(name: str) -> Path | None:
+    """Return the file that a path of a share folder means, None when there is none.
+
+    In a source folder that is the file that its build files install to there.
+    """
+    path = Path(name)
+    if not path.is_absolute():
+        return None
+    if exists(path):
+        return path
+    try:
+        return installed_source(path)
+    except (OSError, ValueError):
+        # Names that are too long, or hold a NUL.
+        return None
+
+
+def package_of(path: Path, workspace: Workspace) -> Package | None:
+    """Return the package a path lies in, None when in none."""
+    for package in workspace.packages.values():
+        if path.is_absolute() and path.is_relative_to(package.path):
+            return package
+    return None
 
 
 def follow(

@@ -7,12 +7,10 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, did_you_mean, nearest_names
 from gazelle.doctor.launch_ros2.launch_file import LaunchedNode
-from gazelle.doctor.launch_ros2.launch_tree import Followed
-from gazelle.doctor.launch_ros2.locating import located
+from gazelle.doctor.launch_ros2.launch_tree import Followed, located
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.controllers import controllers_in
-from gazelle.doctor.parameters.document import read_document
-from gazelle.doctor.parameters.parameter_file import layout_of
+from gazelle.doctor.parameters.parameter_file import layout_of, read_document
 from gazelle.node_specs.registry import builtin_executables
 from gazelle.node_specs.unavailable_packages import missing_node
 from gazelle.workspace import Package, Workspace

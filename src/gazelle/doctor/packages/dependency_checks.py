@@ -5,16 +5,20 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator
-from pathlib import PurePosixPath
+from functools import cache
+from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
+import gazelle.interfaces
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
-from gazelle.doctor.packages.known_packages import is_ros_package, known_packages
 from gazelle.doctor.packages.source import SourcePackage
+from gazelle.node_specs.unavailable_packages import packages_elsewhere
 from gazelle.workspace import Workspace
+from gazelle.workspace.environment_paths import builtin_package_names
 
-__all__ = ["Use", "check_dependencies", "is_slip", "uses"]
+__all__ = ["Use", "check_dependencies", "is_ros_package", "is_slip", "known_packages", "uses"]
 
+_FAMILIES = ("ament_", "nav2_", "ros2", "rosidl_", "rqt_", "moveit_", "ros_gz", "ros_ign", "gz_")
 _XML = (".launch", ".launch.xml", ".xml", ".xacro", ".urdf", ".world", ".sdf", ".srdf")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _IN_XML = re.compile(
@@ -44,6 +48,19 @@ class Use(NamedTuple):
 
     package: str
     span: SourceSpan
+
+
+@cache
+def known_packages() -> frozenset[str]:
+    """Return packages of ROS distributions: those elsewhere, stood in for, and of messages."""
+    definitions = Path(gazelle.interfaces.__file__).parent / "definitions"
+    messages = {path.stem for path in definitions.rglob("*.txt")}
+    return packages_elsewhere() | builtin_package_names() | messages
+
+
+def is_ros_package(name: str) -> bool:
+    """Tell whether a package comes with ROS."""
+    return name in known_packages() or name.startswith(_FAMILIES)
 
 
 def uses(source: SourcePackage) -> Iterator[Use]:
@@ -78,6 +95,15 @@ def check_dependencies(
     _check_declared(source, workspace, diagnostics)
 
 
+def is_slip(name: str, other: str) -> bool:
+    """Tell a slip of the finger from two names of one family, as ``a_msgs`` and ``b_msgs`` are."""
+    longest = max(len(name), len(other))
+    begin, end = _same_begin(name, other), _same_begin(name[::-1], other[::-1])
+    # Two letters that changed places are one slip.
+    wrong = 1 if longest < _LONG_NAME and sorted(name) != sorted(other) else 2
+    return begin + end >= longest - wrong and abs(len(name) - len(other)) <= wrong
+
+
 def _is_package(name: str, workspace: Workspace) -> bool:
     return is_ros_package(name) or name in workspace.packages
 
@@ -109,15 +135,6 @@ def _check_declared(source: SourcePackage, workspace: Workspace, diagnostics: Di
         text += f"comes with ROS (Cannot locate rosdep definition for [{name}])"
         hint = did_you_mean(name, near)
         diagnostics.report("package.unknown-dependency", text, tag.span, fix=hint)
-
-
-def is_slip(name: str, other: str) -> bool:
-    """Tell a slip of the finger from two names of one family, as ``a_msgs`` and ``b_msgs`` are."""
-    longest = max(len(name), len(other))
-    begin, end = _same_begin(name, other), _same_begin(name[::-1], other[::-1])
-    # Two letters that changed places are one slip.
-    wrong = 1 if longest < _LONG_NAME and sorted(name) != sorted(other) else 2
-    return begin + end >= longest - wrong and abs(len(name) - len(other)) <= wrong
 
 
 def _same_begin(name: str, other: str) -> int:

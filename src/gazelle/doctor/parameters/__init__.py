@@ -6,8 +6,8 @@ from gazelle.doctor.parameters.check_parameters import (
     check_package_parameters,
     check_parameter_file,
 )
-from gazelle.doctor.parameters.description_text import check_description_text
 from gazelle.doctor.parameters.name_checks import check_names
+from gazelle.doctor.parameters.robot_descriptions import check_description_text
 
 __all__ = [
     "check_description_text",

@@ -10,13 +10,14 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.file_kinds import is_launch_yaml
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.controllers import check_controllers, controllers_in
-from gazelle.doctor.parameters.description_text import check_description_text
-from gazelle.doctor.parameters.document import read_document
-from gazelle.doctor.parameters.idle import check_idle
 from gazelle.doctor.parameters.name_checks import NameFiles, check_names, read_name_files
-from gazelle.doctor.parameters.parameter_file import Layout, check_layout, layout_of
-from gazelle.doctor.parameters.robots import robots_for, whole_robots
-from gazelle.doctor.parameters.value_checks import check_values
+from gazelle.doctor.parameters.parameter_file import Layout, check_layout, layout_of, read_document
+from gazelle.doctor.parameters.robot_descriptions import (
+    check_description_text,
+    robots_for,
+    whole_robots,
+)
+from gazelle.doctor.parameters.value_checks import check_idle, check_values
 from gazelle.doctor.report import Section
 from gazelle.documents.files import exists
 from gazelle.workspace import Package, Workspace

@@ -10,8 +10,7 @@ from typing import Any
 from gazelle.control.controller_parameters import controller_parameters
 from gazelle.control.controllers.registry import controller_class
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.parameters.document import Document, plain
-from gazelle.doctor.parameters.parameter_file import MARK, Layout
+from gazelle.doctor.parameters.parameter_file import MARK, Document, Layout, plain
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, entries
 from gazelle.parameters.trees import flattened, nested
 

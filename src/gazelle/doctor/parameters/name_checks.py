@@ -1,8 +1,8 @@
-"""Names of joints, links, groups and controllers over all files that name them."""
+"""Names of joints, links, groups, controllers and interfaces over all files that name them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,8 @@ from gazelle.control.checks import (
     configured_controllers,
     moveit_controllers,
 )
+from gazelle.control.hardware.ros1_joints import HARDWARE_INTERFACES
+from gazelle.control.hardware.ros2_tags import read_hardware_tags
 from gazelle.control.robot import JointResource
 from gazelle.description.model import Model
 from gazelle.description.srdf import link_names
@@ -24,14 +26,47 @@ from gazelle.doctor.parameters.controllers import (
     FoundControllers,
     controllers_in,
 )
-from gazelle.doctor.parameters.document import Document, plain, read_document
-from gazelle.doctor.parameters.hardware import check_claims, hardware_of
-from gazelle.doctor.parameters.parameter_file import Layout, layout_of
-from gazelle.doctor.parameters.srdf import check_srdf, group_names, srdf_names
+from gazelle.doctor.parameters.parameter_file import (
+    Document,
+    Layout,
+    layout_of,
+    plain,
+    read_document,
+)
 from gazelle.doctor.report import Section
+from gazelle.parameters.trees import nested
 
-__all__ = ["NameFiles", "check_names", "read_name_files"]
+__all__ = [
+    "NameFiles",
+    "check_claims",
+    "check_names",
+    "check_srdf",
+    "group_names",
+    "hardware_of",
+    "read_name_files",
+    "srdf_names",
+]
 
+# element: attributes that name links, joints
+_LINKS = {
+    "chain": ("base_link", "tip_link"),
+    "disable_collisions": ("link1", "link2"),
+    "enable_collisions": ("link1", "link2"),
+    "disable_default_collisions": ("link",),
+    "end_effector": ("parent_link",),
+    "link": ("name",),
+    "link_sphere_approximation": ("link",),
+    "virtual_joint": ("child_link",),
+}
+_JOINTS = {"joint": ("name",), "passive_joint": ("name",)}
+_GROUPS = {"group_state": ("group",), "end_effector": ("group", "parent_group")}
+_BY_TYPE = {
+    "diff_drive_controller": "velocity",
+    "effort_controllers": "effort",
+    "position_controllers": "position",
+    "velocity_controllers": "velocity",
+}
+_WHEEL_KEYS = ("left_wheel", "right_wheel", "left_wheel_names", "right_wheel_names")
 _COLUMNS = ("name", "URDF", "hardware", "controllers", "MoveIt")
 
 
@@ -70,6 +105,95 @@ class NameFiles:
     def configured(self) -> tuple[ConfiguredController, ...]:
         """Return the controllers with the joints they name."""
         return configured_controllers(FoundControllers(self.controllers))
+
+
+def group_names(root: Tag) -> tuple[str, ...]:
+    """Return the groups an SRDF defines."""
+    return tuple(tag.attributes.get("name", "") for tag in root.find_all("group"))
+
+
+def srdf_names(root: Tag) -> tuple[set[str], set[str]]:
+    """Return the links and the joints that an SRDF names."""
+    links: set[str] = set()
+    joints: set[str] = set()
+    for tag in root.walk():
+        links |= {tag.attributes[key] for key in _LINKS.get(tag.name, ()) if key in tag.attributes}
+        joints |= {
+            tag.attributes[key] for key in _JOINTS.get(tag.name, ()) if key in tag.attributes
+        }
+    return links, joints
+
+
+def check_srdf(
+    root: Tag,
+    links: Collection[str],
+    joints: Collection[str],
+    diagnostics: Diagnostics,
+) -> None:
+    """Report names of an SRDF that the robot, or the SRDF itself, does not have.
+
+    Args:
+        root: its ``<robot>``.
+        links: of the robot.
+        joints: of the robot.
+        diagnostics: receives the findings.
+    """
+    groups = group_names(root)
+    virtual = {tag.attributes.get("name", "") for tag in root.find_all("virtual_joint")}
+    known_joints = {*joints, *virtual}
+    for tag in root.walk():
+        for key in _LINKS.get(tag.name, ()):
+            _check(tag, key, "link", links, diagnostics)
+        for key in _JOINTS.get(tag.name, ()):
+            _check(tag, key, "joint", known_joints, diagnostics)
+        for key in _GROUPS.get(tag.name, ()):
+            _check(tag, key, "group", groups, diagnostics)
+    for group in root.find_all("group"):
+        for inner in group.find_all("group"):
+            _check(inner, "name", "group", groups, diagnostics)
+
+
+def hardware_of(model: Model) -> dict[str, JointResource]:
+    """Return the joints of ``<ros2_control>`` blocks, or of transmissions when there are none."""
+    blocks = read_hardware_tags(model, Diagnostics())
+    found: dict[str, JointResource] = {}
+    for part in (part for block in blocks for part in block.of_kind("joint")):
+        # A joint may stand in several blocks: an actuator's and a sensor's.
+        known = found.get(part.name, JointResource(part.name, (), ()))
+        commands = (*known.command_interfaces, *(item.name for item in part.commands))
+        states = (*known.state_interfaces, *(item.name for item in part.states))
+        found[part.name] = JointResource(part.name, commands, states)
+    if blocks:
+        return found
+    for tag in model.transmissions:
+        actuators = [name for item in tag.actuators for name in item.hardware_interfaces]
+        for joint in tag.joints:
+            names = [item.rpartition("/")[2] for item in (*joint.hardware_interfaces, *actuators)]
+            words = [HARDWARE_INTERFACES[name] for name in names if name in HARDWARE_INTERFACES]
+            interfaces = tuple(dict.fromkeys(words))
+            found[joint.name] = JointResource(joint.name, interfaces, ("position", "velocity"))
+    return found
+
+
+def check_claims(
+    controllers: Sequence[FoundController],
+    hardware: Mapping[str, JointResource],
+    diagnostics: Diagnostics,
+) -> None:
+    """Report controllers that need an interface which their joint does not have."""
+    for item in controllers:
+        for joint, interface, key in _claims(item):
+            resource = hardware.get(joint)
+            if resource is None or interface in resource.command_interfaces:
+                continue
+            span = item.nodes[key][1] if key in item.nodes else item.span
+            has = ", ".join(resource.command_interfaces) or "none"
+            text = f"controller '{item.name}' ({item.type}) needs the command interface "
+            text += f"'{interface}' of joint '{joint}', which has {has} "
+            text += f"({_words(item, joint, interface)})"
+            hint = did_you_mean(interface, resource.command_interfaces)
+            fix = hint or _fix(item, interface, resource)
+            diagnostics.report("parameters.interface-claim", text, span, fix=fix)
 
 
 def read_name_files(files: Sequence[Path]) -> NameFiles:
@@ -125,6 +249,66 @@ def check_names(model: Model, files: Sequence[Path], *, diagnostics: Diagnostics
     return (
         Section("names", f"{model.name}: who names which joint", _COLUMNS, rows) if rows else None
     )
+
+
+def _check(tag: Tag, key: str, kind: str, known: Collection[str], diagnostics: Diagnostics) -> None:
+    name = tag.attributes.get(key, "")
+    if not name or name in known or "$" in name:
+        return
+    words = {
+        "link": f"Link '{name}' is not known to URDF",
+        "joint": f"Joint '{name}' is not known to the URDF",
+        "group": f"Group '{name}' not found",
+    }
+    owner = "the SRDF has" if kind == "group" else "the robot has"
+    text = f"<{tag.name} {key}=\"{name}\">: {owner} no {kind} '{name}' ({words[kind]}); MoveIt "
+    text += "leaves the element out"
+    hint = did_you_mean(name, known)
+    diagnostics.report("parameters.srdf-name", text, tag.span, fix=hint)
+
+
+def _claims(item: FoundController) -> Iterator[tuple[str, str, str]]:
+    """Yield joint, command interface and the parameter that says so."""
+    tree = nested(item.tree)
+    package = item.type.partition("/")[0]
+    if package == "diff_drive_controller":
+        for key in _WHEEL_KEYS:
+            for joint in _texts(tree.get(key)):
+                yield joint, "velocity", key
+        return
+    joints = _texts(tree.get("joints")) or _texts(tree.get("joint"))
+    if "command_joints" in tree:
+        return
+    if item.ros_version == 2 and isinstance(tree.get("command_interfaces"), list):
+        for interface in _texts(tree.get("command_interfaces")):
+            yield from ((joint, interface, "command_interfaces") for joint in joints)
+    elif item.ros_version == 2 and isinstance(tree.get("interface_name"), str):
+        yield from ((joint, str(tree["interface_name"]), "interface_name") for joint in joints)
+    elif package in _BY_TYPE:
+        yield from ((joint, _BY_TYPE[package], "") for joint in joints)
+
+
+def _words(item: FoundController, joint: str, interface: str) -> str:
+    if item.ros_version == 2:
+        return f"Command interface with '{joint}/{interface}' does not exist"
+    name = f"hardware_interface::{interface.capitalize()}JointInterface"
+    return f"Could not find resource '{joint}' in '{name}'"
+
+
+def _fix(item: FoundController, interface: str, resource: JointResource) -> str:
+    if item.ros_version == 2:
+        return f'add <command_interface name="{interface}"/> to the joint in <ros2_control>'
+    own = f"hardware_interface/{interface.capitalize()}JointInterface"
+    fix = f"<hardwareInterface>{own}</hardwareInterface> in the joint's transmission"
+    if resource.command_interfaces:
+        other = item.type.replace(item.type.partition("_")[0], resource.command_interfaces[0], 1)
+        fix += f", or type: {other}"
+    return fix
+
+
+def _texts(value: object) -> list[str]:
+    items = value if isinstance(value, list) else [value]
+    return [text for text in items if isinstance(text, str) and text and "/" not in text]
 
 
 def _as_controllers(moveit: Sequence[MoveItController], model: Model) -> list[FoundController]:

@@ -1,20 +1,18 @@
-"""Values that YAML, roslaunch and ROS 2 read in another way than they look."""
+"""Values that YAML, roslaunch and ROS 2 read otherwise than they look, or that have no effect."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 
-from gazelle.diagnostics import Diagnostics, Severity
-from gazelle.doctor.parameters.document import Document, scalars
-from gazelle.doctor.parameters.parameter_file import MARK, Layout
+from gazelle.diagnostics import Diagnostics, Severity, SourceSpan
+from gazelle.doctor.parameters.parameter_file import MARK, Document, Layout, plain, scalars
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, duplicates
+from gazelle.nodes.idle_parameters import idle_parameters, node_of_name
 
-_MARK = "ros__parameters"
+__all__ = ["check_idle", "check_values"]
+
 _ADDED_UP = "rcl adds the two up, programs in Python see the last one only"
-
-__all__ = ["check_values"]
-
 # PyYAML's own tables (YAML 1.1 without y and n), and rcl_yaml_param_parser's, which has them.
 _ROS1_FLAGS = re.compile(r"(?i:yes|no|on|off|true|false)")
 _ROS2_FLAGS = re.compile(r"[YyNn]|(?i:yes|no|on|off|true|false)")
@@ -25,6 +23,23 @@ _BASE_60 = re.compile(r"[-+]?[1-9]\d*(?::[0-5]?\d)+(?:\.\d*)?")
 _NO_POINT = re.compile(r"[-+]?(?:\d+[eE][-+]?\d+|\d*\.?\d+[eE]\d+)")
 _NAME_KEY = re.compile(r"(?:^|_)(?:joints?|links?|frames?|names?|axes|axis|tip|root|group)(?:_|$)")
 _KINDS = {"bool": "bool", "int": "integer", "float": "double", "str": "string"}
+
+
+def check_idle(document: Document, diagnostics: Diagnostics) -> None:
+    """Report what the nodes of a file read and do not use, each at its line.
+
+    Args:
+        document: a file of ROS 2: names of nodes, ``ros__parameters``, parameters.
+        diagnostics: receives ``parameter.idle``.
+    """
+    for path, values in _nodes(document.root, ()):
+        node = node_of_name(path[-1])
+        found = plain(values)
+        if not node or not isinstance(found, dict):
+            continue
+        for item in idle_parameters(node, found, 2):
+            text = f"/{'/'.join(path)}: parameter '{item.key}' has no effect here: {item.reason}"
+            diagnostics.report("parameter.idle", text, _span(values, item.key))
 
 
 def check_values(
@@ -57,6 +72,30 @@ def check_values(
         _check_lists(document.root, diagnostics, is_inside=False)
     if ros_version == 1:
         _check_keys(document.root, diagnostics)
+
+
+def _nodes(node: YamlMapping, above: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], YamlNode]]:
+    for key, value in node.pairs:
+        if key.text == MARK and above:
+            yield above, value
+        elif isinstance(value, YamlMapping):
+            yield from _nodes(value, (*above, key.text.strip("/")))
+
+
+def _span(node: YamlNode, name: str) -> SourceSpan:
+    """Return the place of a key; levels may be written as mappings or with dots."""
+    place = node
+    words = name.split(".")
+    while words and isinstance(node, YamlMapping):
+        for count in range(len(words), 0, -1):
+            key = ".".join(words[:count])
+            pair = node.pair(key)
+            if pair is not None:
+                place, node, words = pair[0], pair[1], words[count:]
+                break
+        else:
+            break
+    return place.span
 
 
 def _check_flag(
@@ -128,7 +167,7 @@ def _check_doubles(node: YamlNode, diagnostics: Diagnostics, *, adds_up: bool = 
     doubles = duplicates(node)
     for key, value in node.pairs:
         name = key.text
-        is_above = adds_up and name != _MARK
+        is_above = adds_up and name != MARK
         _check_doubles(value, diagnostics, adds_up=is_above)
         first = doubles.get(key)
         if first is not None and name != "<<":

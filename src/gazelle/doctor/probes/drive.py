@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.probes.motion import base_pose, motion_between
+from gazelle.doctor.probes.robot_motion import base_pose, motion_between
 from gazelle.doctor.report import Section
 from gazelle.interfaces import message_type
 from gazelle.simulator.simulation import Simulation

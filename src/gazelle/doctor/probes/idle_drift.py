@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
-from gazelle.doctor.probes.motion import (
+from gazelle.doctor.probes.robot_motion import (
     Motion,
     base_name,
     contacts_of,

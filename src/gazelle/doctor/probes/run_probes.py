@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator, Sequence
 
 from gazelle.description.model import Model, World
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.dry_start.node import DryNode
+from gazelle.doctor.dry_start.plan import DryNode
 from gazelle.doctor.probes.controllers import probe_controllers
 from gazelle.doctor.probes.drive import probe_drive, twist_topics
 from gazelle.doctor.probes.idle_drift import FALLS, probe_idle_drift
-from gazelle.doctor.probes.robots import robots_of
+from gazelle.doctor.probes.robot_motion import robots_of
 from gazelle.doctor.probes.spawn import probe_spawn
 from gazelle.doctor.report import Section
 from gazelle.errors import EngineError, SimulationDivergedError

@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.probes.motion import base_name, contacts_of
+from gazelle.doctor.probes.robot_motion import base_name, contacts_of
 from gazelle.doctor.report import Section
 from gazelle.simulator.simulation import Simulation
 

@@ -1,17 +1,30 @@
-"""How far a model has moved between two moments."""
+"""Which models of a world are probed, and how far they have moved between two moments."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from gazelle.description.model import Model
+from gazelle.description.checks.shape_volumes import Outlines
+from gazelle.description.model import JointType, Model, World
 from gazelle.geometry import Pose
 from gazelle.simulator.simulation import Simulation
 
-__all__ = ["Motion", "base_name", "base_pose", "contacts_of", "link_poses", "motion_between"]
+__all__ = [
+    "Motion",
+    "base_name",
+    "base_pose",
+    "contacts_of",
+    "link_poses",
+    "motion_between",
+    "robots_of",
+    "stood_on_ground",
+]
+
+_CLEARANCE_M = 1e-3
 
 
 class Motion(NamedTuple):
@@ -29,6 +42,27 @@ class Motion(NamedTuple):
     ahead_m: float
     aside_m: float
     yaw_rad: float
+
+
+def robots_of(world: World) -> tuple[Model, ...]:
+    """Return the models that can move and have joints or plug-ins; without any, all that move."""
+    moving = tuple(model for model in world.models if not model.static and model.links)
+    robots = tuple(model for model in moving if model.plugins or _has_moving_joint(model))
+    return robots or moving
+
+
+def stood_on_ground(model: Model) -> Model:
+    """Return a model that nobody has placed, lifted until no collision reaches below z = 0."""
+    if any(joint.parent == "world" for joint in model.joints):
+        return model
+    pose = model.T_world_model
+    points = [pose.transform(item.points_m) for item in Outlines(model).collisions]
+    lowest = min((float(item[:, 2].min()) for item in points), default=0.0)
+    if lowest >= 0.0:
+        return model
+    x, y, z = pose.position_m
+    lifted = Pose((x, y, z - lowest + _CLEARANCE_M), pose.quat_xyzw)
+    return replace(model, T_world_model=lifted)
 
 
 def motion_between(before: Pose, after: Pose) -> Motion:
@@ -77,3 +111,7 @@ def contacts_of(simulation: Simulation, robot: Model, *, with_itself: bool) -> d
             text = f"'{own[0]}' and '{own[1] if with_itself else pair[1]}'"
             found[text] = max(found.get(text, 0.0), float(contact.depths_m.max()))
     return found
+
+
+def _has_moving_joint(model: Model) -> bool:
+    return any(joint.type is not JointType.FIXED for joint in model.joints)

@@ -1,4 +1,4 @@
-"""What is done with every plug-in, and which tags have no effect."""
+"""What is reported of a world that has come up: plug-ins, idle tags, controllers, probes."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from pathlib import PurePath
 
 from gazelle.description.model import Model, PluginTag, World
 from gazelle.diagnostics import Diagnostic, SourceSpan
-from gazelle.doctor.report import Section
+from gazelle.doctor.dry_start import DryStart, StartPlan
+from gazelle.doctor.report import Examination, Section
 from gazelle.simulator.plugins.registry import all_tables, looked_up, plain_name
 from gazelle.simulator.plugins.table import PluginTable
 
-__all__ = ["plugins_section", "tags_section"]
+__all__ = ["plugins_section", "probe", "simulation_sections", "tags_section"]
 
 # Codes that say of an element that it has no, or not its full, effect.
 _TAG_CODES = frozenset(
@@ -78,6 +79,40 @@ def tags_section(findings: Iterable[Diagnostic], *, subject: str = "") -> Sectio
     return Section("tags", "tags without effect", ("place", "what", "code"), rows, subject)
 
 
+def simulation_sections(
+    start: DryStart, findings: Iterable[Diagnostic], *, subject: str
+) -> tuple[Section, ...]:
+    """Return the tables of plug-ins, tags without effect and controllers.
+
+    Args:
+        start: the world.
+        findings: of bringing it up.
+        subject: what the tables are about.
+    """
+    found = tuple(findings)
+    return (
+        plugins_section(start.world, found, subject=subject),
+        tags_section(found, subject=subject),
+        _controllers(start, subject),
+    )
+
+
+def probe(start: DryStart, plan: StartPlan, examination: Examination) -> None:
+    """Run the probes over a world with its parameters; nothing unless the options say so."""
+    if not examination.options.probe:
+        return
+    from gazelle.doctor.probes import run_probes
+
+    sections = run_probes(
+        start.world,
+        workspace=examination.workspace,
+        parameters=plan.parameters,
+        diagnostics=examination.diagnostics,
+        progress=examination.say,
+    )
+    examination.add(*sections)
+
+
 def _plugins(world: World) -> Iterator[tuple[str, PluginTag]]:
     for plugin in world.plugins:
         yield f"world {world.name}", plugin
@@ -113,3 +148,13 @@ def _place(span: SourceSpan | None) -> str:
     if span is None:
         return ""
     return f"{PurePath(span.file).name}:{span.line}" if span.line else PurePath(span.file).name
+
+
+def _controllers(start: DryStart, subject: str) -> Section:
+    rows = tuple(
+        (manager.namespace, name, kind, state or "not started", ", ".join(joints))
+        for manager in start.managers
+        for name, kind, state, joints in manager.rows
+    )
+    columns = ("namespace", "controller", "type", "state", "joints")
+    return Section("controllers", "controllers", columns, rows, subject)
