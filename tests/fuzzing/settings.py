@@ -34,11 +34,15 @@ from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.filters.laser_filters import chain_of
 from gazelle.nodes.joy.parameters import read_options
 from gazelle.nodes.nav2.behavior_trees.xml_parsing import read_trees
-from gazelle.nodes.nav2.collision_monitor.parameters import COLLISION_MONITOR
-from gazelle.nodes.nav2.collision_monitor.reading import read_sources, read_zones, report_others
+from gazelle.nodes.nav2.collision_monitor.parameters import (
+    COLLISION_MONITOR,
+    read_sources,
+    read_zones,
+    report_others,
+)
 from gazelle.nodes.nav2.parameters import controller_table, planner_table
 from gazelle.nodes.navigation.costmap_parameters import assemble
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.robot_localization.ekf_node import config_of, matrix_of
 from gazelle.nodes.robot_localization.parameters import ekf_table
 from gazelle.nodes.ros_gz.bridge_config import read_file

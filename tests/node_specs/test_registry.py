@@ -6,8 +6,8 @@ import pytest
 
 from gazelle.cli import commands
 from gazelle.interfaces import action_type, message_type, service_type
-from gazelle.node_specs.commands import COMMANDS
 from gazelle.node_specs.registry import (
+    COMMANDS,
     builtin_executables,
     command_of,
     names_of_other_ros,

@@ -8,8 +8,10 @@ import pytest
 
 from gazelle.errors import NotFoundError
 from gazelle.node_specs.registry import builtin_executables, builtin_packages, node_spec
-from gazelle.node_specs.unavailable_package_rows import PACKAGES, PROGRAMS, Sends
 from gazelle.node_specs.unavailable_packages import (
+    PACKAGES,
+    PROGRAMS,
+    Sends,
     missing_node,
     missing_package,
     packages_elsewhere,

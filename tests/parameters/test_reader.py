@@ -8,7 +8,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.navigation.costmap import CostmapOptions, SourceOptions
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.dataclass_tables import table_of
 from gazelle.parameters.reader import ParameterReader

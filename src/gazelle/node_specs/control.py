@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.shared import TF_LISTENED
+from gazelle.node_specs.shared_rows import TF_LISTENED
 from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeRole, NodeSpec, listens, offers
 
 __all__ = ["CONTROL"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.shared import LIFECYCLE_SERVICES, LIFECYCLE_TOPICS, TF_LISTENED
+from gazelle.node_specs.shared_rows import LIFECYCLE_SERVICES, LIFECYCLE_TOPICS, TF_LISTENED
 from gazelle.node_specs.spec import (
     ROS_1,
     ROS_2,

@@ -1,31 +1,53 @@
-"""Which built-in node answers to which name."""
+"""Which built-in node answers to a name: nodes, components, commands, those of pip packages."""
 
 from __future__ import annotations
 
+import re
 from functools import cache
 
-from gazelle.node_specs.commands import COMMANDS
 from gazelle.node_specs.control import CONTROL
 from gazelle.node_specs.driving import DRIVING
 from gazelle.node_specs.guis import WINDOWS
-from gazelle.node_specs.installed import installed_names, installed_spec
 from gazelle.node_specs.localization import LOCALISATION
 from gazelle.node_specs.navigation import NAVIGATION
 from gazelle.node_specs.simulation import SIMULATION
 from gazelle.node_specs.slam import SLAM
-from gazelle.node_specs.spec import NodeSpec
+from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeSpec
 from gazelle.node_specs.topics import TOPICS
 from gazelle.node_specs.transforms import TRANSFORMS
 from gazelle.node_specs.turtlesim import TURTLES
 
 __all__ = [
+    "COMMANDS",
     "builtin_executables",
     "builtin_packages",
     "command_of",
+    "executable_of_component",
+    "installed_names",
+    "installed_spec",
     "names_of_other_ros",
     "node_spec",
     "node_specs",
 ]
+
+
+# The words behind ``gazelle`` by name.
+COMMANDS: dict[NodeName, str] = {
+    **{
+        NodeName(name, name, ROS_1): name
+        for name in ("rosmsg", "rosnode", "rosparam", "rosservice", "rostopic")
+    },
+    NodeName("dynamic_reconfigure", "dynparam", ROS_1): "dynparam",
+    NodeName("tf", "tf_echo", ROS_1): "tf_echo",
+    NodeName("tf2_ros", "tf2_echo", ROS_2): "tf_echo --tf2",
+    NodeName("tf", "tf_monitor", ROS_1): "tf_monitor",
+    NodeName("tf2_ros", "tf2_monitor", ROS_2): "tf_monitor",
+    NodeName("tf", "view_frames", ROS_1): "view_frames",
+    NodeName("tf2_tools", "view_frames", ROS_2): "view_frames --tf2",
+    NodeName("tf2_tools", "view_frames.py"): "view_frames --tf2",
+    NodeName("xacro", "xacro"): "xacro",
+    NodeName("xacro", "xacro.py", ROS_1): "xacro",
+}
 
 _SPECS = (
     *SIMULATION,
@@ -39,6 +61,35 @@ _SPECS = (
     *DRIVING,
     *WINDOWS,
 )
+_WORD = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
+_SUFFIXES = ("_node", "_component", "_nodelet")
+
+# Components whose names say something else than the node that does their work.
+_OTHERS = {
+    "ros_gz_bridge::RosGzBridge": "bridge_node",
+    "ros_gz_sim::GzServer": "gzserver",
+    "tf2_ros::StaticTransformBroadcasterNode": "static_transform_publisher",
+}
+
+
+def installed_names() -> tuple[tuple[str, str], ...]:
+    """Return packages of ROS and executables that installed packages add; imports none."""
+    from gazelle.extensions import ExtensionGroup, entry_points_of
+
+    names = (point.name.partition("/") for point in entry_points_of(ExtensionGroup.NODES))
+    return tuple((package, executable) for package, _, executable in names)
+
+
+def installed_spec(package: str, executable: str) -> NodeSpec | None:
+    """Return the row of an installed package's node, None when there is none of this name.
+
+    Raises:
+        ExtensionError: the row cannot be imported, or is something else.
+    """
+    from gazelle.extensions import ExtensionGroup, find_entry_point, load_extension
+
+    point = find_entry_point(ExtensionGroup.NODES, f"{package}/{executable}")
+    return None if point is None else load_extension(point, NodeSpec)
 
 
 def node_specs() -> tuple[NodeSpec, ...]:
@@ -82,6 +133,19 @@ def names_of_other_ros(ros_version: int) -> frozenset[tuple[str, str]]:
     others = [name for name in names if ros_version not in name.ros]
     packages = {(name.package, "") for name in others if name.package not in own}
     return frozenset(packages | {(name.package, name.executable) for name in others})
+
+
+def executable_of_component(package: str, plugin: str) -> str:
+    """Return the executable that does the work of a component, empty when there is none.
+
+    Args:
+        package: of the component.
+        plugin: its type, such as ``robot_state_publisher::RobotStatePublisher``.
+    """
+    name = _OTHERS.get(plugin) or _WORD.sub("_", plugin.rpartition("::")[2]).lower()
+    bare = next((name.removesuffix(end) for end in _SUFFIXES if name.endswith(end)), name)
+    executables = builtin_executables(package)
+    return next((one for one in (name, bare, f"{bare}_node") if one in executables), "")
 
 
 @cache

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.shared import TF_LISTENED
+from gazelle.node_specs.shared_rows import TF_LISTENED
 from gazelle.node_specs.spec import (
     ROS_1,
     ROS_2,
@@ -139,7 +139,7 @@ SLAM = (
         entry="gazelle.nodes.frontier_exploration.server:run",
         does="explores what lies inside of a polygon, by move_base",
         is_light=False,
-        parameters="gazelle.nodes.frontier_exploration.tables:EXPLORE_SERVER",
+        parameters="gazelle.nodes.frontier_exploration.bounded_explore_layer:EXPLORE_SERVER",
         topics=(
             publishes("~explore_costmap/costmap", "nav_msgs/msg/OccupancyGrid"),
             publishes("~explore_costmap/costmap_updates", "map_msgs/msg/OccupancyGridUpdate"),

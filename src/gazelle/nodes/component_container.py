@@ -21,8 +21,7 @@ from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.ros2_parameter_values import value_from_message
 from gazelle.interfaces import service_type
-from gazelle.node_specs.components import executable_of_component
-from gazelle.node_specs.registry import builtin_executables, node_spec
+from gazelle.node_specs.registry import builtin_executables, executable_of_component, node_spec
 from gazelle.node_specs.spec import NodeSpec
 from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.parameters import start_node

@@ -18,8 +18,7 @@ from gazelle.interfaces.poses import set_pose, unit_pose_of
 from gazelle.interfaces.stamps import ns_of
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["PARAMETERS", "run"]

@@ -7,7 +7,7 @@ import threading
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.ros2_console import print_ros2
+from gazelle.nodes.log_output import print_ros2
 from gazelle.simulator.server_parameters import PARAMETERS
 
 __all__ = ["PARAMETERS", "run"]

@@ -19,8 +19,7 @@ from gazelle.description.model import Joint, JointType, Model
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.parameters import private_parameters, start_node, ticks
 from gazelle.nodes.robot_description import published_robot_of, robot_of
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.coercion import number_of

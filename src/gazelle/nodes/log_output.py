@@ -1,19 +1,23 @@
-"""Where a launched node's log goes: all of it to its file, the terminal as the launch says."""
+"""Where a node's log goes: its file, and the terminal in the layout of its ROS."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gazelle.graph import Level
-from gazelle.graph.console import LogRecord, format_record, print_record
+from gazelle.graph import Level, LogRecord
+from gazelle.graph.console import format_record, print_record
 from gazelle.log_files import LogStream
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
 
-__all__ = ["LogFile", "keep_log"]
+__all__ = ["LogFile", "keep_log", "print_ros2"]
+
+
+_COLOURS = {Level.DEBUG: "32", Level.WARN: "33", Level.ERROR: "31", Level.FATAL: "31"}
 
 
 class LogFile:
@@ -46,6 +50,17 @@ class LogFile:
     def close(self) -> None:
         """Write nothing more to the file."""
         self._stream.close()
+
+
+def print_ros2(record: LogRecord, *, padded: bool = True) -> None:
+    """Write ``[INFO] [stamp] [logger]: text`` on standard error, coloured on a terminal."""
+    seconds, nanoseconds = divmod(record.wall_ns, 1_000_000_000)
+    logger = record.logger or record.node.strip("/").replace("/", ".")
+    line = f"[{record.level.name}] [{seconds}.{nanoseconds:09d}] [{logger}]: {record.text}"
+    if sys.stderr.isatty() and record.level in _COLOURS:
+        line = f"\033[{_COLOURS[record.level]}m{line}\033[0m"
+    sys.stderr.write(f"{line}\n")
+    sys.stderr.flush()
 
 
 def keep_log(node: Node, path: str, output: str = "screen") -> None:

@@ -1,27 +1,70 @@
-"""Starting a built-in node and reading its private parameters."""
+"""Starting a built-in node; reading its parameters by a table, saying what is wrong with them."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
-from gazelle.graph import Graph, Node, TimeJumpError, offer_loggers
-from gazelle.graph.console import level_of
+from gazelle.diagnostics import Diagnostic, Diagnostics, brief
+from gazelle.errors import LaunchError
+from gazelle.graph import Graph, Level, Node, TimeJumpError, offer_loggers
+from gazelle.graph.console import aside_path, level_of, write_aside
 from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters, ParameterPolicy
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.log_output import keep_log
-from gazelle.nodes.ros2_console import print_ros2
+from gazelle.nodes.log_output import keep_log, print_ros2
+from gazelle.parameters import ParameterTable
+from gazelle.parameters.owner import ParameterOwner
+from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.sources import TreeSource
 from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = [
+    "log_findings",
+    "namespace_parameters",
     "node_parameters",
+    "node_reader",
+    "number_or_end",
     "parameter_tree",
+    "private_parameters",
     "start_node",
     "ticks",
 ]
 
+
+_LEVELS = {10: "info", 20: "warn", 30: "error"}
 _SIM_TIME = "use_sim_time"
+
+# Nav2's launch files give autostart to all nodes of a container; lifecycle_manager reads it.
+_EVERYWHERE = frozenset(
+    {"use_sim_time", "bond_disable_heartbeat_timeout", "qos_overrides", "autostart"}
+)
+
+
+def log_findings(
+    node: Node, diagnostics: Diagnostics, text_of: Callable[[Diagnostic], str] = str
+) -> bool:
+    """Say what was found; parameters without effect are summed, and listed in the log file.
+
+    So is what works and asks for nothing, which the terminal is spared.
+    A node that logs at level debug says all of it.
+
+    Args:
+        node: logs it.
+        diagnostics: what was found.
+        text_of: a finding in words.
+
+    Returns:
+        whether there was no error.
+    """
+    shown, kept = brief(diagnostics, str(aside_path(node)))
+    if kept and (node.log_level <= Level.DEBUG or not write_aside(node, map(text_of, kept))):
+        shown = tuple(diagnostics)
+    for item in shown:
+        node.log(_LEVELS[int(item.severity)], text_of(item), depth=2)
+    return not diagnostics.errors
 
 
 def start_node(arguments: NodeArguments, graph: Graph, *, offers_parameters: bool = True) -> Node:
@@ -89,24 +132,6 @@ def node_parameters(
     )
 
 
-def _offer_given(node: Node, given: Mapping[str, Any]) -> None:
-    def refused(changes: dict[str, Any]) -> str:
-        for name in changes:
-            if name != _SIM_TIME:
-                return (
-                    f"parameter '{name}' is read when {node.name} starts; start it with "
-                    f"-p {name}:=… or a file of parameters"
-                )
-        if _SIM_TIME in changes:
-            node.clock.use(bool(changes[_SIM_TIME]))
-        return ""
-
-    values = {
-        name: value for name, value in values_only(flattened(nested(given))) if value is not None
-    }
-    node_parameters(node, {_SIM_TIME: False, **values}, refused)
-
-
 def parameter_tree(node: Node, arguments: NodeArguments) -> dict[str, Any]:
     """Return all parameters of a node, nested: the command line's over those of the store.
 
@@ -141,3 +166,110 @@ def ticks(node: Node, period_ns: int, stop: threading.Event) -> Iterator[int]:
         now_ns = node.clock.now_ns()
         yield now_ns
         next_ns = max(next_ns, now_ns - period_ns) + period_ns
+
+
+def node_reader(
+    table: ParameterTable,
+    tree: Mapping[str, Any],
+    name: str,
+    diagnostics: Diagnostics,
+    *,
+    ros_version: int = 0,
+) -> ParameterReader:
+    """Return typed access to parameters; what is wrong is reported where it is read.
+
+    Args:
+        table: what there is.
+        tree: the values that were given.
+        name: what messages call the owner, such as ``/move_base/local_costmap``.
+        diagnostics: receives what is wrong.
+        ros_version: of ROS, whose defaults count; 0 where the table is of one generation.
+    """
+    owner = ParameterOwner(name, managed=_EVERYWHERE)
+    return ParameterReader(table, TreeSource(tree), owner, diagnostics, ros_version=ros_version)
+
+
+@contextmanager
+def private_parameters(
+    node: Node, arguments: NodeArguments, table: ParameterTable
+) -> Iterator[ParameterReader]:
+    """Give typed access to what lies below ``~``; at the end the node logs what is wrong.
+
+    That is what could not be read, what the table lacks and what has no effect.
+
+    Args:
+        node: the owner.
+        arguments: of the command line; their values count more than those of the store.
+        table: what there is.
+    """
+    found = Diagnostics()
+    tree = parameter_tree(node, arguments)
+    reader = node_reader(table, tree, node.name, found, ros_version=arguments.ros_version)
+    try:
+        yield reader
+    finally:
+        # Also where the node ends: a name that is misspelt is often why.
+        reader.report_unknown()
+        log_findings(node, found)
+
+
+@contextmanager
+def namespace_parameters(
+    node: Node, arguments: NodeArguments, table: ParameterTable
+) -> Iterator[ParameterReader]:
+    """Give typed access to parameters beside a node, in its namespace, as some of ROS 1 read them.
+
+    At the end the node logs what could not be read, and that what lies below ``~`` has no effect.
+
+    Args:
+        node: the owner.
+        arguments: of the command line; their values lie below ``~``.
+        table: what there is.
+    """
+    found = Diagnostics()
+    store, ros_version = node.parameters, arguments.ros_version
+    beside = {row.key: store.get(row.key) for row in table.rows if store.has(row.key)}
+    source = TreeSource(beside, full_name=node.resolve_name)
+    owner = ParameterOwner(node.name, managed=_EVERYWHERE)
+    try:
+        yield ParameterReader(table, source, owner, found, ros_version=ros_version)
+        places = {row.key: node.resolve_name(row.key) for row in table.rows if ros_version == 1}
+        misplaced = {key: f"the node reads {place}" for key, place in places.items()}
+        below = TreeSource(parameter_tree(node, arguments))
+        owner = replace(owner, refused=misplaced)
+        ParameterReader(table, below, owner, found, ros_version=ros_version).report_unknown()
+    finally:
+        log_findings(node, found)
+
+
+def number_or_end(own: ParameterReader, key: str, default: float | None = None) -> float:
+    """Return a number of a node that ends where it is none; `default` in place of the table's.
+
+    Raises:
+        LaunchError: it is none, nor is a text that could be read as one.
+    """
+    value = own.raw(key)
+    if not own.has(key) or (isinstance(value, int | float) and not isinstance(value, bool)):
+        return own.number(key, default)
+    name = own.full_name(key)
+    raise LaunchError(
+        f"parameter '{f'{own.name}/{key}' if name == key else name}' is {value!r}, not a number"
+    )
+
+
+def _offer_given(node: Node, given: Mapping[str, Any]) -> None:
+    def refused(changes: dict[str, Any]) -> str:
+        for name in changes:
+            if name != _SIM_TIME:
+                return (
+                    f"parameter '{name}' is read when {node.name} starts; start it with "
+                    f"-p {name}:=… or a file of parameters"
+                )
+        if _SIM_TIME in changes:
+            node.clock.use(bool(changes[_SIM_TIME]))
+        return ""
+
+    values = {
+        name: value for name, value in values_only(flattened(nested(given))) if value is not None
+    }
+    node_parameters(node, {_SIM_TIME: False, **values}, refused)

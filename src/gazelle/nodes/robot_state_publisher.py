@@ -16,8 +16,7 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_transform
 from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import private_parameters, start_node
 from gazelle.nodes.robot_description import (
     DESCRIPTION,
     TreeJoint,

@@ -16,8 +16,7 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_transform
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.parameters import private_parameters, start_node, ticks
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.trees import nested

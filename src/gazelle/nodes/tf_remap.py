@@ -11,8 +11,7 @@ from typing import Any
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["PARAMETERS", "run"]

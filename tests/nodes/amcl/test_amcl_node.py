@@ -14,10 +14,10 @@ from gazelle.graph.tf import StampedPose, StaticTransformBroadcaster, TransformB
 from gazelle.interfaces import message_type
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.localization import AmclOptions
+from gazelle.nodes.amcl.node import scan_of_message
 from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
-from gazelle.nodes.amcl.scans import scan_of_message
 from gazelle.nodes.map_server.occupancy_grid import message_of_grid
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 
 _TRUE = (1.2, 2.0, 0.4)
 _ELSEWHERE = (2.6, 0.9, -1.2)

@@ -13,7 +13,7 @@ from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
 from gazelle.nodes.filters.to_laserscan import depth_of_image
 from gazelle.nodes.robot_localization.ekf_node import config_of, matrix_of
-from gazelle.nodes.robot_localization.measurements import differential, measure_imu, measure_pose
+from gazelle.nodes.robot_localization.fusion import differential, measure_imu, measure_pose
 
 _SCAN = "sensor_msgs/msg/LaserScan"
 

@@ -12,7 +12,7 @@ from gazelle.errors import LaunchError
 from gazelle.navigation.filters import FILTERS, REFUSED_FILTERS, FilterSetup
 from gazelle.navigation.filters.laser_filter_parameters import RangeOptions
 from gazelle.nodes.filters.laser_filters import FILTER_TABLES, PARAMETERS, chain_of
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 
 
 def _chain(tree: dict[str, Any], found: Diagnostics) -> list[FilterSetup]:

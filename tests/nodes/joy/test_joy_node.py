@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.joy.device import devices
-from gazelle.nodes.joy.events import JoyState, read_event
+from gazelle.nodes.joy.device import JoyState, devices, read_event
 from gazelle.nodes.joy.parameters import read_options
 
 _BUTTON, _AXIS, _INIT = 1, 2, 0x80

@@ -13,7 +13,7 @@ from tests.patience import stretched
 from gazelle.description.moveit import ExecutionSettings
 from gazelle.graph.actions import ServerGoal
 from gazelle.motion.planning.error_codes import ErrorCode
-from gazelle.nodes.move_group.current_state_monitor import StateMonitor
+from gazelle.nodes.move_group.planning_scene_monitor import StateMonitor
 from gazelle.nodes.move_group.simple_controller_manager import ControllerKind, ControllerSpec
 from gazelle.nodes.move_group.trajectory_execution_manager import (
     ExecutionStatus,

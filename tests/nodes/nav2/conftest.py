@@ -9,9 +9,8 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.interfaces import message_type
-from gazelle.nodes.nav2.behavior_trees.blackboard import Blackboard
 from gazelle.nodes.nav2.behavior_trees.ros_interface import Pose2
-from gazelle.nodes.nav2.behavior_trees.tree_node import TreeNode
+from gazelle.nodes.nav2.behavior_trees.tree_node import Blackboard, TreeNode
 from gazelle.nodes.nav2.behavior_trees.xml_parsing import build_tree, parse_trees
 
 

@@ -11,10 +11,14 @@ import yaml
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.nav2 import parameters as tables
-from gazelle.nodes.nav2.collision_monitor.parameters import COLLISION_MONITOR
-from gazelle.nodes.nav2.collision_monitor.reading import read_sources, read_zones, report_others
+from gazelle.nodes.nav2.collision_monitor.parameters import (
+    COLLISION_MONITOR,
+    read_sources,
+    read_zones,
+    report_others,
+)
 from gazelle.nodes.navigation.costmap_parameters import assemble
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.trees import nested

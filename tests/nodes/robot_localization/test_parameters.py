@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.robot_localization.parameters import (
     POSE_EKF,
     ekf_inputs,

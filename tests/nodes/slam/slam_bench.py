@@ -13,7 +13,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces import message_type
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.slam.mapper import Mapper
 from gazelle.nodes.slam.options import SlamOptions, options_of
 from gazelle.nodes.slam.ros_packages import FLAVOURS

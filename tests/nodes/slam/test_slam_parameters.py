@@ -14,7 +14,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.slam import SlamParameters, save_graph
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.slam.cartographer.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.options import SlamOptions
 from gazelle.nodes.slam.page import page

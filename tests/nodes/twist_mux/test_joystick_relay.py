@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
 from gazelle.graph.actions import ActionClient
 from gazelle.interfaces import message_type
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.twist_mux.joystick_relay import PARAMETERS, Steps
 
 _TWIST: Any = message_type("geometry_msgs/msg/Twist")

@@ -14,7 +14,7 @@ from gazelle.graph import Node
 from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics import Solver, link_poses
 from gazelle.motion.model import JointGroup, RobotModel
-from gazelle.nodes.move_group.current_state_monitor import StateMonitor
+from gazelle.nodes.move_group.planning_scene_monitor import StateMonitor
 from gazelle.workspace import Workspace
 
 __all__ = ["RobotView"]

@@ -15,8 +15,7 @@ from gazelle.graph.names import resolve
 from gazelle.node_specs.patterns import ValueOf, expanded, holds
 from gazelle.node_specs.registry import node_specs
 from gazelle.node_specs.spec import Direction, Interface, NodeSpec
-from gazelle.node_specs.unavailable_package_rows import Sends
-from gazelle.node_specs.unavailable_packages import what_it_sends
+from gazelle.node_specs.unavailable_packages import Sends, what_it_sends
 
 __all__ = [
     "BuiltinTopics",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import threading
 import zlib
 from typing import Any
@@ -12,29 +13,29 @@ from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.errors import GraphError
+from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
-from gazelle.graph.tf import TransformError
-from gazelle.interfaces import service_type
-from gazelle.interfaces.poses import unit_pose_of
-from gazelle.interfaces.stamps import ns_of
+from gazelle.graph.gazebo_names import world_names
+from gazelle.graph.tf import StampedPose, TransformBroadcaster, TransformError
+from gazelle.interfaces import message_type, service_type
+from gazelle.interfaces.poses import set_plane_pose, unit_pose_of
+from gazelle.interfaces.stamps import ns_of, set_header
+from gazelle.mapping.laser_scan import Scan
 from gazelle.mapping.se2 import between, compose, inverse
 from gazelle.navigation.localization import MOTION_MODELS, Amcl, AmclOptions, Estimate
-from gazelle.nodes.amcl.outputs import Outputs
 from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
-from gazelle.nodes.amcl.scans import scan_of_message
-from gazelle.nodes.amcl.spawned import SpawnHint
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.occupancy_grid import grid_of_message
 from gazelle.nodes.navigation.live_parameters import offer
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
-from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import parameter_tree, start_node
+from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node
 from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["AmclNode", "run", "run_ros2"]
+__all__ = ["AmclNode", "Outputs", "SpawnHint", "run", "run_ros2", "scan_of_message"]
 
+
+_FAR_M, _FAR_RAD = 0.3, math.radians(20)
 _NANO = 1_000_000_000
 _TF_PATIENCE_S = 0.2
 _POLL_S = 0.2
@@ -44,39 +45,110 @@ _JUMP_M_S = 5.0
 _SENSOR_MODELS = ("beam", "likelihood_field", "likelihood_field_prob")
 
 
-def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
-    """ROS 1: localise until told to stop."""
-    node = start_node(arguments, graph)
-    amcl = AmclNode(node, parameter_tree(node, arguments), ros_version=1)
-    amcl.start()
-    arguments.ready()
-    while not stop.wait(_MAP_RETRY_S):
-        amcl.ask_for_map()
-    amcl.close()
-    node.shutdown()
-    return 0
+class Outputs:
+    """``amcl_pose``, ``particlecloud`` or ``particle_cloud``, and the transform."""
+
+    def __init__(self, node: Node, frame_id: str, odom_frame: str, ros_version: int) -> None:
+        """Offer the topics."""
+        self._frame_id, self._odom_frame, self._ros_version = frame_id, odom_frame, ros_version
+        pose = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")
+        self._poses = node.create_publisher("amcl_pose", pose, latch=True, queue_size=2)
+        kind = "nav2_msgs/msg/ParticleCloud" if ros_version == 2 else "geometry_msgs/msg/PoseArray"
+        topic = "particle_cloud" if ros_version == 2 else "particlecloud"
+        self._cloud = node.create_publisher(topic, message_type(kind), latch=True, queue_size=2)
+        self._tf = TransformBroadcaster(node)
+
+    def pose(self, estimate: Estimate, stamp_ns: int) -> None:
+        """Publish where the robot is."""
+        message: Any = message_type("geometry_msgs/msg/PoseWithCovarianceStamped")()
+        set_header(message, stamp_ns, self._frame_id)
+        set_plane_pose(message.pose.pose, estimate.pose)
+        covariance = np.zeros((6, 6))
+        covariance[:2, :2] = estimate.covariance[:2, :2]
+        covariance[5, 5] = estimate.covariance[2, 2]
+        message.pose.covariance = covariance.ravel().tolist()
+        self._poses.publish(message)
+
+    def cloud(
+        self, particles: NDArray[np.float64], weights: NDArray[np.float64], now_ns: int
+    ) -> None:
+        """Publish the particles while somebody listens."""
+        if not self._cloud.matched:
+            return
+        poses = []
+        kind = message_type("geometry_msgs/msg/Pose")
+        for particle_pose in particles.tolist():
+            pose: Any = kind()
+            set_plane_pose(pose, particle_pose)
+            poses.append(pose)
+        message: Any
+        if self._ros_version == 2:
+            particle = message_type("nav2_msgs/msg/Particle")
+            message = message_type("nav2_msgs/msg/ParticleCloud")()
+            message.particles = [
+                particle(pose=pose, weight=float(weight))
+                for pose, weight in zip(poses, weights, strict=True)
+            ]
+        else:
+            message = message_type("geometry_msgs/msg/PoseArray")()
+            message.poses = poses
+        set_header(message, now_ns, self._frame_id)
+        self._cloud.publish(message)
+
+    def transform(self, T_map_odom: PlanePose, stamp_ns: int) -> None:
+        """Publish the transform from map to odometry."""
+        x, y, yaw = T_map_odom
+        pose = Pose.from_xyz_rpy((x, y, 0.0), (0.0, 0.0, yaw))
+        self._tf.send(StampedPose(self._frame_id, self._odom_frame, stamp_ns, pose))
 
 
-def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
-    """ROS 2: be a managed node that localises while it is active."""
-    node = start_node(arguments, graph)
-    amcl = AmclNode(node, parameter_tree(node, arguments), ros_version=2)
+class SpawnHint:
+    """Tells once where a simulated robot stands when that is not where amcl begins."""
 
-    def activate() -> bool:
-        amcl.start()
-        return True
+    def __init__(self, node: Node, begins: PlanePose, *, is_ros2: bool) -> None:
+        """Listen to the simulator, if there is one."""
+        self._node, self._begins = node, begins
+        shown, hidden = world_names("/gazebo/model_states")
+        self._subscriptions: list[Any] = []
+        # Who listens to a name shows it, too.
+        self._subscriptions = [
+            node.create_subscription(
+                topic, "gazebo_msgs/msg/ModelStates", self._on_states, queue_size=1
+            )
+            for topic in ((hidden,) if is_ros2 else (shown, hidden))
+        ]
 
-    def deactivate() -> bool:
-        amcl.stop()
-        return True
+    def close(self) -> None:
+        """Listen no more."""
+        subscriptions, self._subscriptions = self._subscriptions, []
+        for subscription in subscriptions:
+            subscription.unregister()
 
-    lifecycle = Lifecycle(node, {"activate": activate, "deactivate": deactivate})
-    arguments.ready()
-    while not stop.wait(_POLL_S) and not lifecycle.finalized:
-        pass
-    amcl.close()
-    node.shutdown()
-    return 0
+    def _on_states(self, message: Any) -> None:
+        index = self._robot(list(message.name))
+        if not self._subscriptions or index is None:
+            return
+        self.close()
+        x, y, yaw = unit_pose_of(message.pose[index]).xy_yaw
+        bx, by, byaw = self._begins
+        turn = abs(math.remainder(yaw - byaw, math.tau))
+        if math.hypot(x - bx, y - by) < _FAR_M and turn < _FAR_RAD:
+            return
+        self._node.log(
+            "warn",
+            f"nobody gave an initial pose, so amcl begins at ({bx:.2f}, {by:.2f}, {byaw:.2f}); the "
+            f"simulator has '{message.name[index]}' at ({x:.2f}, {y:.2f}, {yaw:.2f}). If the map's "
+            "frame is the world's: set the parameters initial_pose_x, initial_pose_y and "
+            "initial_pose_a to that, or give it with RViz's 2D Pose Estimate",
+        )
+
+    def _robot(self, names: list[str]) -> int | None:
+        """Return which model is the robot: the one the description names, if there is one."""
+        text = str(self._node.parameters.get("/robot_description", "") or "")
+        found = re.search(r"<robot\b[^>]*\bname\s*=\s*[\"']([^\"']+)", text)
+        if found and found[1] in names:
+            return names.index(found[1])
+        return None
 
 
 class AmclNode:
@@ -378,6 +450,58 @@ class AmclNode:
         for name, value in zip("xya", pose, strict=True):
             full = self._node.resolve_name(f"~initial_pose_{name}")
             self._node.parameters.set(full, float(value))
+
+
+def scan_of_message(message: Any, T_base_laser: Pose) -> Scan:
+    """Return a scan whose lidar stands, or hangs, at a place on the robot."""
+    _x, _y, z_axis = T_base_laser.transform(np.array([[0.0, 0.0, 1.0]]))[0] - np.array(
+        T_base_laser.position_m
+    )
+    return Scan(
+        ns_of(message.header.stamp),
+        float(message.angle_min),
+        float(message.angle_increment),
+        np.asarray(message.ranges, np.float32),
+        float(message.range_min),
+        float(message.range_max),
+        T_base_laser.xy_yaw,
+        upside_down=bool(z_axis < 0),
+    )
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """ROS 1: localise until told to stop."""
+    node = start_node(arguments, graph)
+    amcl = AmclNode(node, parameter_tree(node, arguments), ros_version=1)
+    amcl.start()
+    arguments.ready()
+    while not stop.wait(_MAP_RETRY_S):
+        amcl.ask_for_map()
+    amcl.close()
+    node.shutdown()
+    return 0
+
+
+def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """ROS 2: be a managed node that localises while it is active."""
+    node = start_node(arguments, graph)
+    amcl = AmclNode(node, parameter_tree(node, arguments), ros_version=2)
+
+    def activate() -> bool:
+        amcl.start()
+        return True
+
+    def deactivate() -> bool:
+        amcl.stop()
+        return True
+
+    lifecycle = Lifecycle(node, {"activate": activate, "deactivate": deactivate})
+    arguments.ready()
+    while not stop.wait(_POLL_S) and not lifecycle.finalized:
+        pass
+    amcl.close()
+    node.shutdown()
+    return 0
 
 
 def _triple(pose: Any) -> PlanePose:

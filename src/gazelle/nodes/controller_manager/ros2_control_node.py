@@ -26,8 +26,7 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import number_or_end, private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import number_or_end, private_parameters, start_node
 from gazelle.nodes.robot_description import DESCRIPTION, read_description
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.simulator.commands import CommandQueue, telling

@@ -24,8 +24,7 @@ from gazelle.navigation.filters import (
 )
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.coercion import flag_of, number_of
 from gazelle.parameters.dataclass_tables import table_of

@@ -17,8 +17,7 @@ from gazelle.navigation.filters import CloudSlice, FlatScan, scan_of_depth, scan
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.observations import cloud_points
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["CLOUD_PARAMETERS", "DEPTH_PARAMETERS", "depth_of_image", "run_clouds", "run_depth"]

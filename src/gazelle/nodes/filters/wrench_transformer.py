@@ -19,10 +19,9 @@ from gazelle.graph.tf import TransformError
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_xyz, xyz_of
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters, start
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import log_findings, node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["PARAMETERS", "run"]

@@ -16,14 +16,15 @@ from gazelle.interfaces.poses import set_plane_pose
 from gazelle.interfaces.stamps import set_header
 from gazelle.mapping.frontiers import Frontier
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
-from gazelle.nodes.frontier_exploration.bounded_explore_layer import Area, Corners
-from gazelle.nodes.frontier_exploration.services import Services
-from gazelle.nodes.frontier_exploration.tables import EXPLORE_SERVER
+from gazelle.nodes.frontier_exploration.bounded_explore_layer import (
+    EXPLORE_SERVER,
+    Area,
+    Corners,
+    Services,
+)
 from gazelle.nodes.navigation.robot_pose import PlanePose
 from gazelle.nodes.navigation.simple_action_server import SingleGoal
-from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import parameter_tree, start_node
+from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node
 from gazelle.parameters.reader import ParameterReader
 
 if TYPE_CHECKING:

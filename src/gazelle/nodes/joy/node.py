@@ -18,11 +18,16 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
-from gazelle.nodes.joy.device import devices, name_of, open_device
-from gazelle.nodes.joy.events import EVENT_BYTES, JoyState, read_event
+from gazelle.nodes.joy.device import (
+    EVENT_BYTES,
+    JoyState,
+    devices,
+    name_of,
+    open_device,
+    read_event,
+)
 from gazelle.nodes.joy.parameters import JoyOptions, read_options
-from gazelle.nodes.parameters import parameter_tree, start_node
+from gazelle.nodes.parameters import log_findings, parameter_tree, start_node
 
 __all__ = ["list_devices", "run"]
 

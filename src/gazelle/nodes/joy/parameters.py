@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.reader import ParameterReader
 

@@ -15,8 +15,7 @@ from gazelle.mapping.grids import MapMode, MapWriteError, SaveOptions, write_map
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.occupancy_grid import grid_of_message
-from gazelle.nodes.parameter_reading import number_or_end, private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import number_or_end, private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = [

@@ -13,10 +13,8 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type, service_type
 from gazelle.mapping.grids import MapFile, OccupancyGrid, read_map, read_map_image
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.occupancy_grid import message_of_grid
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import log_findings, private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterReader
 

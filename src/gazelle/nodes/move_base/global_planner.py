@@ -12,7 +12,7 @@ from gazelle.interfaces.poses import unit_pose_of
 from gazelle.navigation.planners import PLANNERS, REFUSED_PLANNERS, NoPlan, Plan, make_plan
 from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
 from gazelle.nodes.navigation.robot_pose import PlanePose, path_message
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.dataclass_tables import table_of
 

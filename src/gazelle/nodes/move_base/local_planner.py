@@ -21,9 +21,8 @@ from gazelle.navigation.controllers import (
 )
 from gazelle.nodes.move_base.global_planner import short_name
 from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
-from gazelle.nodes.navigation.odometry import Odometry
-from gazelle.nodes.navigation.robot_pose import PlanePose, path_message
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.navigation.robot_pose import Odometry, PlanePose, path_message
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.dataclass_tables import table_of
 

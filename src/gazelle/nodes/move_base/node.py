@@ -1,7 +1,4 @@
-"""``move_base``: drives to goals, as ROS 1's node of this name.
-
-Source of names, defaults and order: ``move_base`` of the navigation stack (noetic).
-"""
+"""``move_base``: drives to goals, as ROS 1's node of this name."""
 
 from __future__ import annotations
 
@@ -11,19 +8,17 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.graph import Graph, Node
-from gazelle.interfaces import message_type
+from gazelle.graph import Graph, Node, ServiceRefusedError
+from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import set_plane_pose, unit_pose_of
 from gazelle.interfaces.stamps import set_header
 from gazelle.navigation.planners import NoPlan
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.move_base.drive import Driver
 from gazelle.nodes.move_base.global_planner import GlobalPlanner
 from gazelle.nodes.move_base.local_planner import LocalPlanner
 from gazelle.nodes.move_base.parameters import MOVE_BASE
 from gazelle.nodes.move_base.recovery_behaviors import make_behaviours
-from gazelle.nodes.move_base.services import Services
 from gazelle.nodes.move_base.state_machine import Executive, Outcome, PlanPose, State, Timing
 from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
 from gazelle.nodes.navigation.costmap_parameters import INHERITED, assemble
@@ -31,30 +26,78 @@ from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.live_parameters import offer
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
 from gazelle.nodes.navigation.simple_action_server import SingleGoal
-from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import parameter_tree, start_node, ticks
+from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node, ticks
+from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["MoveBase", "run"]
+__all__ = ["MoveBase", "Services", "run"]
+
 
 _NANO = 1_000_000_000
 _PLANNER_REST_S = 0.05
 _COSTMAPS = ("global_costmap", "local_costmap")
 
 
-def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
-    """Drive to goals until told to stop."""
-    node = start_node(arguments, graph)
-    diagnostics = Diagnostics()
-    tree = parameter_tree(node, arguments)
-    base = MoveBase(node, tree, diagnostics)
-    log_findings(node, diagnostics)
-    arguments.ready()
-    try:
-        base.run(stop)
-    finally:
-        base.close()
-        node.shutdown()
-    return 0
+class Services:
+    """``make_plan`` and ``clear_costmaps``."""
+
+    def __init__(
+        self,
+        node: Node,
+        planner: GlobalPlanner,
+        costmaps: Mapping[str, LiveCostmap],
+        goals: SingleGoal,
+        settings: ParameterReader,
+    ) -> None:
+        """Offer them below the node's name."""
+        self._planner = planner
+        self._costmaps = costmaps
+        self._goals = goals
+        self._settings = settings
+        self._empty = service_type("std_srvs/Empty")
+        node.create_service("~/make_plan", service_type("nav_msgs/GetPlan"), self._on_make_plan)
+        node.create_service("~/clear_costmaps", self._empty, self._on_clear)
+
+    def _on_make_plan(self, request: Any) -> Any:
+        if self._goals.current is not None:
+            raise ServiceRefusedError(
+                "move_base must be in an inactive state to make a plan for an external user"
+            )
+        whole = self._costmaps["global_costmap"]
+        if not whole.is_ready:
+            raise ServiceRefusedError(
+                "move_base cannot make a plan for you because it doesn't have a costmap"
+            )
+        if self._settings.flag("make_plan_clear_costmap"):
+            self._clear_start(whole, request.start)
+        response = self._planner.answer(request)
+        if response.plan.poses and self._settings.flag("make_plan_add_unreachable_goal"):
+            self._add_goal(response.plan, request.goal, whole)
+        return response
+
+    def _clear_start(self, whole: LiveCostmap, start: Any) -> None:
+        radius = self._settings.number("clearing_radius", whole.footprint.circumscribed_m)
+        centre = None
+        if start.header.frame_id:
+            found = whole.frames.message_in(start, whole.global_frame)
+            centre = None if isinstance(found, str) else unit_pose_of(found.pose).xy_yaw
+        whole.clear_around(2 * radius, inside=True, centre=centre)
+
+    def _add_goal(self, plan: Any, goal: Any, whole: LiveCostmap) -> None:
+        """Let a plan that ends near the goal end in it."""
+        found = whole.frames.message_in(goal, whole.global_frame)
+        if isinstance(found, str):
+            return
+        last = plan.poses[-1].pose
+        if unit_pose_of(last).xy_yaw != unit_pose_of(found.pose).xy_yaw:
+            end: Any = message_type("geometry_msgs/msg/PoseStamped")(
+                header=plan.header, pose=found.pose
+            )
+            plan.poses.append(end)
+
+    def _on_clear(self, _request: Any) -> Any:
+        for costmap in self._costmaps.values():
+            costmap.reset()
+        return self._empty.Response()
 
 
 class MoveBase:
@@ -302,6 +345,22 @@ class MoveBase:
         self.executive.timing = self._timing()
         self._period_s = 1.0 / self.settings.number("controller_frequency")
         self.driver.behaviours = self._behaviours(self.settings.tree, Diagnostics())
+
+
+def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Drive to goals until told to stop."""
+    node = start_node(arguments, graph)
+    diagnostics = Diagnostics()
+    tree = parameter_tree(node, arguments)
+    base = MoveBase(node, tree, diagnostics)
+    log_findings(node, diagnostics)
+    arguments.ready()
+    try:
+        base.run(stop)
+    finally:
+        base.close()
+        node.shutdown()
+    return 0
 
 
 def _problem(quaternion: Any) -> str:

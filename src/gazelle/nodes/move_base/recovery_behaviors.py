@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.navigation.costmap import footprint_cost
 from gazelle.nodes.move_base.parameters import CLEAR, ROTATE, SLOW
 from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["Behaviour", "Surroundings", "make_behaviours"]

@@ -17,19 +17,17 @@ from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.model import JointKind, RobotModel
 from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.motion.scene import PlanningScene
-from gazelle.nodes.findings import log_findings
-from gazelle.nodes.move_group.current_state_monitor import StateMonitor
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.fake_controller_manager import FakeControllers, initial_positions
 from gazelle.nodes.move_group.parameters import MOVE_GROUP
 from gazelle.nodes.move_group.planning_problem import ProblemMaker
 from gazelle.nodes.move_group.planning_scene_messages import apply_scene
-from gazelle.nodes.move_group.planning_scene_monitor import SceneMonitor, told_topics
+from gazelle.nodes.move_group.planning_scene_monitor import SceneMonitor, StateMonitor, told_topics
 from gazelle.nodes.move_group.request_planner import RequestPlanner
 from gazelle.nodes.move_group.robot_state_messages import robot_state_message
 from gazelle.nodes.move_group.simple_controller_manager import FAKE_TYPES, controller_specs
 from gazelle.nodes.move_group.trajectory_execution_manager import TrajectoryExecutor
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import log_findings, node_reader
 
 __all__ = ["MoveGroupContext", "make_context"]
 

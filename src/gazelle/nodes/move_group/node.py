@@ -13,7 +13,6 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.motion.model import RobotModel
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.move_group.action_servers import offer_execute_action, offer_move_action
 from gazelle.nodes.move_group.context import MoveGroupContext, make_context
 from gazelle.nodes.move_group.kinematics_services import offer_kinematics
@@ -21,7 +20,7 @@ from gazelle.nodes.move_group.parameters import report_parameters
 from gazelle.nodes.move_group.planning_scene_services import offer_scene
 from gazelle.nodes.move_group.planning_services import offer_planning
 from gazelle.nodes.move_group.sequences import offer_sequences
-from gazelle.nodes.parameters import parameter_tree, start_node
+from gazelle.nodes.parameters import log_findings, parameter_tree, start_node
 from gazelle.parameters.trees import nested
 from gazelle.workspace import Workspace
 

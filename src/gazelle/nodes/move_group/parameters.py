@@ -17,7 +17,7 @@ from gazelle.description.moveit.parameter_tables import (
 from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.move_group.ompl_pipeline import OMPL
 from gazelle.nodes.move_group.pilz_pipeline import PILZ
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["MOVE_GROUP", "report_parameters"]

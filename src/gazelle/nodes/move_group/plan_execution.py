@@ -15,7 +15,7 @@ from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 from gazelle.nodes.move_group.request_planner import Planned
-from gazelle.nodes.move_group.trajectories import joint_trajectory, robot_trajectory
+from gazelle.nodes.move_group.robot_state_messages import joint_trajectory, robot_trajectory
 from gazelle.nodes.move_group.trajectory_execution_manager import ExecutionStatus
 
 __all__ = ["Attempt", "Mover"]

@@ -13,10 +13,10 @@ from gazelle.nodes.move_group.cartesian_interpolator import JumpLimits, straight
 from gazelle.nodes.move_group.constraint_messages import pose_of
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
-from gazelle.nodes.move_group.pipelines import pipeline_of, planning_pipeline
 from gazelle.nodes.move_group.planning_problem import GroupProblem
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
-from gazelle.nodes.move_group.trajectories import robot_trajectory
+from gazelle.nodes.move_group.request_planner import pipeline_of, planning_pipeline
+from gazelle.nodes.move_group.robot_state_messages import robot_trajectory
 
 __all__ = ["offer_planning"]
 

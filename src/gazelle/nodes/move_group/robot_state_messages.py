@@ -1,4 +1,4 @@
-"""``moveit_msgs/RobotState`` and positions of a robot's variables, in both directions."""
+"""``moveit_msgs/RobotState`` and ``RobotTrajectory`` of a robot's positions."""
 
 from __future__ import annotations
 
@@ -12,9 +12,53 @@ from gazelle.interfaces.stamps import set_stamp
 from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.model import JointKind, RobotJoint, RobotModel
 from gazelle.motion.planning.error_codes import ErrorCode
+from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.error_codes import MoveGroupError
 
-__all__ = ["joint_state_message", "positions_of", "robot_state_message"]
+__all__ = [
+    "joint_state_message",
+    "joint_trajectory",
+    "positions_of",
+    "robot_state_message",
+    "robot_trajectory",
+]
+
+
+_NANO = 1_000_000_000
+
+
+def robot_trajectory(trajectory: Trajectory | None, *, frame: str) -> Any:
+    """Return the message; an empty one for None.
+
+    Args:
+        trajectory: positions with times.
+        frame: planning frame.
+    """
+    message: Any = message_type("moveit_msgs/msg/RobotTrajectory")()
+    if trajectory is not None:
+        message.joint_trajectory = joint_trajectory(trajectory)
+    message.joint_trajectory.header.frame_id = frame
+    return message
+
+
+def joint_trajectory(trajectory: Trajectory) -> Any:
+    """Return a ``JointTrajectory`` with positions, velocities and accelerations."""
+    made: Any = message_type("trajectory_msgs/msg/JointTrajectory")(
+        joint_names=list(trajectory.names)
+    )
+    point = message_type("trajectory_msgs/msg/JointTrajectoryPoint")
+    rows = zip(
+        trajectory.times_s.tolist(),
+        trajectory.positions.tolist(),
+        trajectory.velocities.tolist(),
+        trajectory.accelerations.tolist(),
+        strict=True,
+    )
+    for time_s, positions, velocities, accelerations in rows:
+        row: Any = point(positions=positions, velocities=velocities, accelerations=accelerations)
+        set_stamp(row.time_from_start, round(time_s * _NANO))
+        made.points.append(row)
+    return made
 
 
 def positions_of(message: Any, model: RobotModel, base: FloatArray) -> FloatArray:

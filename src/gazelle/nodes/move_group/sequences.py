@@ -23,7 +23,7 @@ from gazelle.nodes.move_group.plan_execution import Attempt, Mover
 from gazelle.nodes.move_group.planning_pipeline import PlanningPipeline, SequenceJob
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
 from gazelle.nodes.move_group.request_planner import Planned
-from gazelle.nodes.move_group.trajectories import robot_trajectory
+from gazelle.nodes.move_group.robot_state_messages import robot_trajectory
 
 __all__ = ["offer_sequences"]
 

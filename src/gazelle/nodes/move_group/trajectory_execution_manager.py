@@ -15,10 +15,15 @@ from gazelle.graph import Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.interfaces.stamps import ns_of
 from gazelle.motion.planning.error_codes import ErrorCode
-from gazelle.nodes.move_group.controller_goals import controller_goal, goal_end, part_of
-from gazelle.nodes.move_group.current_state_monitor import StateMonitor
 from gazelle.nodes.move_group.error_codes import MoveGroupError
-from gazelle.nodes.move_group.simple_controller_manager import ControllerSpec, choose_controllers
+from gazelle.nodes.move_group.planning_scene_monitor import StateMonitor
+from gazelle.nodes.move_group.simple_controller_manager import (
+    ControllerSpec,
+    choose_controllers,
+    controller_goal,
+    goal_end,
+    part_of,
+)
 
 __all__ = ["ExecutionStatus", "Outcome", "TrajectoryExecutor"]
 

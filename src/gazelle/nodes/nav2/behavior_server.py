@@ -16,8 +16,7 @@ from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.navigation.costmap import CostGrid, Footprint, footprint_cost
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.commands import VelocityOutput
-from gazelle.nodes.nav2.costmap_node import grid_of_costmap
-from gazelle.nodes.nav2.footprints import outline_in_base
+from gazelle.nodes.nav2.costmap_node import grid_of_costmap, outline_in_base
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import BEHAVIOR_SERVER
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose

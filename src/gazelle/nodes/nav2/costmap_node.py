@@ -1,11 +1,13 @@
-"""The costmap nodes of Nav2's planner and controller servers."""
+"""The costmap nodes of Nav2's planner and controller servers, and the outlines they publish."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
@@ -13,24 +15,14 @@ from gazelle.graph.names import join
 from gazelle.interfaces import service_type
 from gazelle.navigation.costmap import CostGrid
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.log_output import print_ros2
 from gazelle.nodes.nav2.starting import offer_parameters, tree_of_node
 from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
 from gazelle.nodes.navigation.costmap_parameters import assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.ros2_console import print_ros2
 
-__all__ = ["Nav2Costmap", "grid_of_costmap"]
-
-
-def grid_of_costmap(message: Any) -> CostGrid:
-    """Return the grid of a ``nav2_msgs/Costmap``."""
-    data = message.metadata
-    costs = np.asarray(message.data, np.uint8).reshape(int(data.size_y), int(data.size_x))
-    origin = (float(data.origin.position.x), float(data.origin.position.y))
-    # A float32 of 0.05 is 0.0500000007…
-    resolution_m = float(f"{float(data.resolution):.7g}")
-    return CostGrid(np.ascontiguousarray(costs), resolution_m, origin)
+__all__ = ["Nav2Costmap", "grid_of_costmap", "outline_in_base"]
 
 
 class Nav2Costmap:
@@ -102,6 +94,36 @@ class Nav2Costmap:
         response = service_type("nav2_msgs/srv/GetCostmap").Response()
         response.map = self.live.raw_message()
         return response
+
+
+def outline_in_base(frames: Frames, message: Any, base_frame: str) -> NDArray[np.float64] | None:
+    """Return the corners of a ``PolygonStamped`` in the robot's frame, (n, 2) in metres.
+
+    None when it has fewer than three, or when its frame is not known.
+    """
+    corners = np.array([(p.x, p.y) for p in message.polygon.points], float).reshape(-1, 2)
+    if len(corners) < 3:
+        return None
+    frame = str(message.header.frame_id).removeprefix("/")
+    if frame in ("", base_frame):
+        return corners
+    found = frames.robot(frame, base_frame, 0.0)
+    if isinstance(found, str):
+        return None
+    x, y, yaw = found.pose
+    away = corners - (x, y)
+    c, s = math.cos(yaw), math.sin(yaw)
+    return np.column_stack([away @ (c, s), away @ (-s, c)])
+
+
+def grid_of_costmap(message: Any) -> CostGrid:
+    """Return the grid of a ``nav2_msgs/Costmap``."""
+    data = message.metadata
+    costs = np.asarray(message.data, np.uint8).reshape(int(data.size_y), int(data.size_x))
+    origin = (float(data.origin.position.x), float(data.origin.position.y))
+    # A float32 of 0.05 is 0.0500000007…
+    resolution_m = float(f"{float(data.resolution):.7g}")
+    return CostGrid(np.ascontiguousarray(costs), resolution_m, origin)
 
 
 def _rules(remappings: Mapping[str, str], namespace: str) -> dict[str, str]:

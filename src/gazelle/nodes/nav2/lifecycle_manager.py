@@ -13,10 +13,9 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.errors import ServiceCallError
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.parameters import LIFECYCLE_MANAGER
 from gazelle.nodes.nav2.starting import offer_parameters, start
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import log_findings, node_reader
 
 __all__ = ["run"]
 

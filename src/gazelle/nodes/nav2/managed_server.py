@@ -12,11 +12,10 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.costmap_node import Nav2Costmap
 from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.navigation.simple_action_server import SingleGoal
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import log_findings, node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader
 

@@ -8,10 +8,9 @@ from typing import Any
 
 from gazelle.graph import Graph, Node
 from gazelle.graph.ros2_node_parameters import NodeParameters
-from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.arguments import NodeArguments, file_params
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.parameters import node_parameters, start_node
-from gazelle.nodes.ros2_arguments import file_params
 from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = ["offer_parameters", "serve", "start", "tree_of_node"]

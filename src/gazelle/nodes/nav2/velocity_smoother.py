@@ -12,7 +12,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import VELOCITY_SMOOTHER
-from gazelle.nodes.navigation.odometry import Odometry
+from gazelle.nodes.navigation.robot_pose import Odometry
 from gazelle.nodes.parameters import ticks
 from gazelle.parameters.reader import ParameterReader
 

@@ -23,7 +23,7 @@ from gazelle.navigation.costmap import (
     StaticOptions,
     VoxelOptions,
 )
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.dataclass_tables import table_of
 from gazelle.parameters.reader import ParameterReader

@@ -18,10 +18,9 @@ from gazelle.interfaces.poses import set_pose, set_xyz
 from gazelle.interfaces.stamps import ns_of, set_header
 from gazelle.navigation.filters.ekf import Ekf
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import parameter_tree, start_node, ticks
-from gazelle.nodes.robot_localization.fusion import Fusion
-from gazelle.nodes.robot_localization.measurements import (
+from gazelle.nodes.parameters import parameter_tree, private_parameters, start_node, ticks
+from gazelle.nodes.robot_localization.fusion import (
+    Fusion,
     Measurement,
     measure_imu,
     measure_pose,

@@ -14,10 +14,8 @@ from gazelle.interfaces.poses import set_pose
 from gazelle.interfaces.stamps import ns_of, set_header
 from gazelle.navigation.filters.ekf import Ekf
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node, ticks
-from gazelle.nodes.robot_localization.fusion import Fusion
-from gazelle.nodes.robot_localization.measurements import measure_imu, measure_pose
+from gazelle.nodes.parameters import private_parameters, start_node, ticks
+from gazelle.nodes.robot_localization.fusion import Fusion, measure_imu, measure_pose
 from gazelle.nodes.robot_localization.parameters import POSE_EKF
 
 __all__ = ["run"]

@@ -10,9 +10,8 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.nav2.starting import offer_parameters
-from gazelle.nodes.parameters import parameter_tree, start_node
+from gazelle.nodes.parameters import log_findings, parameter_tree, start_node
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.owner import ParameterOwner
 from gazelle.parameters.reader import ParameterReader

@@ -1,15 +1,13 @@
-"""``ros_gz_sim/create``: puts a model into the running world.
-
-Its options are flags (`gazelle.nodes.gflags`) or parameters of the same names; ``-param`` names a
-parameter that holds the model.
-"""
+"""``ros_gz_sim/create``: puts a model into the running world."""
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
+from gazelle.documents.files import is_file
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.geometry import Pose
 from gazelle.graph import Graph, Node
@@ -18,14 +16,18 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import set_pose
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.gflags import Kind, read_flags
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import parameter_tree, start_node
-from gazelle.nodes.ros_gz.models import model_text
+from gazelle.nodes.parameters import parameter_tree, private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.coercion import number_of
 from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["PARAMETERS", "run"]
+__all__ = ["PARAMETERS", "model_text", "run"]
+
+
+_INCLUDE = (
+    '<sdf version="1.6"><world name="default"><include><uri>{uri}</uri></include></world></sdf>'
+)
+_MODEL_FILES = ("model.sdf", "model.urdf")
 
 PARAMETERS = ParameterTable(
     "create",
@@ -48,9 +50,9 @@ PARAMETERS = ParameterTable(
         Parameter("Y", "number", 0.0, "how it is turned about z", "rad"),
     ),
 )
-
 _KINDS: dict[str, Kind] = {"text": "string", "number": "double", "flag": "bool"}
 _FLAGS = {row.key: _KINDS[row.kind] for row in PARAMETERS.rows}
+
 _USAGE = (
     "usage: create -world [arg] [-file FILE] [-param PARAM] [-topic TOPIC] [-string STRING] "
     "[-name NAME] [-allow_renaming RENAMING] [-x X] [-y Y] [-z Z] [-R ROLL] [-P PITCH] [-Y YAW]"
@@ -59,6 +61,30 @@ _SPAWN = ("/gazebo/spawn_sdf_model", "gazebo_msgs/SpawnModel")
 _PROPERTIES = ("/gazebo/get_world_properties", "gazebo_msgs/GetWorldProperties")
 _POLL_S = 0.1
 _TELL_S = 5.0
+
+
+def model_text(name: str) -> str:
+    """Return the XML of a model.
+
+    Args:
+        name: a file, a folder with a model in it, or an address (``model://``, ``package://``,
+            ``https://fuel…``).
+
+    Raises:
+        GazelleError: there is none.
+    """
+    from gazelle.workspace import Workspace
+
+    found = Workspace.discover().resolve(name)
+    if found.path is None:
+        raise GazelleError(found.explain(name))
+    if is_file(found.path):
+        return found.path.read_text(encoding="utf-8", errors="replace")
+    file = next((found.path / one for one in _MODEL_FILES if is_file(found.path / one)), None)
+    if file is None:
+        # Its model.config says which file it is.
+        return _INCLUDE.format(uri=name if "://" in name else Path(found.path).as_uri())
+    return file.read_text(encoding="utf-8", errors="replace")
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:

@@ -12,7 +12,7 @@ from gazelle.graph import Graph
 from gazelle.graph.names import join
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.gzserver import run as run_server
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["PARAMETERS", "run"]

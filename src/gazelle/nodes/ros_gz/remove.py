@@ -10,8 +10,7 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.gazebo_names import offered_name
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["PARAMETERS", "run"]

@@ -14,11 +14,9 @@ from gazelle.interfaces.stamps import set_header
 from gazelle.mapping.frontiers import Frontier, find_frontiers
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.map_server.occupancy_grid import grid_of_message
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import parameter_tree, start_node, ticks
+from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node, ticks
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.reader import ParameterReader
 

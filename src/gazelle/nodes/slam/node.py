@@ -16,11 +16,9 @@ from gazelle.interfaces import service_type
 from gazelle.mapping.se2 import Poses
 from gazelle.mapping.slam.kernel_warm_up import warm_up
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.map_server.occupancy_grid import message_of_grid
-from gazelle.nodes.parameter_reading import node_reader
-from gazelle.nodes.parameters import parameter_tree, start_node, ticks
+from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node, ticks
 from gazelle.nodes.slam.cartographer.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.explore import run_explore
 from gazelle.nodes.slam.mapper import Mapper

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from gazelle.nodes.frontier_exploration.tables import BOUNDED_EXPLORE, EXPLORE_SERVER
+from gazelle.nodes.frontier_exploration.bounded_explore_layer import BOUNDED_EXPLORE, EXPLORE_SERVER
 from gazelle.nodes.slam.explore import EXPLORE
 from gazelle.nodes.slam.ros_packages import FLAVOURS
 from gazelle.parameters.markdown import table_section

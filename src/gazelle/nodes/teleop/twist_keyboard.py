@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import number_or_end, private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import number_or_end, private_parameters, start_node
 from gazelle.nodes.teleop.keyboard import CTRL_C, Keys, say
 from gazelle.nodes.teleop.twists import TwistSender, twist_sender
 from gazelle.parameters import Parameter, ParameterTable

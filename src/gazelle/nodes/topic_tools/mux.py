@@ -11,8 +11,7 @@ from gazelle.errors import GraphError, LaunchError
 from gazelle.graph import Graph, Node, Publisher, Subscription
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import node_reader, private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import node_reader, private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["PARAMETERS", "run_demux", "run_mux"]

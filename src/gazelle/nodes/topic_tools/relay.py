@@ -14,8 +14,7 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, MessageInfo, Node, Publisher, RawMessage, Subscription
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import node_reader, private_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import node_reader, private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterKind, ParameterTable, refused
 
 __all__ = ["PARAMETERS", "run_drop", "run_relay", "run_throttle"]

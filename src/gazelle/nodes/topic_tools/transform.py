@@ -3,31 +3,91 @@
 from __future__ import annotations
 
 import argparse
+import re
 import threading
 from collections.abc import Callable
 from importlib import import_module
 from types import CodeType
 from typing import Any
 
+from gazelle.diagnostics import did_you_mean
 from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.errors import GazelleError, LaunchError
-from gazelle.graph import Graph, Node
+from gazelle.graph import ANY_TYPE, Graph, Node
+from gazelle.graph.graph_info import topics_of
 from gazelle.interfaces import (
     Ros1Message,
     RosVersion,
     fill,
     ros1_message_type,
+    ros1_type_of,
     time_keys,
     to_plain,
 )
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
-from gazelle.nodes.topic_field import field_getter, find_input
 
-__all__ = ["run_relay_field", "run_transform"]
+__all__ = ["field_getter", "find_input", "run_relay_field", "run_transform"]
 
+
+_STEP = re.compile(r"(\w+)(?:\[(-?\d*)(:(-?\d*))?\])?")
 _LOOK_S = 0.1
 _Make = Callable[[Any], Any]
+
+
+def find_input(graph: Graph, word: str, *, wait: Callable[[], bool] | None) -> tuple[str, Any, str]:
+    """Return the topic, its class in the form of ROS 1, and the path to the field behind it.
+
+    Args:
+        graph: the graph.
+        word: global name of a topic, or of a topic and its field.
+        wait: called while nothing fits; False ends waiting. None does not wait.
+
+    Raises:
+        LaunchError: no such topic is there.
+    """
+    while True:
+        known = {
+            one.name: one.type_name for one in topics_of(graph.entities(), include_hidden=True)
+        }
+        known = {name: kind for name, kind in known.items() if kind != ANY_TYPE}
+        starts = [name for name in known if word == name or word.startswith(f"{name}/")]
+        if starts:
+            topic = max(starts, key=len)
+            return topic, ros1_message_type(ros1_type_of(known[topic])), word[len(topic) :]
+        if wait is None or not wait():
+            near = did_you_mean(word, sorted(known))
+            text = f"ERROR: Wrong input topic (or topic field): {word}"
+            raise LaunchError(f"{text}\n  {near}" if near else text)
+
+
+def field_getter(kind: Any, path: str) -> Callable[[Any], Any]:
+    """Return the function from a message to the field that a path leads to.
+
+    Raises:
+        LaunchError: the type has no such field.
+    """
+    steps = [_step(part) for part in path.split("/") if part]
+    owner, names = kind, []
+    for name, place in steps:
+        names.append(name)
+        if name not in getattr(owner, "_names", ()):
+            fields = tuple(getattr(owner, "_names", ()))
+            near = did_you_mean(name, fields) or f"its fields: {', '.join(fields) or 'none'}"
+            text = f"no field named {name} in {getattr(owner, '_type', owner)}"
+            raise LaunchError(f"ERROR: Wrong input topic (or topic field): {text}\n  {near}")
+        slot = owner._slot_types[owner._names.index(name)]
+        base = slot.partition("[")[0] if place is not None else slot
+        owner = ros1_message_type(base) if "/" in base and "[" not in base else base
+
+    def get(message: Any) -> Any:
+        for name, place in steps:
+            message = getattr(message, name)
+            if place is not None:
+                message = message[place]
+        return message
+
+    return get
 
 
 def run_transform(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -72,6 +132,16 @@ def run_relay_field(arguments: NodeArguments, graph: Graph, stop: threading.Even
         return message
 
     return _run(node, options, stop, make, latch=False)
+
+
+def _step(part: str) -> tuple[str, int | slice | None]:
+    match = _STEP.fullmatch(part)
+    if match is None:
+        raise LaunchError(f"ERROR: '{part}' is no field; write name, name[2] or name[0:3]")
+    name, first, is_slice, last = match.groups()
+    if is_slice is not None:
+        return name, slice(int(first) if first else None, int(last) if last else None)
+    return name, int(first) if first else None
 
 
 def _run(

@@ -17,8 +17,7 @@ from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import quat_xyzw_of
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import namespace_parameters
-from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.parameters import namespace_parameters, start_node, ticks
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["PARAMETERS", "Ranges", "Wanderer", "ranges_of", "run"]

@@ -25,8 +25,13 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_plane_pose, set_transform
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import namespace_parameters, private_parameters
-from gazelle.nodes.parameters import node_parameters, start_node, ticks
+from gazelle.nodes.parameters import (
+    namespace_parameters,
+    node_parameters,
+    private_parameters,
+    start_node,
+    ticks,
+)
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["PARAMETERS", "ROS2_PARAMETERS", "FakeBase", "run", "run_ros2"]

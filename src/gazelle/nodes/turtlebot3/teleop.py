@@ -14,8 +14,7 @@ from dataclasses import dataclass
 
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import namespace_parameters
-from gazelle.nodes.parameters import start_node
+from gazelle.nodes.parameters import namespace_parameters, start_node
 from gazelle.nodes.teleop.keyboard import CTRL_C, Keys, say
 from gazelle.nodes.teleop.twists import twist_sender
 from gazelle.parameters import Parameter, ParameterTable

@@ -11,12 +11,13 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import (
+from gazelle.nodes.parameters import (
     namespace_parameters,
+    node_parameters,
     number_or_end,
     private_parameters,
+    start_node,
 )
-from gazelle.nodes.parameters import node_parameters, start_node
 from gazelle.nodes.teleop.keyboard import Keys, say
 from gazelle.parameters import Parameter, ParameterTable
 

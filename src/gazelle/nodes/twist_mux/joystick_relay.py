@@ -16,8 +16,7 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ActionServer, ServerGoal
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node, ticks
+from gazelle.nodes.parameters import private_parameters, start_node, ticks
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterReader
 

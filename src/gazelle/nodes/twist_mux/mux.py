@@ -16,10 +16,8 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameter_reading import private_parameters
-from gazelle.nodes.parameters import start_node, ticks
-from gazelle.nodes.twist_mux.parameters import Choice, Input, read_inputs
-from gazelle.nodes.twist_mux.stamped import USE_STAMPED, is_stamped
+from gazelle.nodes.parameters import private_parameters, start_node, ticks
+from gazelle.nodes.twist_mux.parameters import USE_STAMPED, Choice, Input, is_stamped, read_inputs
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterReader
 

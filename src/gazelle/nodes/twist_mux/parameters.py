@@ -1,18 +1,29 @@
-"""Topics and locks of ``twist_mux``, as parameters of both generations name them."""
+"""Parameters of ``twist_mux``: topics and locks of both generations, stamps of velocities."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.parameters import Parameter
 
-__all__ = ["Choice", "Input", "read_inputs"]
+if TYPE_CHECKING:
+    from gazelle.parameters.reader import ParameterReader
 
+__all__ = ["USE_STAMPED", "Choice", "Input", "is_stamped", "read_inputs"]
+
+
+USE_STAMPED = Parameter(
+    "use_stamped", "flag", None, "velocities have stamps; from Jazzy on they have by default"
+)
+_STAMPED = frozenset({"jazzy", "kilted", "rolling"})
 _MEMBERS = ("topic", "timeout", "priority")
 _MAX = 255
 _PARSING = "ROS says: Error parsing params"
+
 _FIX = {
     "topics": "topics: {keyboard: {topic: key_vel, timeout: 0.5, priority: 90}}",
     "locks": "locks: {pause: {topic: pause_navigation, timeout: 0.0, priority: 100}}",
@@ -74,6 +85,12 @@ class Choice:
             if one.priority > best and not one.is_masked(now_ns, held):
                 best, name = one.priority, one.name
         return wanted.name == name
+
+
+def is_stamped(own: ParameterReader) -> bool:
+    """Tell what ``~use_stamped`` says; from Jazzy on it is true unless told otherwise."""
+    newer = own.ros_version == 2 and os.environ.get("ROS_DISTRO", "") in _STAMPED
+    return own.flag("use_stamped", newer)
 
 
 def read_inputs(kind: str, given: Any, owner: str, found: Diagnostics) -> tuple[Input, ...]:

@@ -7,9 +7,8 @@ from pathlib import Path
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.nav2.behavior_trees.blackboard import Blackboard
 from gazelle.nodes.nav2.behavior_trees.script import ScriptError, check_script, evaluate
-from gazelle.nodes.nav2.behavior_trees.tree_node import Status
+from gazelle.nodes.nav2.behavior_trees.tree_node import Blackboard, Status
 from gazelle.nodes.nav2.behavior_trees.xml_parsing import build_tree, parse_trees, read_trees
 
 _SUBTREES = """

@@ -9,8 +9,7 @@ from pathlib import Path
 
 from gazelle.cli.ros2.verbs import add_direct_arguments, fail
 from gazelle.cli.tool import hint
-from gazelle.node_specs.components import executable_of_component
-from gazelle.node_specs.registry import builtin_executables
+from gazelle.node_specs.registry import builtin_executables, executable_of_component
 from gazelle.workspace import Workspace
 
 __all__ = ["add_arguments_standalone", "add_arguments_types", "add_component_arguments"]

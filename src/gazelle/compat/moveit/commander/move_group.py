@@ -25,9 +25,12 @@ from gazelle.interfaces import (
 )
 from gazelle.motion.timing import parameterise
 from gazelle.nodes.move_group.constraint_messages import pose_of
-from gazelle.nodes.move_group.robot_state_messages import positions_of, robot_state_message
+from gazelle.nodes.move_group.robot_state_messages import (
+    positions_of,
+    robot_state_message,
+    robot_trajectory,
+)
 from gazelle.nodes.move_group.shape_messages import pose_message
-from gazelle.nodes.move_group.trajectories import robot_trajectory
 
 __all__ = ["MoveGroupCommander", "PlanResult"]
 

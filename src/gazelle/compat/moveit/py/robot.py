@@ -14,9 +14,12 @@ from gazelle.motion.kinematics import Patience, Solver, link_poses
 from gazelle.motion.model import JointGroup
 from gazelle.motion.timing import Trajectory
 from gazelle.nodes.move_group.constraint_messages import pose_of
-from gazelle.nodes.move_group.robot_state_messages import positions_of, robot_state_message
+from gazelle.nodes.move_group.robot_state_messages import (
+    positions_of,
+    robot_state_message,
+    robot_trajectory,
+)
 from gazelle.nodes.move_group.shape_messages import pose_message
-from gazelle.nodes.move_group.trajectories import robot_trajectory
 
 __all__ = ["JointModelGroup", "RobotModel", "RobotState", "RobotTrajectory"]
 

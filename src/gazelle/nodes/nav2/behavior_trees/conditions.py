@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, ClassVar
 
-from gazelle.nodes.nav2.behavior_trees.messages import (
+from gazelle.nodes.nav2.behavior_trees.ros_interface import (
     distance_m,
     goals_of,
     path_length_m,

@@ -9,7 +9,7 @@ import math
 from typing import Any, ClassVar
 
 from gazelle.interfaces.stamps import ns_of
-from gazelle.nodes.nav2.behavior_trees.messages import path_length_m, poses_of
+from gazelle.nodes.nav2.behavior_trees.ros_interface import path_length_m, poses_of
 from gazelle.nodes.nav2.behavior_trees.script import evaluate
 from gazelle.nodes.nav2.behavior_trees.tree_node import Decorator, Status
 

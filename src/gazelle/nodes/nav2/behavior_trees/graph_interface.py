@@ -11,8 +11,7 @@ from gazelle.graph import Qos
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.interfaces import message_type, service_type
 from gazelle.nodes.nav2.behavior_trees.ros_interface import Pose2
-from gazelle.nodes.navigation.odometry import Odometry
-from gazelle.nodes.navigation.robot_pose import Frames
+from gazelle.nodes.navigation.robot_pose import Frames, Odometry
 
 if TYPE_CHECKING:
     from gazelle.graph import Node

@@ -1,27 +1,27 @@
-"""The small language of BehaviorTree.CPP 4: ``Script``, ``ScriptCondition``, ``_skipIf`` ….
+"""The scripts of BehaviorTree.CPP 4: ``Script``, ``ScriptCondition``, and attributes of all nodes.
 
-Numbers, texts in quotes, truth values, keys of the blackboard; ``:=`` makes a key, ``=`` changes
-one, ``+= -= *= /=``; arithmetic, comparisons, ``&& || !`` and ``c ? a : b``; statements are parted
-by ``;`` (https://www.behaviortree.dev/docs/guides/scripting). The value is the last statement's.
+Those are the pre- and postconditions ``_skipIf``, ``_while``, ``_onSuccess`` ….
 """
 
 from __future__ import annotations
 
 import operator
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from gazelle.errors import GazelleError
-from gazelle.nodes.nav2.behavior_trees.blackboard import Blackboard
+from gazelle.nodes.nav2.behavior_trees.tree_node import Blackboard, Decorator, Status
 
-__all__ = ["ScriptError", "check_script", "evaluate"]
+__all__ = ["Conditioned", "ScriptError", "check_script", "conditions_of", "evaluate"]
+
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>0x[0-9a-fA-F]+|\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+)"
     r"|(?P<text>'[^']*')|(?P<name>@?[A-Za-z_][\w.]*)"
     r"|(?P<op>:=|==|!=|<=|>=|&&|\|\||\+=|-=|\*=|/=|\.\.|[-+*/<>=!?:();&|^~]))"
 )
+
 _BINARY: tuple[dict[str, Callable[[Any, Any], Any]], ...] = (
     {"||": lambda a, b: bool(a) or bool(b)},
     {"&&": lambda a, b: bool(a) and bool(b)},
@@ -32,33 +32,65 @@ _BINARY: tuple[dict[str, Callable[[Any, Any], Any]], ...] = (
     {"+": operator.add, "-": operator.sub, "..": lambda a, b: f"{a}{b}"},
     {"*": operator.mul, "/": operator.truediv},
 )  # fmt: skip
+
 _ASSIGN = {":=": None, "=": None, "+=": operator.add, "-=": operator.sub,
            "*=": operator.mul, "/=": operator.truediv}  # fmt: skip
 _WORDS = {"true": True, "false": False}
 _MAX_LENGTH = 10_000
 _MAX_DEPTH = 40
 
+_BEFORE = (
+    ("_failureIf", Status.FAILURE),
+    ("_successIf", Status.SUCCESS),
+    ("_skipIf", Status.SKIPPED),
+)
+
+_NAMES = frozenset(
+    {"_failureIf", "_successIf", "_skipIf", "_while", "_onSuccess", "_onFailure", "_onHalted",
+     "_post"}
+)  # fmt: skip
+
 
 class ScriptError(GazelleError):
     """A script cannot be read, or a key in it has no value."""
 
 
-def evaluate(script: str, blackboard: Blackboard) -> Any:
-    """Run a script and return the value of its last statement.
+class Conditioned(Decorator):
+    """Runs scripts before and after its child.
 
-    Raises:
-        ScriptError: it cannot be read, a key has no value, or the types do not fit.
+    Attributes:
+        conditions: scripts by attribute.
     """
-    return _Reader(script, blackboard).run()
 
+    conditions: Mapping[str, str] = {}
 
-def check_script(script: str) -> str:
-    """Return what is wrong with a script's grammar, empty when nothing is."""
-    try:
-        _Reader(script, None).run()
-    except ScriptError as error:
-        return str(error)
-    return ""
+    def tick(self) -> Status:
+        """Ask the scripts that come before, tick, run those that come after."""
+        if self.child.status is not Status.RUNNING:
+            for name, status in _BEFORE:
+                if self._holds(name):
+                    return status
+        if "_while" in self.conditions and not self._holds("_while"):
+            self.halt_child(self.child)
+            return Status.SKIPPED
+        status = self.child.execute()
+        if status.is_done:
+            self._run("_onSuccess" if status is Status.SUCCESS else "_onFailure")
+            self._run("_post")
+        return status
+
+    def halted(self) -> None:
+        """Run the script of an end by somebody else."""
+        self._run("_onHalted")
+        self._run("_post")
+
+    def _holds(self, name: str) -> bool:
+        script = self.conditions.get(name)
+        return script is not None and bool(evaluate(script, self.ports.blackboard))
+
+    def _run(self, name: str) -> None:
+        if name in self.conditions:
+            evaluate(self.conditions[name], self.ports.blackboard)
 
 
 class _Reader:
@@ -182,6 +214,29 @@ class _Reader:
 
     def _error(self, text: str) -> ScriptError:
         return ScriptError(f"script '{self._script}': {text}")
+
+
+def evaluate(script: str, blackboard: Blackboard) -> Any:
+    """Run a script and return the value of its last statement.
+
+    Raises:
+        ScriptError: it cannot be read, a key has no value, or the types do not fit.
+    """
+    return _Reader(script, blackboard).run()
+
+
+def check_script(script: str) -> str:
+    """Return what is wrong with a script's grammar, empty when nothing is."""
+    try:
+        _Reader(script, None).run()
+    except ScriptError as error:
+        return str(error)
+    return ""
+
+
+def conditions_of(attributes: Mapping[str, str]) -> dict[str, str]:
+    """Return the conditions among a node's attributes."""
+    return {name: text for name, text in attributes.items() if name in _NAMES}
 
 
 def _one_sided(apply: Callable[[Any], Any]) -> Callable[[Any, Any], Any]:

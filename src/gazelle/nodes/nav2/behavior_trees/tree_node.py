@@ -1,4 +1,4 @@
-"""What every node of a tree is: a status, ports, a tick and a halt."""
+"""What every node of a tree is: a status, ports on the blackboard, a tick and a halt."""
 
 from __future__ import annotations
 
@@ -7,12 +7,73 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, ClassVar
 
 from gazelle.errors import GazelleError
-from gazelle.nodes.nav2.behavior_trees.blackboard import Blackboard
 from gazelle.nodes.nav2.behavior_trees.ros_interface import World
 
-__all__ = ["Decorator", "Leaf", "Ports", "Status", "TreeError", "TreeNode"]
+__all__ = ["Blackboard", "Decorator", "Leaf", "Ports", "Status", "SubTree", "TreeError", "TreeNode"]
+
 
 _REQUIRED: Any = object()
+
+
+class Blackboard:
+    """Values by key; that of a subtree passes some keys on to the tree above.
+
+    A key that begins with ``@`` is one of the outermost tree (BehaviorTree.CPP 4).
+    """
+
+    def __init__(
+        self,
+        parent: Blackboard | None = None,
+        remapped: Mapping[str, str] | None = None,
+        *,
+        takes_all: bool = False,
+    ) -> None:
+        """Begin empty.
+
+        Args:
+            parent: of the tree above.
+            remapped: keys here and their names above.
+            takes_all: every key that is not private (``_…``) is the parent's of the same name.
+        """
+        self._parent = parent
+        self._remapped = dict(remapped or {})
+        self._takes_all = takes_all
+        self._values: dict[str, Any] = {}
+
+    @property
+    def root(self) -> Blackboard:
+        """The outermost tree's."""
+        return self if self._parent is None else self._parent.root
+
+    def has(self, key: str) -> bool:
+        """Tell whether a key has a value."""
+        board, name = self._place(key)
+        return name in board._values
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """Return a value."""
+        board, name = self._place(key)
+        return board._values.get(name, default)
+
+    def set(self, key: str, value: Any) -> None:
+        """Keep a value."""
+        board, name = self._place(key)
+        board._values[name] = value
+
+    def unset(self, key: str) -> None:
+        """Forget a value."""
+        board, name = self._place(key)
+        board._values.pop(name, None)
+
+    def _place(self, key: str) -> tuple[Blackboard, str]:
+        if key.startswith("@"):
+            return self.root._place(key[1:])
+        if self._parent is not None:
+            if key in self._remapped:
+                return self._parent._place(self._remapped[key])
+            if self._takes_all and not key.startswith("_"):
+                return self._parent._place(key)
+        return self, key
 
 
 class TreeError(GazelleError):
@@ -197,3 +258,14 @@ class Decorator(TreeNode):
     def child(self) -> TreeNode:
         """The child."""
         return self.children[0]
+
+
+class SubTree(Decorator):
+    """Says what the tree below says."""
+
+    def tick(self) -> Status:
+        """Tick the tree below; when that is over it is idle again."""
+        status = self.child.execute()
+        if status.is_done:
+            self.halt_children()
+        return status

@@ -9,15 +9,12 @@ from pathlib import Path
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.nodes.nav2.behavior_trees.actions import ACTIONS
-from gazelle.nodes.nav2.behavior_trees.blackboard import Blackboard
-from gazelle.nodes.nav2.behavior_trees.conditioned import Conditioned, conditions_of
 from gazelle.nodes.nav2.behavior_trees.conditions import CONDITIONS
 from gazelle.nodes.nav2.behavior_trees.controls import CONTROLS
 from gazelle.nodes.nav2.behavior_trees.decorators import DECORATORS
 from gazelle.nodes.nav2.behavior_trees.ros_interface import World
-from gazelle.nodes.nav2.behavior_trees.script import check_script
-from gazelle.nodes.nav2.behavior_trees.subtree import SubTree
-from gazelle.nodes.nav2.behavior_trees.tree_node import Ports, TreeNode
+from gazelle.nodes.nav2.behavior_trees.script import Conditioned, check_script, conditions_of
+from gazelle.nodes.nav2.behavior_trees.tree_node import Blackboard, Ports, SubTree, TreeNode
 
 __all__ = ["NODE_TYPES", "TreeFile", "build_tree", "parse_trees", "read_trees"]
 

@@ -11,8 +11,12 @@ from gazelle.graph import Graph
 from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.findings import log_findings
-from gazelle.nodes.nav2.collision_monitor.parameters import COLLISION_MONITOR
+from gazelle.nodes.nav2.collision_monitor.parameters import (
+    COLLISION_MONITOR,
+    read_sources,
+    read_zones,
+    report_others,
+)
 from gazelle.nodes.nav2.collision_monitor.polygons import (
     Action,
     Points,
@@ -21,14 +25,13 @@ from gazelle.nodes.nav2.collision_monitor.polygons import (
     Zone,
     guarded,
 )
-from gazelle.nodes.nav2.collision_monitor.reading import read_sources, read_zones, report_others
 from gazelle.nodes.nav2.collision_monitor.sources import Source, WorldFrames
 from gazelle.nodes.nav2.commands import VelocityOutput
-from gazelle.nodes.nav2.footprints import outline_in_base
+from gazelle.nodes.nav2.costmap_node import outline_in_base
 from gazelle.nodes.nav2.managed_server import ServerSetup, run_server
 from gazelle.nodes.nav2.starting import offer_parameters
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import log_findings, node_reader
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]

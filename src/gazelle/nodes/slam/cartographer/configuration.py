@@ -19,8 +19,7 @@ from gazelle.documents.files import is_file
 from gazelle.errors import LaunchError
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.slam.cartographer.lua_interpreter import Builtin, LuaTable, Machine, text_of
-from gazelle.nodes.slam.cartographer.lua_parser import parse
-from gazelle.nodes.slam.cartographer.lua_tokens import Place, failure
+from gazelle.nodes.slam.cartographer.lua_parser import Place, failure, parse
 
 __all__ = ["flags_of", "read_configuration"]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from gazelle.diagnostics import did_you_mean
-from gazelle.nodes.slam.cartographer.lua_syntax import (
+from gazelle.nodes.slam.cartographer.lua_parser import (
     Assign,
     Binary,
     Block,
@@ -21,12 +21,13 @@ from gazelle.nodes.slam.cartographer.lua_syntax import (
     Index,
     Local,
     Name,
+    Place,
     Return,
     Statement,
     TableOf,
     Unary,
+    failure,
 )
-from gazelle.nodes.slam.cartographer.lua_tokens import Place, failure
 
 __all__ = ["Builtin", "LuaTable", "Machine", "text_of"]
 

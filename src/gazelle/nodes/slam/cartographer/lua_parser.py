@@ -1,29 +1,273 @@
-"""From words to the tree of a Lua file."""
+"""Lua 5.2 as configuration files use it: from text to tokens to a tree."""
 
 from __future__ import annotations
 
-from gazelle.nodes.slam.cartographer.lua_syntax import (
-    Assign,
-    Binary,
-    Block,
-    Call,
-    Constant,
-    Do,
-    Expression,
-    Field,
-    Function,
-    If,
-    Index,
-    Local,
-    Name,
-    Return,
-    Statement,
-    TableOf,
-    Unary,
-)
-from gazelle.nodes.slam.cartographer.lua_tokens import Token, failure, tokens_of
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal, NamedTuple, TypeAlias
 
-__all__ = ["parse"]
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.errors import UserFileError
+
+__all__ = [
+    "KEYWORDS",
+    "Assign",
+    "Binary",
+    "Block",
+    "Call",
+    "Constant",
+    "Do",
+    "Expression",
+    "Field",
+    "Function",
+    "If",
+    "Index",
+    "Local",
+    "Name",
+    "Place",
+    "Return",
+    "Statement",
+    "TableOf",
+    "Token",
+    "Unary",
+    "failure",
+    "parse",
+    "tokens_of",
+]
+
+
+Kind = Literal["name", "keyword", "number", "string", "symbol", "end"]
+
+KEYWORDS = frozenset(
+    {
+        *("and", "break", "do", "else", "elseif", "end", "false", "for", "function", "goto", "if"),
+        *("in", "local", "nil", "not", "or", "repeat", "return", "then", "true", "until", "while"),
+    }
+)
+
+_TOKEN = re.compile(
+    r"""
+    (?P<space>\s+)
+  | (?P<comment>--(?:\[(?P<comment_level>=*)\[.*?\](?P=comment_level)\]|[^\n]*))
+  | (?P<long>\[(?P<level>=*)\[.*?\](?P=level)\])
+  | (?P<string>"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*')
+  | (?P<number>0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)
+  | (?P<name>[A-Za-z_]\w*)
+  | (?P<symbol>\.\.\.|\.\.|==|~=|<=|>=|::|[-+*/%^\#<>=(){}\[\];:,.])
+    """,
+    re.VERBOSE | re.DOTALL | re.ASCII,
+)
+
+_ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
+
+
+class Place(NamedTuple):
+    """Where something stands; line and column from 1."""
+
+    file: str
+    line: int
+    column: int
+    length: int = 1
+
+    @property
+    def span(self) -> SourceSpan:
+        """The same for diagnostics."""
+        return SourceSpan(self.file, self.line, self.column, self.length)
+
+
+class Token(NamedTuple):
+    """A word: its kind, its text (of a string its value), and its place."""
+
+    kind: Kind
+    text: str
+    place: Place
+
+
+def failure(text: str, place: Place | None, fix: str = "") -> UserFileError:
+    """Return what refuses a file."""
+    found = Diagnostics()
+    found.report("mapping.lua", text, place.span if place else None, fix=fix)
+    return UserFileError(tuple(found))
+
+
+def tokens_of(text: str, file: str) -> Iterator[Token]:
+    """Yield the words of a file, and ``end``.
+
+    Raises:
+        UserFileError: a character begins no word.
+    """
+    at, line, line_start = 0, 1, 0
+    while at < len(text):
+        found = _TOKEN.match(text, at)
+        place = Place(file, line, at - line_start + 1, len(found[0]) if found else 1)
+        if found is None:
+            raise _unknown(text[at], place)
+        kind, word = found.lastgroup, found[0]
+        token = _token(kind or "", word, found, place)
+        if token is not None:
+            yield token
+        at = found.end()
+        breaks = word.count("\n")
+        if breaks:
+            line, line_start = line + breaks, at - len(word) + word.rindex("\n") + 1
+    yield Token("end", "<eof>", Place(file, line, at - line_start + 1))
+
+
+def _unknown(character: str, place: Place) -> UserFileError:
+    if character in "\"'":
+        return failure("unfinished string", place, f"close it with {character} in the same line")
+    return failure(
+        f"unexpected symbol near '{character}'", place, "take it away, or put it into a string"
+    )
+
+
+def _token(kind: str, word: str, found: re.Match[str], place: Place) -> Token | None:
+    if found["string"] is not None:
+        return Token("string", _unescaped(word[1:-1]), place)
+    if found["long"] is not None:
+        skip = len(found["level"]) + 2
+        return Token("string", word[skip:-skip].removeprefix("\n"), place)
+    if found["number"] is not None:
+        return Token("number", word, place)
+    if found["name"] is not None:
+        return Token("keyword" if word in KEYWORDS else "name", word, place)
+    return Token("symbol", word, place) if kind == "symbol" else None
+
+
+def _unescaped(text: str) -> str:
+    def value(found: re.Match[str]) -> str:
+        word = found[1]
+        if word.isdigit():
+            return chr(int(word))
+        return _ESCAPES.get(word, word)
+
+    return re.sub(r"\\(\d{1,3}|.)", value, text, flags=re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """``nil``, ``true``, ``false``, a number or a string."""
+
+    value: bool | float | str | None
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A variable."""
+
+    name: str
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Index:
+    """``owner.key`` or ``owner[key]``."""
+
+    owner: Expression
+    key: Expression
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """``function(arguments)``; with `method`, ``owner:method(arguments)``."""
+
+    function: Expression
+    arguments: tuple[Expression, ...]
+    method: str
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Unary:
+    """``-x``, ``not x``, ``#x``."""
+
+    operator: str
+    value: Expression
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Binary:
+    """``a operator b``."""
+
+    operator: str
+    left: Expression
+    right: Expression
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """A field of a table; without a key the next number."""
+
+    key: Expression | None
+    value: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class TableOf:
+    """``{…}``."""
+
+    fields: tuple[Field, ...]
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """``function (parameters) … end``."""
+
+    parameters: tuple[str, ...]
+    body: Block
+    place: Place
+
+
+Expression: TypeAlias = Constant | Name | Index | Call | Unary | Binary | TableOf | Function
+
+
+@dataclass(frozen=True, slots=True)
+class Assign:
+    """``targets = values``."""
+
+    targets: tuple[Name | Index, ...]
+    values: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Local:
+    """``local names = values``; a local function knows its own name."""
+
+    names: tuple[str, ...]
+    values: tuple[Expression, ...]
+    knows_itself: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class If:
+    """Conditions with their blocks, the last without a condition for ``else``."""
+
+    branches: tuple[tuple[Expression | None, Block], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Do:
+    """``do … end``."""
+
+    body: Block
+
+
+@dataclass(frozen=True, slots=True)
+class Return:
+    """``return values``."""
+
+    values: tuple[Expression, ...]
+
+
+Statement: TypeAlias = Assign | Local | If | Do | Return | Call
+
+Block: TypeAlias = tuple[Statement, ...]
 
 # How strongly operators bind to the left and to the right (Lua 5.2, 3.4.7).
 _BINARY = {
@@ -31,11 +275,17 @@ _BINARY = {
     "~=": (3, 3), "==": (3, 3), "..": (5, 4), "+": (6, 6), "-": (6, 6), "*": (7, 7),
     "/": (7, 7), "%": (7, 7), "^": (10, 9),
 }  # fmt: skip
+
 _UNARY_STRENGTH = 8
+
 _UNARY = frozenset({"not", "-", "#"})
+
 _LOOPS = frozenset({"for", "while", "repeat", "goto", "break"})
+
 _BLOCK_ENDS = frozenset({"end", "else", "elseif", "until", "return"})
+
 _CONSTANTS = {"nil": None, "true": True, "false": False}
+
 _MAX_DEPTH = 60
 
 

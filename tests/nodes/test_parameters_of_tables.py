@@ -8,14 +8,15 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
-from gazelle.nodes import parameter_reading
+from gazelle.nodes import parameters
 from gazelle.nodes.arguments import read_arguments
-from gazelle.nodes.parameter_reading import (
+from gazelle.nodes.parameters import (
     namespace_parameters,
     number_or_end,
+    parameter_tree,
     private_parameters,
+    start_node,
 )
-from gazelle.nodes.parameters import parameter_tree, start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 _TABLE = ParameterTable(
@@ -37,7 +38,7 @@ def said(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     def log(_node: Any, diagnostics: Diagnostics) -> None:
         found.extend(f"{item.code} {item.message}" for item in diagnostics)
 
-    monkeypatch.setattr(parameter_reading, "log_findings", log)
+    monkeypatch.setattr(parameters, "log_findings", log)
     return found
 
 

@@ -12,7 +12,7 @@ from tests.nodes.move_group.conftest import READY, ArmBench, joint_goal
 from gazelle.description.moveit import Pipeline
 from gazelle.nodes.move_group.ompl_pipeline import OMPL
 from gazelle.nodes.move_group.pilz_pipeline import PILZ
-from gazelle.nodes.move_group.pipelines import planning_pipeline
+from gazelle.nodes.move_group.request_planner import planning_pipeline
 
 _SOURCE = code_of_page("A planning pipeline")
 _POINTS = {"gazelle.planning_pipelines": {"crow": "crow_parts:CROW"}}

@@ -7,7 +7,7 @@ import threading
 from tests.nodes.conftest import Bench
 from tests.nodes.move_group.fake_robot import FakeRobot
 
-from gazelle.nodes.move_group.current_state_monitor import StateMonitor
+from gazelle.nodes.move_group.planning_scene_monitor import StateMonitor
 
 
 def test_first_joint_state_is_waited_for(bench: Bench) -> None:

@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.nodes.nav2.collision_monitor.parameters import COLLISION_MONITOR
+from gazelle.nodes.nav2.collision_monitor.parameters import (
+    COLLISION_MONITOR,
+    read_sources,
+    read_zones,
+)
 from gazelle.nodes.nav2.collision_monitor.polygons import Action
-from gazelle.nodes.nav2.collision_monitor.reading import read_sources, read_zones
-from gazelle.nodes.parameter_reading import node_reader
+from gazelle.nodes.parameters import node_reader
 from gazelle.parameters.reader import ParameterReader
 
 _CIRCLE = {"type": "circle", "action_type": "stop", "radius": 0.3}

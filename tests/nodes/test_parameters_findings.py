@@ -9,7 +9,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Level
-from gazelle.nodes.findings import log_findings
+from gazelle.nodes.parameters import log_findings
 
 
 def _idle(count: int) -> Diagnostics:
