@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tests.ci_scripts import ci_script
 
-from gazelle.compat.unsupported.docs import refused_markdown
+from gazelle.compat.unsupported.docs import unsupported_markdown
 from gazelle.diagnostics.catalogue import all_entries
 from gazelle.diagnostics.docs import catalogue_markdown
 from gazelle.node_specs.documentation import nodes_markdown
@@ -26,7 +26,7 @@ def test_diagnostics_page_is_generated_from_the_catalogue() -> None:
 def test_page_of_refused_names_is_generated_from_their_tables() -> None:
     page = (ROOT / "docs" / "python_names.md").read_text(encoding="utf-8")
     command = "python -m gazelle.compat.unsupported.docs > docs/python_names.md"
-    assert page == refused_markdown(), f"run: {command}"
+    assert page == unsupported_markdown(), f"run: {command}"
 
 
 def test_page_of_nodes_is_generated_from_their_rows() -> None:

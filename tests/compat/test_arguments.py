@@ -78,7 +78,7 @@ UNREAD: dict[str, tuple[str, str]] = {
         _SAME,
     ),
     "rclpy/node.py Node.get_topic_names_and_types": ("no_demangle", _SAME),
-    "unsupported/modules.py RefusingFinder.find_spec": ("path target", _FINDER),
+    "unsupported/modules.py UnsupportedModuleFinder.find_spec": ("path target", _FINDER),
     "rosgraph/masterapi.py Master.__init__": ("caller_id", "the graph knows who asks"),
     "roslaunch/core.py ProcessListener.process_died": ("process_name exit_code", _HOOK),
     "roslaunch/parent.py ROSLaunchParent.__init__": (

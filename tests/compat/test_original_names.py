@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.compat.unsupported.modules import REFUSED, refusal_of
+from gazelle.compat.unsupported.modules import UNSUPPORTED_MODULES, why_unsupported
 
 NAMES = Path(__file__).parent / "original_names"
 _ROS1 = (
@@ -97,18 +97,20 @@ def test_names_of_the_original_are_here_or_known_to_be_missing(packages: tuple[s
 
 
 def test_refused_modules_say_what_they_are() -> None:
-    assert [row.module for row in REFUSED] == sorted({row.module for row in REFUSED})
-    sentence = refusal_of("osrf_pycommon.process_utils")
+    assert [row.module for row in UNSUPPORTED_MODULES] == sorted(
+        {row.module for row in UNSUPPORTED_MODULES}
+    )
+    sentence = why_unsupported("osrf_pycommon.process_utils")
     assert sentence is not None
     assert sentence.startswith("No module named 'osrf_pycommon.process_utils': gazelle: it is part")
     assert "pip install osrf-pycommon" in sentence
-    assert refusal_of("rclpy.node") is None
+    assert why_unsupported("rclpy.node") is None
     listed = {
         line.split(" ")[0].split("(")[0]
         for file in NAMES.glob("*.txt")
         for line in file.read_text(encoding="utf-8").splitlines()
     }
-    assert {row.module for row in REFUSED} <= listed
+    assert {row.module for row in UNSUPPORTED_MODULES} <= listed
 
 
 _USES = (

@@ -30,8 +30,8 @@ def spawn_sdf_model_client(
         reference_frame: the frame of the pose; empty is the world.
         gazebo_namespace: where the services are, ``/gazebo``.
     """
-    words = (model_name, model_xml, robot_namespace, initial_pose, reference_frame)
-    return _call(f"{gazebo_namespace}/spawn_sdf_model", "SpawnModel", "Spawn status", *words)
+    arguments = (model_name, model_xml, robot_namespace, initial_pose, reference_frame)
+    return _call(f"{gazebo_namespace}/spawn_sdf_model", "SpawnModel", "Spawn status", *arguments)
 
 
 def spawn_urdf_model_client(
@@ -43,8 +43,8 @@ def spawn_urdf_model_client(
     gazebo_namespace: str,
 ) -> bool | None:
     """Put a URDF model into the world, as `spawn_sdf_model_client` does."""
-    words = (model_name, model_xml, robot_namespace, initial_pose, reference_frame)
-    return _call(f"{gazebo_namespace}/spawn_urdf_model", "SpawnModel", "Spawn status", *words)
+    arguments = (model_name, model_xml, robot_namespace, initial_pose, reference_frame)
+    return _call(f"{gazebo_namespace}/spawn_urdf_model", "SpawnModel", "Spawn status", *arguments)
 
 
 def set_model_configuration_client(
@@ -55,19 +55,19 @@ def set_model_configuration_client(
     gazebo_namespace: str,
 ) -> bool | None:
     """Set a model's joints, in radians and metres; None if the call fails."""
-    words = (model_name, model_param_name, joint_names, joint_positions)
+    arguments = (model_name, model_param_name, joint_names, joint_positions)
     service = f"{gazebo_namespace}/set_model_configuration"
-    return _call(service, "SetModelConfiguration", "Set model configuration status", *words)
+    return _call(service, "SetModelConfiguration", "Set model configuration status", *arguments)
 
 
-def _call(service: str, kind: str, said: str, *words: Any) -> bool | None:
+def _call(service: str, kind: str, said: str, *arguments: Any) -> bool | None:
     """Wait for a service and call it; what it answers is told."""
     loginfo(f"Waiting for service {service}")
     rospy.wait_for_service(service)
     call = rospy.ServiceProxy(service, ros1_service_type(f"gazebo_msgs/{kind}"))
     loginfo(f"Calling service {service}")
     try:
-        answer = call(*words)
+        answer = call(*arguments)
     except rospy.ServiceException as error:
         sys.stdout.write(f"Service call failed: {error}\n")
         return None

@@ -18,8 +18,8 @@ from typing import Any
 
 from gazelle.compat.importlib_abc import Loader, MetaPathFinder
 from gazelle.compat.ros_version import message_ros_version
-from gazelle.compat.unsupported.modules import RefusingFinder
-from gazelle.compat.unsupported.placeholders import AttachingFinder
+from gazelle.compat.unsupported.modules import UnsupportedModuleFinder
+from gazelle.compat.unsupported.placeholders import PlaceholderFinder
 
 __all__ = ["install"]
 
@@ -35,9 +35,9 @@ def install() -> None:
 
         workspace = _WorkspaceFinder()
         configs = ConfigFinder(workspace.folder)
-        last = RefusingFinder()
+        last = UnsupportedModuleFinder()
         sys.meta_path += [workspace, _InterfaceFinder(workspace), configs, last]
-        sys.meta_path.insert(0, AttachingFinder())
+        sys.meta_path.insert(0, PlaceholderFinder())
 
 
 class _WorkspaceFinder(MetaPathFinder):

@@ -142,11 +142,11 @@ class Cache(SimpleFilter):
         """Return the time of the oldest message that is kept, or None."""
         return self._time(0)
 
-    def _time(self, place: int) -> Any:
+    def _time(self, index: int) -> Any:
         if not self._times:
             return None
         node = getattr(self._source, "node", None)
-        return time_of(self._times[place], 1 if node is None else 2)
+        return time_of(self._times[index], 1 if node is None else 2)
 
 
 class TimeSynchronizer(SimpleFilter):

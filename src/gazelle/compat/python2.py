@@ -15,7 +15,7 @@ import sys
 from types import CodeType
 from typing import Any
 
-from gazelle.compat.warn_once import is_news
+from gazelle.compat.warn_once import is_first_time
 from gazelle.folders import cache_folder
 
 __all__ = ["compile_source", "is_python2", "translated"]
@@ -154,5 +154,5 @@ def _decoded(source: bytes) -> str:
 
 def _tell(file: str) -> None:
     text = f"{file}: info: Python 2 source, translated on the fly; the file stays as it is "
-    if is_news(text):
+    if is_first_time(text):
         sys.stderr.write(f"{text}[launch.python2]\n")

@@ -76,9 +76,9 @@ def _of_text(file: str | None) -> RosVersion | None:
 
 
 def _text(file: str | None) -> str:
-    words = sys.orig_argv
-    if file in (None, "<string>") and "-c" in words[:-1]:
-        return words[words.index("-c") + 1]
+    argv = sys.orig_argv
+    if file in (None, "<string>") and "-c" in argv[:-1]:
+        return argv[argv.index("-c") + 1]
     if file is None or file.startswith("<"):
         return ""
     try:
@@ -104,10 +104,10 @@ def _of_package(file: str | None) -> RosVersion | None:
 def _share_folders(path: Path) -> list[Path]:
     """Return ``PREFIX/share/PACKAGE`` of a module in ``PREFIX/lib/pythonX.Y/site-packages``."""
     parts = path.parts
-    place = next((parts.index(name) for name in _INSTALLED if name in parts[:-1]), 0)
-    if place < _PREFIX_LEVELS:
+    index = next((parts.index(name) for name in _INSTALLED if name in parts[:-1]), 0)
+    if index < _PREFIX_LEVELS:
         return []
-    return [Path(*parts[: place - 2], "share", Path(parts[place + 1]).stem)]
+    return [Path(*parts[: index - 2], "share", Path(parts[index + 1]).stem)]
 
 
 def _either(ros1: bool, ros2: bool) -> RosVersion | None:

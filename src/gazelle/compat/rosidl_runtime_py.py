@@ -199,13 +199,13 @@ def set_message_fields(
     return []
 
 
-def _of_part(identifier: str, part: str, word: str) -> Any:
+def _of_part(identifier: str, part: str, what: str) -> Any:
     parts = identifier.split("/")
     if len(parts) != 3 or not all(parts):
-        text = f"Expected the full name of {word}, got '{identifier}'"
+        text = f"Expected the full name of {what}, got '{identifier}'"
         raise ValueError(f"{text}; write it as package/{part}/Name")
     if parts[1] != part:
-        raise ValueError(f"Expected the full name of {word}, got '{identifier}': no {part}")
+        raise ValueError(f"Expected the full name of {what}, got '{identifier}': no {part}")
     return _PARTS[part](identifier)
 
 

@@ -34,8 +34,8 @@ class _Case(NamedTuple):
 class _Result(unittest.TextTestResult):
     """Keeps what each test came to."""
 
-    def __init__(self, *words: Any) -> None:
-        super().__init__(*words)
+    def __init__(self, *args: Any) -> None:
+        super().__init__(*args)
         self.cases: list[_Case] = []
         self._start_s = 0.0
 
@@ -81,9 +81,9 @@ class _Result(unittest.TextTestResult):
         self.cases.append(_Case(classname, name + bracket + values, seconds, problem, kind, text))
 
 
-def result_file(words: Iterable[str]) -> Path | None:
+def result_file(argv: Iterable[str]) -> Path | None:
     """Return the file that ``--gtest_output=xml:FILE`` names, None without it."""
-    found = [word.removeprefix(_OPTION) for word in words if word.startswith(_OPTION)]
+    found = [argument.removeprefix(_OPTION) for argument in argv if argument.startswith(_OPTION)]
     return Path(found[-1]) if found else None
 
 
@@ -172,7 +172,7 @@ def unitrun(
 run = rosrun
 
 
-def _run(package: str, test_name: str, test: Any, words: Sequence[str]) -> None:
+def _run(package: str, test_name: str, test: Any, argv: Sequence[str]) -> None:
     loader = unittest.TestLoader()
     if isinstance(test, str):
         module, _, name = test.rpartition(".")
@@ -182,5 +182,5 @@ def _run(package: str, test_name: str, test: Any, words: Sequence[str]) -> None:
         if isinstance(test, type) and issubclass(test, unittest.TestCase)
         else unittest.TestSuite([test()])
     )
-    if not run_suite(suite, f"{package}.{test_name}", result_file(words)):
+    if not run_suite(suite, f"{package}.{test_name}", result_file(argv)):
         sys.exit(1)

@@ -34,8 +34,8 @@ def installed_or_refused(name: str) -> None:
         ImportError: it is not installed.
     """
     top = name.partition(".")[0]
-    places = [place for place in sys.path if Path(place or ".").resolve() != _FOLDER.resolve()]
-    spec = importlib.machinery.PathFinder.find_spec(top, places)
+    folders = [folder for folder in sys.path if Path(folder or ".").resolve() != _FOLDER.resolve()]
+    spec = importlib.machinery.PathFinder.find_spec(top, folders)
     if spec is None or spec.loader is None:
         raise ImportError(_TEXT.format(name=name), name=name)
     module = module_from_spec(spec)

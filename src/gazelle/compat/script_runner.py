@@ -14,9 +14,9 @@ from gazelle.process_start import collect_garbage_rarely
 __all__ = ["main", "run_script"]
 
 
-def main(words: list[str]) -> int:
+def main(argv: list[str]) -> int:
     """Run the script named first with the rest as its arguments."""
-    if not words:
+    if not argv:
         sys.stderr.write("usage: python -m gazelle.compat.script_runner SCRIPT [args…]\n")
         return 2
     end_at_interrupts()
@@ -32,13 +32,13 @@ def main(words: list[str]) -> int:
         sys.path.insert(1, drop_ins)
     install()
     function = ""
-    if words[0] == "--entry":
+    if argv[0] == "--entry":
         # One of several console scripts whose functions are in one file.
-        function, words = words[1], words[2:]
-    path = Path(words[0])
+        function, argv = argv[1], argv[2:]
+    path = Path(argv[0])
     entry = _entry_point(path, function)
     raise_interrupts()
-    return run_script(path, words) if entry is None else _run_entry_point(*entry, words)
+    return run_script(path, argv) if entry is None else _run_entry_point(*entry, argv)
 
 
 def run_script(path: Path, argv: list[str]) -> int:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import sys
 from collections.abc import Hashable
 
-__all__ = ["is_news", "warn_once"]
+__all__ = ["is_first_time", "warn_once"]
 
 _TOLD: set[Hashable] = set()
 
 
-def is_news(what: Hashable) -> bool:
+def is_first_time(what: Hashable) -> bool:
     """Return True the first time that something is to be told, False ever after."""
     if what in _TOLD:
         return False
@@ -20,5 +20,5 @@ def is_news(what: Hashable) -> bool:
 
 def warn_once(text: str) -> None:
     """Write a warning to the standard error, the first time only."""
-    if is_news(text):
+    if is_first_time(text):
         sys.stderr.write(f"[WARN] {text}\n")

@@ -10,8 +10,8 @@ def test_dotted_names_in_the_sentences_exist(passes: Callable[..., Any]) -> None
     passes(r"""
 import re
 from importlib import import_module
-from gazelle.compat.unsupported.modules import REFUSED
-from gazelle.compat.unsupported.attributes import REFUSED_PARTS
+from gazelle.compat.unsupported.modules import UNSUPPORTED_MODULES
+from gazelle.compat.unsupported.attributes import UNSUPPORTED_ATTRIBUTES
 
 def exists(name):
     parts = name.split(".")
@@ -25,7 +25,7 @@ def exists(name):
         return thing is not None
     return False
 
-sentences = {row.reason for row in (*REFUSED, *REFUSED_PARTS)}
+sentences = {row.reason for row in (*UNSUPPORTED_MODULES, *UNSUPPORTED_ATTRIBUTES)}
 named = {name for one in sentences for name in re.findall(r"\b[a-z_0-9]+(?:\.\w+)+", one)}
 assert len(named) > 20
 assert not [name for name in sorted(named) if not exists(name)]

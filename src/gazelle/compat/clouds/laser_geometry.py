@@ -94,8 +94,8 @@ def _cloud(scan: Any, columns: dict[str, Any]) -> Any:
     make = ros1_message_type if isinstance(scan, Ros1Message) else message_type
     field = make("sensor_msgs/PointField")
     fields = [
-        field(name=name, offset=4 * place, datatype=_FIELDS.get(name, 7), count=1)
-        for place, name in enumerate(columns)
+        field(name=name, offset=4 * index, datatype=_FIELDS.get(name, 7), count=1)
+        for index, name in enumerate(columns)
     ]
     kind = dtype_from_fields(fields)
     points = np.zeros(len(columns["x"]), kind)

@@ -40,8 +40,8 @@ def read_points(
     points = cloud_points(cloud)
     if field_names is not None:
         points = points[_columns(points.dtype.names or (), cloud, field_names)]
-    places = list(uvs)
-    chosen = np.array([points[v, u] for u, v in places], points.dtype) if places else points
+    pixels = list(uvs)
+    chosen = np.array([points[v, u] for u, v in pixels], points.dtype) if pixels else points
     for row in chosen.ravel().tolist():
         # NaN alone differs from itself.
         if not skip_nans or all(value == value for value in row):  # noqa: PLR0124

@@ -39,8 +39,8 @@ def dtype_from_fields(
     names: list[str] = []
     formats: list[str] = []
     offsets: list[int] = []
-    for place, field in enumerate(fields):
-        name = field.name or f"unnamed_field_{place}"
+    for index, field in enumerate(fields):
+        name = field.name or f"unnamed_field_{index}"
         if field.datatype not in _FORMATS:
             raise ValueError(f"field '{name}' has datatype {field.datatype}; known are 1 to 8")
         one = np.dtype((">" if big else "<") + _FORMATS[field.datatype])
@@ -108,5 +108,5 @@ def packed(points: NDArray[Any]) -> NDArray[Any]:
 def xyz32_fields(kind: Any) -> list[Any]:
     """Return fields x, y and z of 32 bits each."""
     return [
-        kind(name=name, offset=4 * place, datatype=7, count=1) for place, name in enumerate("xyz")
+        kind(name=name, offset=4 * index, datatype=7, count=1) for index, name in enumerate("xyz")
     ]

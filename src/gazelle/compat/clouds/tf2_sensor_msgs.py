@@ -28,8 +28,8 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
         )
     old = np.stack([points[name].astype(float) for name in "xyz"], axis=-1)
     new = pose_of_transform(transform.transform).transform(old)
-    for place, name in enumerate("xyz"):
-        points[name] = new[..., place]
+    for index, name in enumerate("xyz"):
+        points[name] = new[..., index]
     found = copy.copy(cloud)
     found.header = copy.deepcopy(transform.header)
     found.row_step = int(cloud.width) * int(cloud.point_step)

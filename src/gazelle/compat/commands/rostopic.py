@@ -274,9 +274,9 @@ def get_info_text(topic: str) -> str:
     if found is None:
         raise ROSTopicException(f"Unknown topic {topic}")
     parts = [f"Type: {ros1_type_of(found.type_name)}\n\n"]
-    for word, nodes in (("Publishers", found.publishers), ("Subscribers", found.subscriptions)):
+    for heading, nodes in (("Publishers", found.publishers), ("Subscribers", found.subscriptions)):
         rows = "".join(f" * {node}\n" for node in nodes)
-        parts.append(f"{word}: \n{rows}\n" if rows else f"{word}: None\n\n")
+        parts.append(f"{heading}: \n{rows}\n" if rows else f"{heading}: None\n\n")
     return "".join(parts)
 
 
@@ -296,14 +296,14 @@ def _covers(name: str, wanted: str) -> bool:
 
 def _taker(path: str) -> Callable[[Any], Any] | None:
     """Return what takes ``/pose/position`` or ``/ranges[0]`` of a message; None for all of it."""
-    words = [word for word in path.replace("[", "/[").split("/") if word]
-    if not words:
+    steps = [step for step in path.replace("[", "/[").split("/") if step]
+    if not steps:
         return None
 
     def take(message: Any) -> Any:
-        for word in words:
-            index = word[1:-1] if word.startswith("[") else None
-            message = getattr(message, word) if index is None else message[int(index)]
+        for step in steps:
+            index = step[1:-1] if step.startswith("[") else None
+            message = getattr(message, step) if index is None else message[int(index)]
         return message
 
     return take

@@ -173,11 +173,11 @@ def _checked(cvim: Any) -> tuple[Image, str]:
 
 
 def _cv_type(dtype: np.dtype[Any], channels: int) -> str:
-    word = CV_NAMES.get(dtype.name)
-    if word is None:
+    cv_name = CV_NAMES.get(dtype.name)
+    if cv_name is None:
         text = f"OpenCV has no images of type {dtype.name}"
         raise CvBridgeError(f"{text}\n  fix: convert it, for example with .astype('uint8')")
-    return f"{word}C{channels}"
+    return f"{cv_name}C{channels}"
 
 
 def _message(name: str) -> Any:

@@ -25,7 +25,7 @@ CV_NAMES = {
     "float32": "32F",
     "float64": "64F",
 }
-_DTYPES = {word: name for name, word in CV_NAMES.items()}
+_DTYPES = {cv_name: name for name, cv_name in CV_NAMES.items()}
 _PLAIN = re.compile(r"(8U|8S|16U|16S|32S|32F|64F)(?:C(\d+))?")
 _COLOURS = ("rgb", "bgr", "rgba", "bgra")
 _SINGLE = ("mono", "bayer_rggb", "bayer_bggr", "bayer_gbrg", "bayer_grbg")
@@ -138,23 +138,23 @@ def _recoloured(image: Image, given: Encoding, wanted: Encoding, source: str, ta
 def _reordered(image: Image, order: str, wanted: str) -> Image:
     full = np.iinfo(image.dtype).max
     planes = {"r": image, "g": image, "b": image} if order == "mono" else {}
-    planes |= {letter: image[..., place] for place, letter in enumerate(order) if order != "mono"}
+    planes |= {letter: image[..., index] for index, letter in enumerate(order) if order != "mono"}
     planes.setdefault("a", np.full(image.shape[:2], full, image.dtype))
     return np.stack([planes[letter] for letter in wanted], axis=-1)
 
 
 def _grey(image: Image, order: str) -> Image:
     total = np.full(image.shape[:2], 1 << (_SHIFT - 1), np.uint32)
-    for place, letter in enumerate(order):
+    for index, letter in enumerate(order):
         if letter in _GREY:
-            total += image[..., place].astype(np.uint32) * np.uint32(_GREY[letter])
+            total += image[..., index].astype(np.uint32) * np.uint32(_GREY[letter])
     return (total >> _SHIFT).astype(image.dtype)
 
 
 def _of_yuv(image: Image, order: str) -> Image:
     """Return RGB of ``uyvy`` or ``yuyv``, where two pixels share u and v (ITU-R BT.601)."""
     pairs = image.reshape(image.shape[0], -1, 4).astype(float)
-    first = {letter: place for place, letter in reversed(list(enumerate(order)))}
+    first = {letter: index for index, letter in reversed(list(enumerate(order)))}
     luma = pairs[..., [first["y"], first["y"] + 2]].reshape(image.shape[:2]) - 16.0
     u = np.repeat(pairs[..., first["u"]], 2, axis=1) - 128.0
     v = np.repeat(pairs[..., first["v"]], 2, axis=1) - 128.0

@@ -40,10 +40,10 @@ def pose_constraints(
     header = {"frame_id": frame}
     fields: dict[str, Any] = {}
     if position_m is not None:
-        place = dict(zip("xyz", map(float, position_m), strict=True))
+        position = dict(zip("xyz", map(float, position_m), strict=True))
         region = {
             "primitives": [{"type": 2, "dimensions": [position_tolerance_m]}],
-            "primitive_poses": [{"position": place, "orientation": {"w": 1.0}}],
+            "primitive_poses": [{"position": position, "orientation": {"w": 1.0}}],
         }
         fields["position_constraints"] = [
             {"header": header, "link_name": link, "constraint_region": region, "weight": 1.0}
@@ -119,9 +119,11 @@ class Targets:
         if known and known[0][1] is not None and known[0][2] is not None:
             frame, pose = known[0][0], Pose(tuple(known[0][1]), tuple(known[0][2]))
         if axis < 3:
-            place = np.array(pose.position_m)
-            place[axis] += value
-            pose = Pose((float(place[0]), float(place[1]), float(place[2])), pose.quat_xyzw)
+            position = np.array(pose.position_m)
+            position[axis] += value
+            pose = Pose(
+                (float(position[0]), float(position[1]), float(position[2])), pose.quat_xyzw
+            )
         else:
             angles = [*pose.rpy_rad]
             angles[axis - 3] += value

@@ -17,12 +17,12 @@ from gazelle.motion.model import JointGroup, RobotModel
 from gazelle.nodes.move_group.planning_scene_monitor import StateMonitor
 from gazelle.workspace import Workspace
 
-__all__ = ["RobotView"]
+__all__ = ["RobotInterface"]
 
 _STATE_S = 1.0
 
 
-class RobotView:
+class RobotInterface:
     """A robot with the positions that ``joint_states`` tells.
 
     Attributes:
@@ -35,7 +35,7 @@ class RobotView:
         self.states = states
 
     @classmethod
-    def of_node(cls, node: Node, description: str = "robot_description") -> RobotView:
+    def of_node(cls, node: Node, description: str = "robot_description") -> RobotInterface:
         """Return the robot that a parameter describes.
 
         Raises:

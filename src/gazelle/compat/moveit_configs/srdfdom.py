@@ -236,4 +236,4 @@ def _spheres(tag: Tag) -> LinkSphereApproximation:
 
 
 def _numbers(text: str) -> list[float]:
-    return [float(word) for word in text.split()]
+    return [float(token) for token in text.split()]

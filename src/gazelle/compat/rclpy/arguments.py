@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.compat.warn_once import is_news
+from gazelle.compat.warn_once import is_first_time
 from gazelle.errors import GraphError
 from gazelle.ros_arguments import (
     LOG_LEVEL,
@@ -96,7 +96,7 @@ class RosArguments:
 
 def _tell_once(found: Iterable[Diagnostic]) -> None:
     """Show what is odd in parameter files, once for all nodes of a process."""
-    new = [one for one in found if is_news(one)]
+    new = [one for one in found if is_first_time(one)]
     if new:
         from gazelle.diagnostics import render
 

@@ -211,11 +211,11 @@ class Executor:
     def _next(self) -> tuple[Task, Work | None] | None:
         if self._tasks:
             return self._tasks.popleft()
-        for place, node in enumerate(self._nodes):
+        for index, node in enumerate(self._nodes):
             found = node.next_work()
             if found is not None:
                 # The next time another node comes first.
-                self._nodes = self._nodes[place + 1 :] + self._nodes[: place + 1]
+                self._nodes = self._nodes[index + 1 :] + self._nodes[: index + 1]
                 work, callback = found
                 return Task(callback, executor=self), work
         return None

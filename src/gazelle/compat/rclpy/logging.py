@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.compat.warn_once import is_news
+from gazelle.compat.warn_once import is_first_time
 from gazelle.interfaces import message_type, service_type
 
 if TYPE_CHECKING:
@@ -170,20 +170,20 @@ def detach_node(name: str) -> None:
     _nodes.pop(name, None)
 
 
-def _passes(place: tuple[str, int], rules: dict[str, Any]) -> bool:
-    if rules.get("skip_first") and place not in _skipped:
-        _skipped.add(place)
+def _passes(call_site: tuple[str, int], rules: dict[str, Any]) -> bool:
+    if rules.get("skip_first") and call_site not in _skipped:
+        _skipped.add(call_site)
         return False
-    if rules.get("once") and not is_news(place):
+    if rules.get("once") and not is_first_time(call_site):
         return False
     period_s = rules.get("throttle_duration_sec")
     if period_s is not None:
         clock = rules.get("throttle_time_source_type")
         now_ns: Callable[[], int] = getattr(clock, "now_ns", time.monotonic_ns)
-        last_ns = _throttled.get(place)
+        last_ns = _throttled.get(call_site)
         if last_ns is not None and now_ns() - last_ns < period_s * 1e9:
             return False
-        _throttled[place] = now_ns()
+        _throttled[call_site] = now_ns()
     return True
 
 
@@ -202,8 +202,8 @@ def offer_logger_levels(node: Node) -> None:
         ("get_logger_levels", _answer_levels),
         ("set_logger_levels", _take_levels),
     ):
-        words = "".join(word.capitalize() for word in name.split("_"))
-        kind = service_type(f"rcl_interfaces/srv/{words}")
+        service = "".join(part.capitalize() for part in name.split("_"))
+        kind = service_type(f"rcl_interfaces/srv/{service}")
         node.create_service(kind, f"{node.get_name()}/{name}", handler)
 
 

@@ -33,7 +33,7 @@ class _Fault(NamedTuple):
     """What is wrong with a name, and at which character."""
 
     text: str
-    place: int
+    position: int
 
 
 _SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
@@ -149,25 +149,25 @@ def _topic_fault(name: str) -> _Fault | None:
 
 def _character_fault(name: str) -> _Fault | None:
     opened = -1
-    for place, letter in enumerate(name):
-        if letter == "~" and place:
+    for position, letter in enumerate(name):
+        if letter == "~" and position:
             text = "topic name must not have tilde '~' unless it is the first character"
-            return _Fault(text, place)
+            return _Fault(text, position)
         if letter in "{}":
             if (letter == "{") == (opened >= 0):
-                return _unbalanced(place)
-            opened = place if letter == "{" else -1
+                return _unbalanced(position)
+            opened = position if letter == "{" else -1
         elif opened >= 0 and not _plain(letter):
             text = "substitution name must not contain characters other than alphanumerics or '_'"
-            return _Fault(text, place)
+            return _Fault(text, position)
         elif not _plain(letter) and letter not in "/~":
             allowed = "alphanumerics, '_', '~', '{', or '}'"
-            return _Fault(f"topic name must not contain characters other than {allowed}", place)
+            return _Fault(f"topic name must not contain characters other than {allowed}", position)
     return _unbalanced(opened) if opened >= 0 else None
 
 
-def _unbalanced(place: int) -> _Fault:
-    return _Fault("topic name must not have unmatched (unbalanced) curly braces '{}'", place)
+def _unbalanced(position: int) -> _Fault:
+    return _Fault("topic name must not have unmatched (unbalanced) curly braces '{}'", position)
 
 
 def _full_fault(name: str, kind: str, *, end: str) -> _Fault | None:
@@ -177,10 +177,10 @@ def _full_fault(name: str, kind: str, *, end: str) -> _Fault | None:
         return _Fault(f"{kind} must be absolute, it must lead with a '/'", 0)
     if name.endswith("/"):
         return _Fault(end, len(name) - 1)
-    for place, letter in enumerate(name):
+    for position, letter in enumerate(name):
         if not _plain(letter) and letter != "/":
             text = f"{kind} must not contain characters other than alphanumerics, '_', or '/'"
-            return _Fault(text, place)
+            return _Fault(text, position)
     if "//" in name:
         return _Fault(f"{kind} must not contain repeated '/'", name.index("//") + 1)
     return _token_fault(name, f"{kind} must not have a token that starts with a number")
@@ -189,10 +189,10 @@ def _full_fault(name: str, kind: str, *, end: str) -> _Fault | None:
 def _node_fault(name: str) -> _Fault | None:
     if not name:
         return _Fault("node name must not be empty", 0)
-    for place, letter in enumerate(name):
+    for position, letter in enumerate(name):
         if not _plain(letter):
             text = "node name must not contain characters other than alphanumerics or '_'"
-            return _Fault(text, place)
+            return _Fault(text, position)
     return _Fault("node name must not start with a number", 0) if name[0].isdigit() else None
 
 

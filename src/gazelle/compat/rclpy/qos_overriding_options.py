@@ -84,10 +84,10 @@ def overridden(
     base = f"qos_overrides.{topic}.{kind}{suffix}"
     about = f"for {kind} `{topic}` with id `{options.entity_id}`"
     for policy in options.policy_kinds:
-        word = policy.name.lower()
-        if word == "lifespan" and kind == "subscription":
+        policy_name = policy.name.lower()
+        if policy_name == "lifespan" and kind == "subscription":
             continue
-        _override(node, f"{base}.{word}", word, changed, f"{word} {about}")
+        _override(node, f"{base}.{policy_name}", policy_name, changed, f"{policy_name} {about}")
     if options.callback is not None:
         result = options.callback(changed)
         if not result.successful:
@@ -96,8 +96,8 @@ def overridden(
     return changed
 
 
-def _override(node: Node, name: str, word: str, qos: QoSProfile, description: str) -> None:
-    present = getattr(qos, word)
+def _override(node: Node, name: str, policy_name: str, qos: QoSProfile, description: str) -> None:
+    present = getattr(qos, policy_name)
     if not node.has_parameter(name):
         descriptor = message_type("rcl_interfaces/msg/ParameterDescriptor")
         about = descriptor(description=description, read_only=True)
@@ -107,11 +107,13 @@ def _override(node: Node, name: str, word: str, qos: QoSProfile, description: st
         known = type(present).short_keys()  # type: ignore[attr-defined]
         if value not in known:
             hint = did_you_mean(str(value), known)
-            raise RuntimeError(f"Unexpected QoS override for policy `{word}`: `{value}`; {hint}")
+            raise RuntimeError(
+                f"Unexpected QoS override for policy `{policy_name}`: `{value}`; {hint}"
+            )
         value = type(present)[value.upper()]
     elif isinstance(present, Duration):
         value = Duration(nanoseconds=value)
-    setattr(qos, word, value)
+    setattr(qos, policy_name, value)
 
 
 def _as_parameter(value: Any) -> Any:

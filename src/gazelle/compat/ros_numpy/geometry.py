@@ -129,9 +129,13 @@ def _from_matrix(arr: ArrayLike, make: Any) -> Any:
 
     def convert(matrix: Array) -> Any:
         made = make()
-        place, turn = (getattr(made, item.name) for item in make.FIELDS)
-        place.x, place.y, place.z = map(float, transformations.translation_from_matrix(matrix))
-        turn.x, turn.y, turn.z, turn.w = map(float, transformations.quaternion_from_matrix(matrix))
+        translation, rotation = (getattr(made, item.name) for item in make.FIELDS)
+        translation.x, translation.y, translation.z = map(
+            float, transformations.translation_from_matrix(matrix)
+        )
+        rotation.x, rotation.y, rotation.z, rotation.w = map(
+            float, transformations.quaternion_from_matrix(matrix)
+        )
         return made
 
     return _each(matrices, 2, convert)

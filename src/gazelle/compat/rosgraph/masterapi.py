@@ -85,9 +85,9 @@ def parse_http_host_and_port(url: str) -> tuple[str, int]:
 
 def get_address_override() -> str | None:
     """Return ``__hostname:=`` or ``__ip:=``, ``ROS_HOSTNAME`` or ``ROS_IP``; None without them."""
-    for word in sys.argv:
-        if word.startswith(("__hostname:=", "__ip:=")):
-            return word.partition(":=")[2]
+    for argument in sys.argv:
+        if argument.startswith(("__hostname:=", "__ip:=")):
+            return argument.partition(":=")[2]
     return os.environ.get(ROS_HOSTNAME, os.environ.get(ROS_IP))
 
 

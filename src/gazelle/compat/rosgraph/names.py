@@ -156,8 +156,8 @@ def script_resolve_name(script_name: str, name: str) -> str:
 def load_mappings(argv: Sequence[str]) -> dict[str, str]:
     """Return ``a:=b`` of a command line, ``__name:=b`` too; ``_parameter:=b`` is none."""
     found: dict[str, str] = {}
-    for word in argv:
-        old, _, new = (part.strip() for part in word.partition(REMAP))
+    for argument in argv:
+        old, _, new = (part.strip() for part in argument.partition(REMAP))
         is_parameter = old.startswith("_") and not old.startswith("__")
         if old and new and not is_parameter and REMAP not in new:
             found[old] = new

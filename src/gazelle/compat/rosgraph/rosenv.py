@@ -23,8 +23,8 @@ DEFAULT_MASTER_URI = f"http://localhost:{DEFAULT_MASTER_PORT}"
 
 def get_master_uri(env: Mapping[str, str] | None = None, argv: Sequence[str] | None = None) -> str:
     """Return ``__master:=`` of a command line, or ``ROS_MASTER_URI``."""
-    words = sys.argv if argv is None else argv
-    given = [word.partition(":=")[2] for word in words if word.startswith("__master:=")]
+    arguments = sys.argv if argv is None else argv
+    given = [one.partition(":=")[2] for one in arguments if one.startswith("__master:=")]
     if given:
         return given[0]
     return (os.environ if env is None else env).get(ROS_MASTER_URI, DEFAULT_MASTER_URI)

@@ -51,7 +51,7 @@ class Node:
         env_args: pairs of a variable and its value.
         output: ``screen`` or ``log``.
         cwd: ``ROS_HOME`` or ``node``.
-        launch_prefix: words before the command.
+        launch_prefix: what stands before the command.
         required: end everything with it.
         filename: where it was asked for, for messages.
     """
@@ -93,7 +93,7 @@ class Node:
             "launch-prefix": self.launch_prefix,
         }
         given = ((name, value) for name, value in values.items() if value is not None)
-        words = " ".join(f"{name}={quoteattr(value)}" for name, value in given)
+        attributes = " ".join(f"{name}={quoteattr(value)}" for name, value in given)
         inside = "".join(
             f"<remap from={quoteattr(old)} to={quoteattr(new)}/>"
             for old, new in self.remap_args or ()
@@ -102,7 +102,7 @@ class Node:
             f"<env name={quoteattr(name)} value={quoteattr(str(value))}/>"
             for name, value in self.env_args or ()
         )
-        return f"<launch><node {words}>{inside}</node></launch>"
+        return f"<launch><node {attributes}>{inside}</node></launch>"
 
 
 class ProcessListener:
@@ -172,25 +172,25 @@ class Process:
 
 def start_launch(
     name: str,
-    words: Sequence[str],
+    argv: Sequence[str],
     *,
     package: str = "",
     text: str | None = None,
     patience_s: float = 17.0,
     port: int | None = None,
 ) -> Process:
-    """Start ``gazelle roslaunch`` with these words.
+    """Start ``gazelle roslaunch`` with these arguments.
 
     Args:
         name: of the process, for messages.
-        words: options, a file and its arguments; ``-`` for a launch file given as `text`.
+        argv: options, a file and its arguments; ``-`` for a launch file given as `text`.
         package: of the node.
         text: what the launch reads from its standard input.
         patience_s: the time that its nodes have to end.
         port: of the graph.
     """
     popen = subprocess.Popen(
-        [sys.executable, "-m", "gazelle.cli", "roslaunch", *words],
+        [sys.executable, "-m", "gazelle.cli", "roslaunch", *argv],
         stdin=subprocess.DEVNULL if text is None else subprocess.PIPE,
         start_new_session=True,
         text=True,

@@ -64,7 +64,7 @@ class ROSLaunchParent:
         sigterm_timeout: float = 2.0,
     ) -> None:
         self.run_id = run_id
-        self._files = [_with_words(one) for one in roslaunch_files or ()]
+        self._files = [_with_launch_args(one) for one in roslaunch_files or ()]
         self._texts = list(roslaunch_strs or ())
         self._is_core = is_core
         self._port = port
@@ -96,12 +96,12 @@ class ROSLaunchParent:
             RLException: a file does not exist or has errors.
         """
         self._auto_terminate = auto_terminate
-        for path, words in self._files:
-            _check(path, words)
+        for path, launch_args in self._files:
+            _check(path, launch_args)
         if self._is_core:
             self._start("roscore", [*self._options, "--core"])
-        for path, words in self._files:
-            self._start(path, [*self._options, path, *words])
+        for path, launch_args in self._files:
+            self._start(path, [*self._options, path, *launch_args])
         for number, text in enumerate(self._texts):
             self._start(f"<string {number}>", [*self._options, "-"], text)
         atexit.register(self.shutdown)
@@ -130,24 +130,24 @@ class ROSLaunchParent:
         for text in errors:
             sys.stderr.write(f"{text}\n")
 
-    def _start(self, name: str, words: list[str], text: str | None = None) -> None:
-        made = start_launch(name, words, text=text, patience_s=self._patience_s, port=self._port)
+    def _start(self, name: str, argv: list[str], text: str | None = None) -> None:
+        made = start_launch(name, argv, text=text, patience_s=self._patience_s, port=self._port)
         self._processes.append(made)
 
 
-def _with_words(file: File) -> tuple[str, list[str]]:
+def _with_launch_args(file: File) -> tuple[str, list[str]]:
     if isinstance(file, str | Path):
-        own = [word for word in sys.argv[1:] if ":=" in word and not word.startswith(("-", "_"))]
+        own = [one for one in sys.argv[1:] if ":=" in one and not one.startswith(("-", "_"))]
         return str(file), own
-    path, words = file
-    return str(path), list(words)
+    path, launch_args = file
+    return str(path), list(launch_args)
 
 
-def _check(path: str, words: list[str]) -> None:
+def _check(path: str, launch_args: list[str]) -> None:
     if not Path(path).is_file():
         raise RLException(f"[{path}] does not exist: roslaunch file not found")
     diagnostics = Diagnostics()
-    args = dict(word.split(":=", 1) for word in words if ":=" in word)
+    args = dict(one.split(":=", 1) for one in launch_args if ":=" in one)
     try:
         workspace = Workspace.discover()
         load_launch_files([Path(path)], args, workspace=workspace, diagnostics=diagnostics)

@@ -27,14 +27,14 @@ def resolve_launch_arguments(args: Sequence[str]) -> list[str]:
     Raises:
         RLException: there is no such file.
     """
-    words = [word for word in args if ":=" not in word]
-    if not words:
+    files = [one for one in args if ":=" not in one]
+    if not files:
         raise RLException("no launch file was named")
-    if len(words) == 1 or Path(words[0]).is_file():
-        if not Path(words[0]).is_file():
-            raise RLException(f"[{words[0]}] is not a launch file name")
-        return [str(Path(words[0]).resolve()), *words[1:]]
-    package, file, *rest = words
+    if len(files) == 1 or Path(files[0]).is_file():
+        if not Path(files[0]).is_file():
+            raise RLException(f"[{files[0]}] is not a launch file name")
+        return [str(Path(files[0]).resolve()), *files[1:]]
+    package, file, *rest = files
     try:
         folder = Workspace.discover().package(package).share
     except NotFoundError as error:

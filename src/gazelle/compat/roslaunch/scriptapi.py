@@ -64,8 +64,8 @@ class ROSLaunch:
             text = "; ".join(str(one.message) for one in diagnostics)
             raise RLException(f"unable to launch [{node.package}/{node.node_type}]: {text}")
         name = f"{node.namespace.rstrip('/')}/{node.own_name}"
-        words = ["--no-summary", "-"]
-        made = start_launch(name, words, package=node.package, text=node.to_xml())
+        argv = ["--no-summary", "-"]
+        made = start_launch(name, argv, package=node.package, text=node.to_xml())
         self._nodes.append(made)
         return made
 

@@ -8,7 +8,7 @@ from types import FrameType
 from typing import Any
 
 from gazelle.compat.rospy.state import STATE
-from gazelle.compat.warn_once import is_news
+from gazelle.compat.warn_once import is_first_time
 from gazelle.graph import Level
 
 __all__ = [
@@ -40,12 +40,12 @@ def _place() -> tuple[str, int]:
     return frame.f_code.co_filename, frame.f_lineno
 
 
-def _due(place: tuple[str, int], period: float, text: str, *, identical: bool) -> bool:
+def _due(call_site: tuple[str, int], period: float, text: str, *, identical: bool) -> bool:
     """Return whether a throttled message may be said; the clock is the node's."""
     now = time.monotonic() if STATE.node is None else STATE.node.clock.now_ns() / 1e9
-    last, last_text = _last.get(place, (float("-inf"), ""))
+    last, last_text = _last.get(call_site, (float("-inf"), ""))
     if (identical and text != last_text) or now - last >= period or now < last:
-        _last[place] = (now, text)
+        _last[call_site] = (now, text)
         return True
     return False
 
@@ -93,7 +93,7 @@ def _throttled(level: Level, *, identical: bool) -> Any:
 
 def _once(level: Level) -> Any:
     def log(msg: Any, *args: Any, **kwargs: Any) -> None:
-        if is_news(_place()):
+        if is_first_time(_place()):
             _log(level, msg, args, kwargs)
 
     log.__doc__ = f"Say something at {level.name.lower()} level, once from this place."

@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 from gazelle.compat.unsupported.attributes_ros1 import ROS1_GROUPS
 
-__all__ = ["REFUSED_PARTS", "RefusedPart"]
+__all__ = ["UNSUPPORTED_ATTRIBUTES", "UnsupportedAttribute"]
 
 
-class RefusedPart(NamedTuple):
+class UnsupportedAttribute(NamedTuple):
     """Why a name is not here.
 
     Attributes:
@@ -25,13 +25,13 @@ class RefusedPart(NamedTuple):
     reason: str
 
 
-def _of(reason: str, *owners: str) -> list[RefusedPart]:
+def _of(reason: str, *owners: str) -> list[UnsupportedAttribute]:
     """Return rows of ``owner: name name …``; a name that begins with a bracket is a keyword."""
     rows = []
     for line in owners:
         owner, _, names = line.partition(": ")
         rows += [
-            RefusedPart(f"{owner}{name}" if name[0] == "(" else f"{owner}.{name}", reason)
+            UnsupportedAttribute(f"{owner}{name}" if name[0] == "(" else f"{owner}.{name}", reason)
             for name in names.split()
         ]
     return rows
@@ -64,7 +64,7 @@ _NAV2 = (
     "needs a Nav2 server that is not among Gazelle's; goToPose, goThroughPoses, followWaypoints,"
     " followPath, spin, backup and driveOnHeading are"
 )
-_NAV2_WORD = "is a field of newer Nav2 goals that Gazelle's servers do not read; leave it out"
+_NAV2_KEYWORD = "is a field of newer Nav2 goals that Gazelle's servers do not read; leave it out"
 _BAG = (
     "is part of rosbag2's C++ transport; use SequentialReader and SequentialWriter, or run ros2 bag"
     " record, play and convert"
@@ -75,7 +75,7 @@ _FILTER = (
 )
 _LISTENER = "is the inside of tf2_ros; use Buffer, TransformListener and their lookup_transform"
 
-REFUSED_PARTS: tuple[RefusedPart, ...] = tuple(
+UNSUPPORTED_ATTRIBUTES: tuple[UnsupportedAttribute, ...] = tuple(
     sorted(
         [
             *_of(
@@ -299,10 +299,10 @@ REFUSED_PARTS: tuple[RefusedPart, ...] = tuple(
                 " getTaskError setTaskError",
             ),
             *_of(
-                _NAV2_WORD,
+                _NAV2_KEYWORD,
                 *(
-                    f"nav2_simple_commander.robot_navigator.BasicNavigator.{method}: {words}"
-                    for method, words in {
+                    f"nav2_simple_commander.robot_navigator.BasicNavigator.{method}: {keywords}"
+                    for method, keywords in {
                         "backup": "(disable_collision_checks)",
                         "driveOnHeading": "(disable_collision_checks)",
                         "spin": "(disable_collision_checks)",

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 
-from gazelle.compat.unsupported.attributes import REFUSED_PARTS
-from gazelle.compat.unsupported.modules import REFUSED
+from gazelle.compat.unsupported.attributes import UNSUPPORTED_ATTRIBUTES
+from gazelle.compat.unsupported.modules import UNSUPPORTED_MODULES
 
-__all__ = ["refused_markdown"]
+__all__ = ["unsupported_markdown"]
 
 _HEAD = """# Python names of ROS that are not here
 
@@ -21,12 +21,12 @@ arguments of the originals are not among them; who uses one reads the sentence a
 """
 
 
-def refused_markdown() -> str:
+def unsupported_markdown() -> str:
     """Return the page: the names of each sentence in one row."""
     names: dict[str, list[str]] = {}
-    for module, reason in REFUSED:
+    for module, reason in UNSUPPORTED_MODULES:
         names.setdefault(reason, []).append(module)
-    for part, reason in REFUSED_PARTS:
+    for part, reason in UNSUPPORTED_ATTRIBUTES:
         names.setdefault(reason, []).append(part)
     rows = sorted((sorted(found), reason) for reason, found in names.items())
     lines = [
@@ -36,4 +36,4 @@ def refused_markdown() -> str:
 
 
 if __name__ == "__main__":
-    sys.stdout.write(refused_markdown())
+    sys.stdout.write(unsupported_markdown())

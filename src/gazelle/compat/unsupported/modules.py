@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 from gazelle.compat.importlib_abc import MetaPathFinder
 
-__all__ = ["REFUSED", "Refusal", "RefusingFinder", "refusal_of"]
+__all__ = ["UNSUPPORTED_MODULES", "UnsupportedModule", "UnsupportedModuleFinder", "why_unsupported"]
 
 
-class Refusal(NamedTuple):
+class UnsupportedModule(NamedTuple):
     """Why a module is not here.
 
     Attributes:
@@ -24,8 +24,8 @@ class Refusal(NamedTuple):
     reason: str
 
 
-def _rows(reason: str, *modules: str) -> list[Refusal]:
-    return [Refusal(module, reason) for module in modules]
+def _rows(reason: str, *modules: str) -> list[UnsupportedModule]:
+    return [UnsupportedModule(module, reason) for module in modules]
 
 
 _RCLPY = (
@@ -46,7 +46,7 @@ _TESTS = (
     "is the inside of a test runner; write tests with unittest, rostest.rosrun or launch_testing"
 )
 
-REFUSED: tuple[Refusal, ...] = tuple(
+UNSUPPORTED_MODULES: tuple[UnsupportedModule, ...] = tuple(
     sorted(
         [
             *_rows(
@@ -170,10 +170,10 @@ REFUSED: tuple[Refusal, ...] = tuple(
         ]
     )
 )
-_BY_MODULE = {row.module: row for row in REFUSED}
+_BY_MODULE = {row.module: row for row in UNSUPPORTED_MODULES}
 
 
-def refusal_of(name: str) -> str | None:
+def why_unsupported(name: str) -> str | None:
     """Return the sentence for a module that is refused, or None."""
     parts = name.split(".")
     for count in range(len(parts), 0, -1):
@@ -183,7 +183,7 @@ def refusal_of(name: str) -> str | None:
     return None
 
 
-class RefusingFinder(MetaPathFinder):
+class UnsupportedModuleFinder(MetaPathFinder):
     """Tells why a module is not here; it stands behind every other finder."""
 
     def find_spec(
@@ -194,7 +194,7 @@ class RefusingFinder(MetaPathFinder):
         Raises:
             ModuleNotFoundError: the module is one that is refused; with the sentence.
         """
-        sentence = refusal_of(fullname)
+        sentence = why_unsupported(fullname)
         if sentence is not None:
             raise ModuleNotFoundError(sentence, name=fullname)
         return None

@@ -19,17 +19,17 @@ from types import FrameType, ModuleType
 from typing import Any, NoReturn
 
 from gazelle.compat.importlib_abc import MetaPathFinder
-from gazelle.compat.unsupported.attributes import REFUSED_PARTS, RefusedPart
-from gazelle.compat.unsupported.modules import REFUSED, refusal_of
+from gazelle.compat.unsupported.attributes import UNSUPPORTED_ATTRIBUTES, UnsupportedAttribute
+from gazelle.compat.unsupported.modules import UNSUPPORTED_MODULES, why_unsupported
 
-__all__ = ["AttachingFinder", "attach"]
+__all__ = ["PlaceholderFinder", "attach_placeholders"]
 
 _MODULES = Path(__file__).parents[1] / "modules"
 _PATTERNS = "__refused_patterns__"
-_WORDS = "__refused_words__"
+_KEYWORDS = "__refused_words__"
 
 
-class _RefusedAttribute:
+class _Placeholder:
     """Stands for an attribute that a class of the original has and ours has not."""
 
     def __init__(self, reason: str) -> None:
@@ -78,7 +78,7 @@ def _refuse_in_module(module: ModuleType, pattern: str, reason: str) -> None:
     module.__getattr__ = find  # type: ignore[method-assign]
 
 
-def _refuse_word(thing: Any, word: str, reason: str) -> None:
+def _refuse_keyword(thing: Any, keyword: str, reason: str) -> None:
     """Let a function or a class say why it does not take a keyword."""
     is_class = isinstance(thing, type)
     called: str = thing.__name__
@@ -86,11 +86,11 @@ def _refuse_word(thing: Any, word: str, reason: str) -> None:
     maker = "__init__" if getattr(thing, "__init__", None) is not object.__init__ else "__new__"
     made: Any = getattr(thing, maker) if is_class else thing
     # A class may inherit the wrapper of its parent, which names the parent.
-    words = getattr(vars(thing).get(maker) if is_class else made, _WORDS, None)
-    if words is not None:
-        words[word] = reason
+    refused_keywords = getattr(vars(thing).get(maker) if is_class else made, _KEYWORDS, None)
+    if refused_keywords is not None:
+        refused_keywords[keyword] = reason
         return
-    refused = {word: reason}
+    refused = {keyword: reason}
 
     @wraps(made)
     def told(*arguments: Any, **keywords: Any) -> Any:
@@ -101,7 +101,7 @@ def _refuse_word(thing: Any, word: str, reason: str) -> None:
             )
         return made(*arguments, **keywords)
 
-    setattr(told, _WORDS, refused)
+    setattr(told, _KEYWORDS, refused)
     if is_class:
         setattr(thing, maker, told)
     else:
@@ -129,32 +129,32 @@ def _loaded(name: str) -> Any:
     return None if thing is None else getattr_static(thing, last, None)
 
 
-def _attach_one(row: RefusedPart) -> None:
+def _attach_placeholder(row: UnsupportedAttribute) -> None:
     owner, _, name = row.part.rpartition(".")
     if "(" in row.part:
-        what, _, word = row.part.rstrip(")").partition("(")
+        what, _, keyword = row.part.rstrip(")").partition("(")
         thing = _loaded(what)
         if thing is not None:
-            _refuse_word(thing, word, row.reason)
+            _refuse_keyword(thing, keyword, row.reason)
         return
     thing = _loaded(owner)
     if isinstance(thing, ModuleType):
         _refuse_in_module(thing, name, row.reason)
     elif isinstance(thing, type) and not hasattr(thing, name):
-        refusal = _RefusedAttribute(row.reason)
+        refusal = _Placeholder(row.reason)
         setattr(thing, name, refusal)
         refusal.__set_name__(thing, name)
 
 
-def attach(module: str) -> None:
+def attach_placeholders(module: str) -> None:
     """Put the sentences on a drop-in module that was just imported, and on those it made."""
-    for row in REFUSED_PARTS:
+    for row in UNSUPPORTED_ATTRIBUTES:
         if row.part.startswith(f"{module}."):
-            _attach_one(row)
-    for refused in REFUSED:
+            _attach_placeholder(row)
+    for refused in UNSUPPORTED_MODULES:
         owner, _, name = refused.module.rpartition(".")
         thing = sys.modules.get(owner) if f"{owner}.".startswith(f"{module}.") else None
-        if thing is not None and refusal_of(refused.module):
+        if thing is not None and why_unsupported(refused.module):
             # What is one module here may be a package there.
             thing.__dict__.setdefault("__path__", [])
             _refuse_in_module(thing, name, refused.reason)
@@ -163,14 +163,16 @@ def attach(module: str) -> None:
 class _Loader(SourceFileLoader):
     def exec_module(self, module: ModuleType) -> None:
         super().exec_module(module)
-        attach(module.__name__)
+        attach_placeholders(module.__name__)
 
 
-class AttachingFinder(MetaPathFinder):
+class PlaceholderFinder(MetaPathFinder):
     """Loads Gazelle's drop-in modules; it stands before Python's own finders."""
 
     def __init__(self) -> None:
-        names = [row.part for row in REFUSED_PARTS] + [row.module for row in REFUSED]
+        names = [row.part for row in UNSUPPORTED_ATTRIBUTES] + [
+            row.module for row in UNSUPPORTED_MODULES
+        ]
         self._packages = {name.partition(".")[0] for name in names}
 
     def find_spec(

@@ -206,9 +206,9 @@ class VectorType(ListType):
 
     def from_string(self, text: str) -> list[Any]:
         """Return the numbers of a text."""
-        words = super().from_string(text)
-        self.check(words)
-        return [float(word) for word in words]
+        tokens = super().from_string(text)
+        self.check(tokens)
+        return [float(token) for token in tokens]
 
 
 class RawType(ValueType):

@@ -218,8 +218,8 @@ class Reflection:
         """Read the attributes and return those that are not there."""
         for name in [one for one in left.attributes if one in self.attribute_map]:
             attribute = self.attribute_map[name]
-            place = Path(path.tag, path.parent, f"{path.suffix}[@{name}]", path.tree)
-            _said(place, partial(attribute.set_from_string, obj, node.attrib[name]))
+            child_path = Path(path.tag, path.parent, f"{path.suffix}[@{name}]", path.tree)
+            _said(child_path, partial(attribute.set_from_string, obj, node.attrib[name]))
             if name == "name":
                 path.suffix = f"[@name='{attribute.get_value(obj)}']"
             left.attributes.remove(name)
@@ -233,13 +233,13 @@ class Reflection:
             if element is None:
                 continue
             left.children.remove(child)
-            place = Path(child.tag, path)
+            child_path = Path(child.tag, path)
             if isinstance(element, AggregateElement):
-                place.suffix = f"[{1 + len(obj.get_aggregate_list(child.tag))}]"
-                element.add_from_xml(obj, child, place)
+                child_path.suffix = f"[{1 + len(obj.get_aggregate_list(child.tag))}]"
+                element.add_from_xml(obj, child, child_path)
             elif child.tag in unset:
                 del unset[child.tag]
-                element.set_from_xml(obj, child, place)
+                element.set_from_xml(obj, child, child_path)
             else:
                 report(f"Scalar element defined multiple times: {child.tag}")
         return [self.element_map[name] for name in unset]

@@ -57,21 +57,39 @@ def list_to_pose_stamped(pose_list: Sequence[float], target_frame: str) -> Any:
 
 def pose_to_list(pose_msg: Any) -> list[float]:
     """Return x, y, z and the quaternion of a pose."""
-    place, turn = pose_msg.position, pose_msg.orientation
-    return [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
+    position, orientation = pose_msg.position, pose_msg.orientation
+    return [
+        position.x,
+        position.y,
+        position.z,
+        orientation.x,
+        orientation.y,
+        orientation.z,
+        orientation.w,
+    ]
 
 
 def transform_to_list(trf_msg: Any) -> list[float]:
     """Return x, y, z and the quaternion of a transform."""
-    place, turn = trf_msg.translation, trf_msg.rotation
-    return [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
+    position, orientation = trf_msg.translation, trf_msg.rotation
+    return [
+        position.x,
+        position.y,
+        position.z,
+        orientation.x,
+        orientation.y,
+        orientation.z,
+        orientation.w,
+    ]
 
 
 def list_to_transform(trf_list: Sequence[float]) -> Any:
     """Return a ``geometry_msgs/Transform`` of x, y, z and a quaternion."""
     made: Any = ros1_message_type("geometry_msgs/Transform")()
-    shift, turn = made.translation, made.rotation
-    shift.x, shift.y, shift.z, turn.x, turn.y, turn.z, turn.w = map(float, trf_list)
+    shift, orientation = made.translation, made.rotation
+    shift.x, shift.y, shift.z, orientation.x, orientation.y, orientation.z, orientation.w = map(
+        float, trf_list
+    )
     return made
 
 

@@ -8,7 +8,7 @@ from gazelle.compat.moveit.commander.conversions import list_to_pose_stamped
 from gazelle.compat.moveit.commander.exception import MoveItCommanderException
 from gazelle.compat.moveit.commander.move_group import MoveGroupCommander
 from gazelle.compat.moveit.commander.roscpp_initializer import robot_of, ros1
-from gazelle.compat.moveit.robot_interface import RobotView
+from gazelle.compat.moveit.robot_interface import RobotInterface
 from gazelle.diagnostics import did_you_mean
 from gazelle.motion.model import JointGroup, JointKind, RobotJoint
 from gazelle.nodes.move_group.robot_state_messages import robot_state_message
@@ -19,7 +19,7 @@ __all__ = ["RobotCommander"]
 class _Joint:
     """A joint: its limits and where it is."""
 
-    def __init__(self, robot: RobotCommander, view: RobotView, joint: RobotJoint) -> None:
+    def __init__(self, robot: RobotCommander, view: RobotInterface, joint: RobotJoint) -> None:
         self._robot = robot
         self._view = view
         self._joint = joint
@@ -68,7 +68,7 @@ class _Joint:
 class _Link:
     """A link and where it is."""
 
-    def __init__(self, view: RobotView, name: str) -> None:
+    def __init__(self, view: RobotInterface, name: str) -> None:
         self._view = view
         self._name = name
 

@@ -9,7 +9,7 @@ from functools import cache
 from typing import Any
 
 from gazelle.compat.moveit.move_group_client import MoveGroupClient
-from gazelle.compat.moveit.robot_interface import RobotView
+from gazelle.compat.moveit.robot_interface import RobotInterface
 from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GazelleError
 from gazelle.graph import Node
@@ -62,7 +62,7 @@ def client_of(namespace: str) -> MoveGroupClient:
 
 
 @cache
-def robot_of(description: str, namespace: str) -> RobotView:
+def robot_of(description: str, namespace: str) -> RobotInterface:
     """Return the robot of a parameter.
 
     Raises:
@@ -70,7 +70,7 @@ def robot_of(description: str, namespace: str) -> RobotView:
     """
     try:
         name = f"{namespace.rstrip('/')}/{description}" if namespace else description
-        return RobotView.of_node(node(), name)
+        return RobotInterface.of_node(node(), name)
     except GazelleError as error:
         raise RuntimeError(str(error)) from error
 

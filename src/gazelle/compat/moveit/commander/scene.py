@@ -152,8 +152,12 @@ class PlanningSceneInterface:
         """Return the names of objects whose position is within a box of the planning frame, m."""
         found = []
         for item in self._scene(_NAMES | _GEOMETRY).world.collision_objects:
-            place = item.pose.position
-            inside = minx <= place.x <= maxx and miny <= place.y <= maxy and minz <= place.z <= maxz
+            position = item.pose.position
+            inside = (
+                minx <= position.x <= maxx
+                and miny <= position.y <= maxy
+                and minz <= position.z <= maxz
+            )
             if inside and (item.type.key or not with_type):
                 found.append(item.id)
         return found

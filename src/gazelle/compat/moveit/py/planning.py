@@ -105,9 +105,11 @@ class MoveItPy:
         config_dict: Mapping[str, Any] | None = None,
         provide_planning_service: bool = True,
     ) -> None:
-        files = [word for one in launch_params_filepaths or () for word in ("--params-file", one)]
-        words = [*sys.argv[1:], *(["--ros-args", *files] if files else [])]
-        arguments = read_arguments(words, node_name, namespace=name_space or "/")
+        files = [
+            argument for one in launch_params_filepaths or () for argument in ("--params-file", one)
+        ]
+        argv = [*sys.argv[1:], *(["--ros-args", *files] if files else [])]
+        arguments = read_arguments(argv, node_name, namespace=name_space or "/")
         self.parameters = nested({**(config_dict or {}), **arguments.params})
         self._graph = Graph.open()
         self._node = self._graph.create_node(arguments.name, namespace=arguments.namespace)
@@ -164,10 +166,10 @@ class MoveItPy:
             blocking = rest[0] if rest else blocking
         elif more:
             controllers = more[0]
-        words = (robot_trajectory, list(controllers or ()))
+        execution = (robot_trajectory, list(controllers or ()))
         if blocking:
-            return self._execute(*words)
-        threading.Thread(target=self._execute, args=words, daemon=True).start()
+            return self._execute(*execution)
+        threading.Thread(target=self._execute, args=execution, daemon=True).start()
         return None
 
     def _execute(self, trajectory: Any, controllers: list[str]) -> ExecutionStatus:

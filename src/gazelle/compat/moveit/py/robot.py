@@ -200,10 +200,10 @@ class RobotTrajectory:
 
 def _keep_joints(trajectory: Any, names: list[str]) -> None:
     """Leave only some joints in a ``JointTrajectory``, in its own order."""
-    kept = [place for place, name in enumerate(trajectory.joint_names) if name in names]
-    trajectory.joint_names = [trajectory.joint_names[place] for place in kept]
+    kept = [index for index, name in enumerate(trajectory.joint_names) if name in names]
+    trajectory.joint_names = [trajectory.joint_names[index] for index in kept]
     for point in trajectory.points:
         for field in ("positions", "velocities", "accelerations", "effort"):
             values = getattr(point, field)
             if len(values):
-                setattr(point, field, [values[place] for place in kept])
+                setattr(point, field, [values[index] for index in kept])

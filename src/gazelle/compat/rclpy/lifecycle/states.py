@@ -78,8 +78,8 @@ def _outcomes(
 ) -> list[Transition]:
     goals = (("success", success), ("failure", failure), ("error", error))
     return [
-        Transition(first_id + place, f"transition_{word}", during, goal)
-        for place, (word, goal) in enumerate(goals)
+        Transition(first_id + index, f"transition_{outcome}", during, goal)
+        for index, (outcome, goal) in enumerate(goals)
     ]
 
 
