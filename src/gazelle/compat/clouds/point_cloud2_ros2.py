@@ -77,6 +77,9 @@ def read_points_numpy(
 ) -> NDArray[Any]:
     """Return points as an array of numbers, one column a field; see `read_points`.
 
+    It is of shape (points, fields) and of the fields' own type; of (width, height, fields) where
+    a cloud of several rows is reshaped.
+
     Raises:
         AssertionError: the fields are of several types.
     """

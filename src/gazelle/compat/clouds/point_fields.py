@@ -78,7 +78,15 @@ def cloud_points(cloud: Any) -> NDArray[Any]:
 def make_cloud(
     cloud: Any, header: Any, fields: Sequence[Any], points: NDArray[Any], point_step: int
 ) -> Any:
-    """Fill an empty ``PointCloud2`` with structured points, of one row or of columns and rows."""
+    """Fill an empty ``PointCloud2`` with structured points.
+
+    Args:
+        cloud: is filled and returned.
+        header: its header.
+        fields: ``sensor_msgs/PointField``.
+        points: of shape (points,) or, columns first, (width, height).
+        point_step: bytes from point to point.
+    """
     cloud.header = header
     cloud.width = points.shape[0] if points.ndim else 0
     cloud.height = points.shape[1] if points.ndim == 2 else 1
@@ -98,7 +106,11 @@ def point_class(names: Sequence[str]) -> Callable[..., Any]:
 
 
 def packed(points: NDArray[Any]) -> NDArray[Any]:
-    """Return a copy whose gaps between fields are zeros; numpy leaves them as they come."""
+    """Return a copy whose gaps between fields are zeros; numpy leaves them as they come.
+
+    Args:
+        points: structured, of any shape; the copy is of the same shape and type.
+    """
     found = np.zeros(points.shape, points.dtype)
     for name in points.dtype.names or ():
         found[name] = points[name]

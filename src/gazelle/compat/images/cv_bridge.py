@@ -100,6 +100,8 @@ class CvBridge:
     def compressed_imgmsg_to_cv2(self, cmprs_img_msg: Any, desired_encoding: str = _AS_IS) -> Image:
         """Return the image of a ``sensor_msgs/CompressedImage``, BGR or grey by default.
 
+        It is of shape (height, width, 3), grey of shape (height, width).
+
         Raises:
             CvBridgeError: the bytes are no picture, or the encodings do not fit.
         """

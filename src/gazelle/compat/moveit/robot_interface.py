@@ -63,14 +63,23 @@ class RobotInterface:
         return self.model.group(name)
 
     def positions(self) -> FloatArray:
-        """Return where all joints are; those nobody tells of are at their defaults."""
+        """Return where all joints are, of shape (variables,) of the robot, rad or m.
+
+        Those nobody tells of are at their defaults.
+        """
         self.states.wait(self._driven(), 0, _STATE_S)
         known = set(self.model.variables)
         told = {name: value for name, value in self.states.positions.items() if name in known}
         return self.model.positions(told)
 
     def link_pose(self, link: str, positions: FloatArray | None = None) -> Pose:
-        """Return the pose of a link in the planning frame."""
+        """Return the pose of a link in the planning frame.
+
+        Args:
+            link: its name.
+            positions: of all joints, of shape (variables,), rad or m; where the robot is when
+                None.
+        """
         where = self.positions() if positions is None else positions
         return Pose.from_matrix(link_poses(self.model, where, [link])[link])
 

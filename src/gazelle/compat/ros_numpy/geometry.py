@@ -49,17 +49,17 @@ def quat_to_numpy(msg: Any) -> Array:
 
 
 def pose_to_numpy(msg: Any) -> Array:
-    """Return the matrix of a pose."""
+    """Return the homogeneous 4×4 matrix of a pose, m."""
     return _matrix(msg.position, msg.orientation)
 
 
 def transform_to_numpy(msg: Any) -> Array:
-    """Return the matrix of a transform."""
+    """Return the homogeneous 4×4 matrix of a transform, m."""
     return _matrix(msg.translation, msg.rotation)
 
 
 def numpy_to_vector(arr: ArrayLike, *, msg_type: Any) -> Any:
-    """Return the vector or point of an array of 3 or, homogeneous, 4 values.
+    """Return the vector or point of an array of shape (…, 3) or, homogeneous, (…, 4).
 
     Raises:
         ValueError: it has another number of values, or a direction's fourth is not 0.
@@ -76,12 +76,12 @@ def numpy_to_vector(arr: ArrayLike, *, msg_type: Any) -> Any:
 
 
 def numpy_to_vector3(arr: ArrayLike) -> Any:
-    """Return the ``Vector3`` of an array."""
+    """Return the ``Vector3`` of an array of shape (…, 3) or, homogeneous, (…, 4)."""
     return numpy_to_vector(arr, msg_type=ros1_message_type("geometry_msgs/Vector3"))
 
 
 def numpy_to_point(arr: ArrayLike) -> Any:
-    """Return the ``Point`` of an array."""
+    """Return the ``Point`` of an array of shape (…, 3) or, homogeneous, (…, 4)."""
     return numpy_to_vector(arr, msg_type=ros1_message_type("geometry_msgs/Point"))
 
 

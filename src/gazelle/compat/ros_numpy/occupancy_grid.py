@@ -28,7 +28,7 @@ def numpy_to_occupancy_grid(arr: NDArray[Any], info: Any = None, *, msg_type: An
     """Return the map of an array of cells.
 
     Args:
-        arr: int8, rows first; masked cells become unknown.
+        arr: int8 of shape (height, width); masked cells become unknown.
         info: ``MapMetaData``, whose size is set.
         msg_type: class of the map.
 

@@ -100,7 +100,7 @@ def array_to_pointcloud2(
     """Return the cloud of structured points.
 
     Args:
-        cloud_arr: structured, of one or two axes.
+        cloud_arr: structured, of shape (width,) or (height, width).
         stamp: the header's time.
         frame_id: the header's frame.
         msg_type: class of the cloud.
@@ -129,18 +129,31 @@ def array_to_pointcloud2(
 def get_xyz_points(
     cloud_array: NDArray[Any], remove_nans: bool = True, dtype: Any = float
 ) -> NDArray[Any]:
-    """Return x, y and z along the last axis, without points that are not finite unless asked."""
+    """Return x, y and z along the last axis.
+
+    Args:
+        cloud_array: structured points of any shape, with fields x, y and z in m.
+        remove_nans: leave points out that are not finite; what is left is of shape (points, 3),
+            else it is of the shape of `cloud_array` and 3.
+        dtype: type of the result.
+    """
     points = np.stack([cloud_array[name] for name in "xyz"], axis=-1).astype(dtype)
     return points[np.isfinite(points).all(axis=-1)] if remove_nans else points
 
 
 def pointcloud2_to_xyz_array(cloud_msg: Any, remove_nans: bool = True) -> NDArray[Any]:
-    """Return a cloud's x, y and z."""
+    """Return a cloud's x, y and z in m and in its own frame, of shape (points, 3).
+
+    With points that are not finite, it is of shape (height, width, 3), or (width, 3) of one row.
+    """
     return get_xyz_points(pointcloud2_to_array(cloud_msg), remove_nans=remove_nans)
 
 
 def merge_rgb_fields(cloud_arr: NDArray[Any]) -> NDArray[Any]:
-    """Return points whose bytes ``r``, ``g`` and ``b`` have become PCL's float ``rgb``."""
+    """Return points whose bytes ``r``, ``g`` and ``b`` have become PCL's float ``rgb``.
+
+    They are structured, of any shape, which stays.
+    """
     packed = np.zeros(cloud_arr.shape, np.uint32)
     for name, shift in _COLOURS.items():
         packed |= cloud_arr[name].astype(np.uint32) << shift
@@ -149,7 +162,10 @@ def merge_rgb_fields(cloud_arr: NDArray[Any]) -> NDArray[Any]:
 
 
 def split_rgb_field(cloud_arr: NDArray[Any]) -> NDArray[Any]:
-    """Return points whose float ``rgb`` has become the bytes ``r``, ``g`` and ``b``."""
+    """Return points whose float ``rgb`` has become the bytes ``r``, ``g`` and ``b``.
+
+    They are structured, of any shape, which stays.
+    """
     packed = np.ascontiguousarray(cloud_arr["rgb"]).view(np.uint32)
     colours = {name: (packed >> shift).astype(np.uint8) for name, shift in _COLOURS.items()}
     kept = [name for name in cloud_arr.dtype.names or () if name != "rgb"]

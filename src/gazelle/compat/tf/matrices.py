@@ -68,7 +68,7 @@ def compose_matrix(
 
 
 def decompose_matrix(matrix: ArrayLike) -> tuple[Any, Any, Any, Any, Any]:
-    """Return scale, shear, angles (sxyz), translation and perspective of a matrix.
+    """Return scale, shear, angles (sxyz), translation and perspective of a 4×4 matrix.
 
     Raises:
         ValueError: it has no such parts.
@@ -96,7 +96,7 @@ def decompose_matrix(matrix: ArrayLike) -> tuple[Any, Any, Any, Any, Any]:
 
 
 def reflection_matrix(point: ArrayLike, normal: ArrayLike) -> Matrix:
-    """Return the reflection at a plane."""
+    """Return the reflection at a plane, 4×4; its point and normal are (x, y, z)."""
     axis = unit_vector(np.asarray(normal, float)[:3])
     matrix = np.identity(4)
     matrix[:3, :3] -= 2.0 * np.outer(axis, axis)
@@ -105,7 +105,7 @@ def reflection_matrix(point: ArrayLike, normal: ArrayLike) -> Matrix:
 
 
 def reflection_from_matrix(matrix: ArrayLike) -> tuple[Matrix, Matrix]:
-    """Return a point of the mirror (with its 1) and the mirror's normal.
+    """Return a point of a 4×4 reflection's mirror (x, y, z, 1) and the normal (x, y, z).
 
     Raises:
         ValueError: it is no reflection.
@@ -118,7 +118,9 @@ def reflection_from_matrix(matrix: ArrayLike) -> tuple[Matrix, Matrix]:
 
 
 def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix | None]:
-    """Return factor, origin (with its 1) and direction; no direction when all are scaled.
+    """Return factor, origin (x, y, z, 1) and direction (x, y, z) of a 4×4 scale.
+
+    There is no direction when all are scaled.
 
     Raises:
         ValueError: it scales by one, so that its origin may be anywhere.
@@ -138,7 +140,7 @@ def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix | None]:
 def scale_matrix(
     factor: float, origin: ArrayLike | None = None, direction: ArrayLike | None = None
 ) -> Matrix:
-    """Return the scale by a factor around an origin, in all directions or in one."""
+    """Return the scale (4×4) by a factor around an origin, in all directions or in one."""
     matrix = np.identity(4)
     if direction is None:
         matrix[:3, :3] *= factor
@@ -158,7 +160,7 @@ def projection_matrix(
     perspective: ArrayLike | None = None,
     pseudo: bool = False,
 ) -> Matrix:
-    """Return the projection onto a plane: orthogonal, along a direction, or from a point.
+    """Return the projection (4×4) onto a plane: orthogonal, along a direction, or from a point.
 
     Args:
         point: of the plane.
@@ -197,7 +199,7 @@ def clip_matrix(
     far: float,
     perspective: bool = False,
 ) -> Matrix:
-    """Return the matrix from a viewing volume to the cube from -1 to 1.
+    """Return the 4×4 matrix from a viewing volume to the cube from -1 to 1.
 
     Raises:
         ValueError: the volume is empty, or begins at the eye.
@@ -220,7 +222,7 @@ def clip_matrix(
 
 
 def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: ArrayLike) -> Matrix:
-    """Return the shear along a direction of a plane, by an angle in radians.
+    """Return the shear (4×4) along a direction of a plane, by an angle in radians.
 
     Raises:
         ValueError: the direction is not in the plane.
@@ -237,7 +239,9 @@ def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: A
 
 
 def shear_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix, Matrix]:
-    """Return angle (rad), direction, a point of the plane (with its 1) and the plane's normal.
+    """Return angle (rad), direction, a point of the plane and the plane's normal of a 4×4 shear.
+
+    Direction and normal are (x, y, z), the point is (x, y, z, 1).
 
     Raises:
         ValueError: it is no shear.
@@ -252,7 +256,7 @@ def shear_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix, Matrix]
 
 
 def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) -> Matrix:
-    """Return the matrix from a crystal's cell to Cartesian axes; angles in degrees."""
+    """Return the 4×4 matrix from a crystal's cell to Cartesian axes; angles in degrees."""
     a, b, c = lengths
     alpha, beta, gamma = np.radians(angles)
     ratio = (math.cos(alpha) * math.cos(beta) - math.cos(gamma)) / (
@@ -271,8 +275,8 @@ def superimposition_matrix(
     """Return the rigid motion that brings points nearest to others (Kabsch 1976).
 
     Args:
-        v0: points, one a column.
-        v1: where they should be.
+        v0: points of shape (3, n) or (4, n), one a column.
+        v1: where they should be, of the same shape.
         scaling: find a common scale as well (Umeyama 1991, with the ratio of the spreads).
         usesvd: without effect: both ways of the original give the same.
     """
@@ -291,10 +295,10 @@ def superimposition_matrix(
 
 
 def random_vector(size: int) -> Matrix:
-    """Return random numbers from 0 to 1."""
+    """Return random numbers from 0 to 1, of shape (size,)."""
     return np.asarray(np.random.default_rng().random(size))
 
 
 def random_rotation_matrix(rand: ArrayLike | None = None) -> Matrix:
-    """Return a random rotation, all equally likely."""
+    """Return a random rotation, 4×4, all equally likely."""
     return quaternion_matrix(random_quaternion(rand))

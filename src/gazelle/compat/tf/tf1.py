@@ -81,7 +81,7 @@ class Transformer:
         source_time: Any,
         fixed_frame: str,
     ) -> tuple[Translation, Quaternion]:
-        """Return translation and quaternion between two times by way of a fixed frame.
+        """Return (x, y, z) in m and (x, y, z, w) between two times by way of a fixed frame.
 
         Raises:
             Exception: it is not known.

@@ -75,7 +75,7 @@ def rotation_matrix(
 
 
 def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix]:
-    """Return angle, axis and a point of a turn."""
+    """Return angle (rad), axis (x, y, z) and a point (x, y, z, 1) of a turn, a 4×4 matrix."""
     full = np.asarray(matrix, float)
     x, y, z, w = quaternion_from_matrix(full)
     axis = np.array([x, y, z])
@@ -91,7 +91,7 @@ def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Matrix:
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Matrix:
-    """Return the quaternion of three turns.
+    """Return the quaternion (x, y, z, w) of three turns, in radians.
 
     Raises:
         ValueError: `axes` is no axis order.
@@ -105,7 +105,7 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
 
 
 def euler_from_matrix(matrix: ArrayLike, axes: str = "sxyz") -> tuple[float, float, float]:
-    """Return the three angles of a rotation; at a pole the last one is zero.
+    """Return the three angles (rad) of a rotation, 3×3 or 4×4; at a pole the last one is zero.
 
     Raises:
         ValueError: `axes` is no axis order.
@@ -119,12 +119,12 @@ def euler_from_matrix(matrix: ArrayLike, axes: str = "sxyz") -> tuple[float, flo
 
 
 def euler_from_quaternion(quaternion: Quaternion, axes: str = "sxyz") -> tuple[float, float, float]:
-    """Return the three angles of a quaternion."""
+    """Return the three angles (rad) of a quaternion (x, y, z, w)."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 
 
 def quaternion_about_axis(angle: float, axis: ArrayLike) -> Matrix:
-    """Return the quaternion of a turn about an axis."""
+    """Return the quaternion (x, y, z, w) of a turn by an angle (rad) about an axis (x, y, z)."""
     direction = unit_vector(np.asarray(axis, float)[:3])
     return np.append(direction * math.sin(angle / 2), math.cos(angle / 2))
 
@@ -140,13 +140,13 @@ def quaternion_matrix(quaternion: Quaternion) -> Matrix:
 
 
 def quaternion_from_matrix(matrix: ArrayLike) -> Matrix:
-    """Return the quaternion of a rotation, with w not negative."""
+    """Return the quaternion (x, y, z, w) of a 4×4 rotation, with w not negative."""
     found = np.array(Pose.from_matrix(np.asarray(matrix, float)).quat_xyzw)
     return -found if found[3] < 0 else found
 
 
 def quaternion_multiply(quaternion1: Quaternion, quaternion0: Quaternion) -> Matrix:
-    """Return the product: turn by `quaternion0` first, then by `quaternion1`."""
+    """Return the product (x, y, z, w): turn by `quaternion0` first, then by `quaternion1`."""
     x1, y1, z1, w1 = quaternion1
     x0, y0, z0, w0 = quaternion0
     return np.array(
@@ -160,13 +160,13 @@ def quaternion_multiply(quaternion1: Quaternion, quaternion0: Quaternion) -> Mat
 
 
 def quaternion_conjugate(quaternion: Quaternion) -> Matrix:
-    """Return the conjugate."""
+    """Return the conjugate of a quaternion (x, y, z, w)."""
     x, y, z, w = quaternion
     return np.array([-x, -y, -z, w])
 
 
 def quaternion_inverse(quaternion: Quaternion) -> Matrix:
-    """Return the inverse."""
+    """Return the inverse of a quaternion (x, y, z, w)."""
     return np.asarray(quaternion_conjugate(quaternion) / np.dot(quaternion, quaternion))
 
 
@@ -174,7 +174,7 @@ def quaternion_slerp(
     quat0: Quaternion, quat1: Quaternion, fraction: float, spin: int = 0,
     shortestpath: bool = True,
 ) -> Matrix:  # fmt: skip
-    """Return the quaternion a fraction of the way from one to another."""
+    """Return the quaternion (x, y, z, w) a fraction of the way from one to another."""
     first, second = unit_vector(quat0), unit_vector(quat1)
     if fraction in (0, 1):
         return np.asarray(second if fraction else first)
@@ -205,7 +205,7 @@ def random_quaternion(rand: Any = None) -> Matrix:
 
 
 def concatenate_matrices(*matrices: ArrayLike) -> Matrix:
-    """Return the product of matrices."""
+    """Return the product of 4×4 matrices."""
     product = np.identity(4)
     for matrix in matrices:
         product = product @ np.asarray(matrix, float)
@@ -213,18 +213,21 @@ def concatenate_matrices(*matrices: ArrayLike) -> Matrix:
 
 
 def inverse_matrix(matrix: ArrayLike) -> Matrix:
-    """Return the inverse of a square matrix."""
+    """Return the inverse of a square matrix, n×n."""
     return np.asarray(np.linalg.inv(np.asarray(matrix, float)))
 
 
 def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:
-    """Return whether two matrices perform the same transformation."""
+    """Return whether two 4×4 matrices perform the same transformation."""
     first, second = np.asarray(matrix0, float), np.asarray(matrix1, float)
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))
 
 
 def vector_norm(data: ArrayLike, axis: int | None = None, out: Matrix | None = None) -> Any:
-    """Return the length of a vector, or the lengths along an axis; into `out` if it is given."""
+    """Return the length of a vector, or the lengths along an axis; into `out` if it is given.
+
+    `data` is of any shape; the lengths are of its shape without that axis.
+    """
     found = np.linalg.norm(np.asarray(data, float), axis=axis)
     if out is None:
         return found
@@ -233,7 +236,10 @@ def vector_norm(data: ArrayLike, axis: int | None = None, out: Matrix | None = N
 
 
 def unit_vector(data: ArrayLike, axis: int | None = None, out: Matrix | None = None) -> Any:
-    """Return a vector, or the vectors along an axis, at length one; in `out` if it is given."""
+    """Return a vector, or the vectors along an axis, at length one; in `out` if it is given.
+
+    `data` is of any shape, which stays.
+    """
     values = np.asarray(data, float)
     length = np.linalg.norm(values, axis=axis, keepdims=axis is not None)
     found = np.asarray(values / np.where(length == 0, 1.0, length))

@@ -91,7 +91,7 @@ class RobotState:
         """Do nothing: poses follow positions at once."""
 
     def get_joint_group_positions(self, joint_model_group_name: str) -> FloatArray:
-        """Return the positions of a group, rad or m."""
+        """Return the positions of a group, of shape (variables,), rad or m."""
         return self._robot.group(joint_model_group_name).take(self._positions)
 
     def set_joint_group_positions(self, joint_model_group_name: str, position_values: Any) -> None:
