@@ -17,7 +17,7 @@ from tests.patience import eventually
 from gazelle.cli import ros2, rosmsg, rosnode, rosparam, rosservice, rostopic, tf_echo
 from gazelle.cli.tf import monitor
 from gazelle.graph import Entity, Graph, Kind, Node
-from gazelle.graph.reconnection import hub_knows
+from gazelle.graph.hub import hub_knows
 
 _PACE_S = 0.005
 _COMMAND_NODES = ("/rostopic_", "/tf_echo_", "/tf_monitor_", "/_ros2cli/")

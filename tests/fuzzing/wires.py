@@ -16,10 +16,9 @@ from unittest.mock import patch
 
 from tests.fuzzing.kind import Kind
 
-from gazelle.bridge.foxglove.assets import read_asset
+from gazelle.bridge.foxglove.bridge import read_asset
 from gazelle.bridge.foxglove.client_publishers import Speech
-from gazelle.bridge.foxglove.parameters import Parameters
-from gazelle.bridge.foxglove.values import plain_value
+from gazelle.bridge.foxglove.parameters import Parameters, plain_value
 from gazelle.bridge.ros1.master import Master
 from gazelle.bridge.ros1.tcpros import read_frame, read_header, write_header
 from gazelle.bridge.ros1.xmlrpc_call import read_answer

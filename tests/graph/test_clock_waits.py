@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.graph import clock_waits
+from gazelle.graph import clock
+from gazelle.graph.clock import Waits
 from gazelle.graph.clock_sharing import _STILL_S
-from gazelle.graph.clock_waits import Waits
 
 MS = 1_000_000
 
@@ -12,7 +12,7 @@ MS = 1_000_000
 @pytest.fixture
 def wall(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     now_s = [100.0]
-    monkeypatch.setattr(clock_waits.time, "monotonic", lambda: now_s[0])
+    monkeypatch.setattr(clock.time, "monotonic", lambda: now_s[0])
     return now_s
 
 

@@ -6,7 +6,7 @@ import gc
 
 from tests.patience import eventually
 
-from gazelle.graph.closing import close_session
+from gazelle.graph.sessions import close_session
 
 
 def test_a_closed_session_is_never_destroyed() -> None:

@@ -7,8 +7,8 @@ import threading
 import pytest
 from tests.patience import stretched
 
-from gazelle.graph import duplicate_requests
-from gazelle.graph.duplicate_requests import Answer, Repeats
+from gazelle.graph import service_requests
+from gazelle.graph.service_requests import Answer, Repeats
 
 _CLIENT, _OTHER = b"a" * 16, b"b" * 16
 
@@ -63,7 +63,7 @@ def test_repeat_waits_for_what_is_under_way() -> None:
 
 
 def test_old_answers_make_room(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(duplicate_requests, "_KEPT_BYTES", 25)
+    monkeypatch.setattr(service_requests, "_KEPT_BYTES", 25)
     known, handler = Repeats(), _Handler(b"x" * 10)
     for number in (1, 2, 3):
         known.answer(_CLIENT, number, handler)

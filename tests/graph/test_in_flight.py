@@ -7,8 +7,8 @@ import threading
 from tests.patience import stretched
 
 from gazelle.graph import Graph
-from gazelle.graph.closing import CallsInFlight
 from gazelle.graph.errors import GraphError
+from gazelle.graph.sessions import CallsInFlight
 from gazelle.interfaces import service_type
 
 

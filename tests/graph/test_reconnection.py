@@ -9,8 +9,8 @@ import pytest
 import zenoh
 from tests.patience import stretched
 
-from gazelle.graph import reconnection
-from gazelle.graph.reconnection import Relinker
+from gazelle.graph import hub
+from gazelle.graph.hub import Relinker
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> tuple[threading.Event, threading.E
         return False
 
     monkeypatch.setattr(Relinker, "_lives", lives)
-    monkeypatch.setattr(reconnection, "_PAUSE_S", (0.0, 0.0))
+    monkeypatch.setattr(hub, "_RECONNECT_PAUSE_S", (0.0, 0.0))
     return begun, answered
 
 
@@ -71,4 +71,4 @@ def test_a_question_that_closes_too_slowly_is_answered_all_the_same(
             raise zenoh.ZError("close operation timed out!")
 
     monkeypatch.setattr(zenoh, "open", lambda _config: Session())
-    assert reconnection.hub_knows(1, "@ros2_lv/*/abc/**")
+    assert hub.hub_knows(1, "@ros2_lv/*/abc/**")

@@ -11,7 +11,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.errors import GraphError
-from gazelle.graph.secret import VARIABLE, Secret, secret_of_user
+from gazelle.studio.security import VARIABLE, Secret, secret_of_user
 
 posix = pytest.mark.skipif(not hasattr(os, "getuid"), reason="users have numbers on POSIX")
 

@@ -10,4 +10,4 @@ from gazelle.node_specs.registry import node_spec
 def test_windows_of_actionlib_are_told_not_missing(package: str, name: str) -> None:
     found = node_spec(package, name)
     assert found is not None
-    assert found.entry == "gazelle.studio.windows.plain:action_caller"
+    assert found.entry == "gazelle.studio.windows.window_nodes:action_caller"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gazelle.studio.displays.packing import pack
+from gazelle.studio.displays.points import pack
 
 
 @pytest.mark.parametrize("extent_m", [0.5, 20.0, 130.0])

@@ -1,4 +1,4 @@
-"""What the C library does with memory that is free again."""
+"""What glibc's malloc does with memory that is free again: give it back, or keep it."""
 
 from __future__ import annotations
 
@@ -8,13 +8,28 @@ from contextlib import suppress
 from functools import cache
 from typing import Any, NamedTuple
 
-__all__ = ["HeapTrim", "return_large_blocks"]
+__all__ = ["HeapTrim", "keep_freed_memory", "return_large_blocks"]
 
+_KEPT_BYTES = 256 << 20
+_OWN_MAPPING_BYTES = 32 << 20
 # M_TRIM_THRESHOLD and M_MMAP_THRESHOLD of glibc's malloc.h.
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
 _LARGE_BYTES = 64 << 10
 # A trim takes 0.1 ms where there is little to give back, the bytes some 12 ms to come.
 _TRIM_EVERY_BYTES = 32 << 20
+
+
+def keep_freed_memory() -> bool:
+    """Let the C library keep what frames have used; return whether it can be told so.
+
+    Otherwise the megabytes of each cloud are given back to the system and fetched again, page by
+    page, twenty times a second: a tenth of the server's time. Only glibc is told.
+    """
+    library = _glibc()
+    if library is None:
+        return False
+    kept = library.mallopt(_TRIM_THRESHOLD, _KEPT_BYTES)
+    return bool(kept and library.mallopt(_MMAP_THRESHOLD, _OWN_MAPPING_BYTES))
 
 
 def return_large_blocks() -> None:

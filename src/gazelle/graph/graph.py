@@ -14,11 +14,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import graph_info
-from gazelle.graph.announcements import Announcements
 from gazelle.graph.clock import Clock
-from gazelle.graph.closing import CallsInFlight, close_session
 from gazelle.graph.console import print_record
-from gazelle.graph.discovery import Discovery
+from gazelle.graph.discovery import Announcements, Discovery
 from gazelle.graph.duplicate_nodes import TAKEN_OVER, Namesakes
 from gazelle.graph.errors import NoGraphError, PortTakenError, coded
 from gazelle.graph.glibc_malloc import HeapTrim
@@ -31,7 +29,14 @@ from gazelle.graph.names import anonymous_name, check_node_name, join, resolve
 from gazelle.graph.node import Node
 from gazelle.graph.parameter_server import ParameterShare, ParameterStore, global_parameters
 from gazelle.graph.process_queries import Control, ask_process, shut_down_node, wait_for_processes
-from gazelle.graph.sessions import client_config, domain_of, peer_config, port_of
+from gazelle.graph.sessions import (
+    CallsInFlight,
+    client_config,
+    close_session,
+    domain_of,
+    peer_config,
+    port_of,
+)
 from gazelle.graph.wall_clock_stamps import StampWatch
 
 if TYPE_CHECKING:

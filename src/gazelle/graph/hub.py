@@ -1,29 +1,97 @@
-"""The hub every process finds the others through, and who carries it when its process ends."""
+"""The hub every process finds the others through, and who carries it when its process ends.
+
+A process that was stopped (Ctrl-Z) while messages waited for it loses its direct link: whoever
+sent them must go on. Both stay linked to the hub, which tells where peers are only when one joins
+it. So the one that finds itself without a peer that still lives joins the hub once more.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import os
 import random
+import socket
+import stat
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
-from gazelle.graph.closing import close_session
-from gazelle.graph.locators import claim_hub, hub_endpoint, share, sweep_sockets
-from gazelle.graph.reconnection import Relinker
-from gazelle.graph.sessions import hub_config
+from gazelle.graph.locators import claim_hub, hub_endpoint, is_hub, share, sweep_sockets
+from gazelle.graph.sessions import client_config, close_session, hub_config
 from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:
     import zenoh
 
-__all__ = ["HubKeeper"]
+__all__ = ["HubKeeper", "Relinker", "hub_knows"]
 
+_RECONNECT_PAUSE_S = (0.3, 0.6)
+_ASK_S = 1.0
+_LAST_QUESTION_S = 2.0
+_DESCRIPTORS = 1024
 _PAUSE_S = 0.05
 _RETRY_S = 0.2
 _CHECK_S = 0.5
+
+
+class Relinker:
+    """Watches one session's links to other processes."""
+
+    def __init__(self, port: int) -> None:
+        """Do nothing before the first loss.
+
+        Args:
+            port: the hub's port.
+        """
+        self._port = port
+        self._ended = threading.Event()
+        self._asking = threading.Lock()
+        self._linked: set[str] = set()
+
+    def linked(self, zid: str) -> None:
+        """Note a link to another process."""
+        self._linked.add(zid)
+
+    def lost(self, zid: str) -> None:
+        """Note a lost link; join the hub again if that process still lives."""
+        self._linked.discard(zid)
+        if self._ended.is_set():
+            return
+        threading.Thread(target=self._look_after, args=(zid,), daemon=True).start()
+
+    def close(self) -> None:
+        """Look after nothing more; a question that is under way is waited for."""
+        self._ended.set()
+        # Not beside the end of the session that it asks about.
+        if self._asking.acquire(timeout=_LAST_QUESTION_S):
+            self._asking.release()
+
+    def _look_after(self, zid: str) -> None:
+        self._ended.wait(random.uniform(*_RECONNECT_PAUSE_S))
+        with self._asking:
+            if not self._ended.is_set() and zid not in self._linked and self._lives(zid):
+                _cut(self._port)
+
+    def _lives(self, zid: str) -> bool:
+        return hub_knows(self._port, f"@ros2_lv/*/{zid}/**")
+
+
+def hub_knows(port: int, selector: str) -> bool:
+    """Ask the hub for liveliness tokens, as a client: peers know only whom they have a link to."""
+    import zenoh
+
+    try:
+        session: Any = zenoh.open(client_config(port))
+    except zenoh.ZError:
+        return False
+    replies = session.liveliness().get(selector, timeout=_ASK_S)
+    # All of them are taken: one that finds the channel full would hold up the close.
+    lives = sum(reply.ok is not None for reply in replies) > 0
+    close_session(session)
+    return lives
 
 
 class HubKeeper:
@@ -165,6 +233,17 @@ class HubKeeper:
                     self.carry()
             if self._connected.wait(_CHECK_S):
                 self._lost.clear()
+
+
+def _cut(port: int) -> None:
+    """End this process' connections to the hub; the session makes new ones by itself."""
+    for number in range(_DESCRIPTORS):
+        with suppress(OSError):
+            if not stat.S_ISSOCK(os.fstat(number).st_mode):
+                continue
+            with socket.socket(fileno=os.dup(number)) as own:
+                if is_hub(own.getpeername(), port):
+                    own.shutdown(socket.SHUT_RDWR)
 
 
 def _do_nothing() -> None:

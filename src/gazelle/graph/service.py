@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import type_support
-from gazelle.graph.duplicate_requests import Answer, Repeats
 from gazelle.graph.errors import (
     ServiceCallError,
     ServiceRefusedError,
@@ -22,6 +21,7 @@ from gazelle.graph.errors import (
     coded,
 )
 from gazelle.graph.gazebo_names import other_version_hint
+from gazelle.graph.hub import hub_knows
 from gazelle.graph.key_expressions import (
     Attachment,
     Entity,
@@ -32,8 +32,7 @@ from gazelle.graph.key_expressions import (
     token,
 )
 from gazelle.graph.names import is_hidden
-from gazelle.graph.reconnection import hub_knows
-from gazelle.graph.service_requests import InTurn, Turn, Turns
+from gazelle.graph.service_requests import Answer, InTurn, Repeats, Turn, Turns
 from gazelle.process_exit import called_by_library
 
 if TYPE_CHECKING:

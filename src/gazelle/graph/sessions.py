@@ -1,4 +1,4 @@
-"""How sessions are set up, and which port the hub has.
+"""How sessions of the transport are set up and end, and which port the hub has.
 
 Proven on one machine: one hub in router mode, processes are peers that find each other through it
 by gossip, command-line tools are clients. No multicast; nothing listens beyond this machine, nor
@@ -7,8 +7,12 @@ for anybody else on it (see `locators`).
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import json
-from collections.abc import Mapping
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlparse
 
@@ -18,12 +22,78 @@ from gazelle.graph.locators import hub_endpoint
 if TYPE_CHECKING:
     import zenoh
 
-__all__ = ["DEFAULT_PORT", "client_config", "domain_of", "hub_config", "peer_config", "port_of"]
+__all__ = [
+    "DEFAULT_PORT",
+    "CallsInFlight",
+    "client_config",
+    "close_session",
+    "domain_of",
+    "hub_config",
+    "peer_config",
+    "port_of",
+]
 
+_CLOSE_S = 2.0
 DEFAULT_PORT = 7447
 _DEFAULT_MASTER_PORT = 11311
 _MAX_DOMAIN = 232
 _BLOCKED_LINK_CLOSES_US = 5_000_000
+
+
+class CallsInFlight:
+    """Counts threads that wait inside the transport.
+
+    A thread that is still there when Python ends is ended by force, and the transport's frames
+    cannot be: the process would abort.
+    """
+
+    def __init__(self) -> None:
+        self._count = 0
+        self._changed = threading.Condition()
+
+    @contextmanager
+    def waiting(self) -> Iterator[None]:
+        """Mark the calling thread as one that waits."""
+        with self._changed:
+            self._count += 1
+        try:
+            yield
+        finally:
+            with self._changed:
+                self._count -= 1
+                self._changed.notify_all()
+
+    def wait_until_none(self, timeout_s: float) -> bool:
+        """Wait until no thread waits any more; False when time is up first."""
+        with self._changed:
+            return self._changed.wait_for(lambda: self._count == 0, timeout_s)
+
+
+def close_session(session: Any, then: Callable[[], None] | None = None) -> None:
+    """Leave; what the session declared disappears for all others.
+
+    The transport waits up to ten seconds for its threads, which may be in the middle of a link
+    that just broke. They get two here; the process' end takes the rest.
+
+    The object stays for good (20 kB). Its destructor waits for the transport's threads, too, but
+    does not let other threads of Python run meanwhile, and a callback of another session that one
+    of these is in would wait for just that: everything in the process stood still for ten seconds,
+    and all its links were lost.
+
+    Args:
+        session: the one to close.
+        then: called when it is closed, however long that takes.
+    """
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(session))
+    words = (session, then or _do_nothing)
+    closing = threading.Thread(target=_close, args=words, name="gazelle-close", daemon=True)
+    try:
+        closing.start()
+    except RuntimeError:
+        # Python 3.12 and later start no thread at the process' very end.
+        _close(*words)
+    else:
+        closing.join(_CLOSE_S)
 
 
 def domain_of(environ: Mapping[str, str]) -> int:
@@ -92,6 +162,18 @@ def client_config(port: int, patience_s: float = 0.5) -> zenoh.Config:
         connect=[hub_endpoint(port)],
         settings={"connect/timeout_ms": round(patience_s * 1000), "connect/exit_on_failure": True},
     )
+
+
+def _close(session: Any, then: Callable[[], None]) -> None:
+    import zenoh
+
+    with contextlib.suppress(zenoh.ZError):
+        session.close()
+    then()
+
+
+def _do_nothing() -> None:
+    pass
 
 
 def _config(

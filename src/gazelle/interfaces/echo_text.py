@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from gazelle.interfaces.arrays import is_array, is_array_item
+from gazelle.interfaces.codec_runtime import is_array, is_array_item
 from gazelle.interfaces.definition import RosVersion
 from gazelle.interfaces.message_base import Form
 from gazelle.interfaces.ros1_time import Time, TVal

@@ -7,7 +7,7 @@ import numbers
 from typing import Any
 
 from gazelle.errors import InterfaceError
-from gazelle.interfaces.arrays import is_array
+from gazelle.interfaces.codec_runtime import is_array
 from gazelle.interfaces.definition import FORMATS, Array, Field, FieldType, attribute_name
 from gazelle.interfaces.message_base import Form
 

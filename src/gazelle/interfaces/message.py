@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gazelle.interfaces.arrays import is_array
+from gazelle.interfaces.codec_runtime import is_array
 from gazelle.interfaces.definition import (
     FORMATS,
     NUMPY_NAMES,

@@ -10,7 +10,7 @@ from copy import deepcopy
 from typing import Any
 
 from gazelle.errors import InterfaceError
-from gazelle.interfaces.arrays import is_array, is_array_item
+from gazelle.interfaces.codec_runtime import is_array, is_array_item
 from gazelle.interfaces.definition import (
     FORMATS,
     NUMPY_NAMES,

@@ -7,26 +7,42 @@ registered by being imported.
 from __future__ import annotations
 
 from gazelle.studio.bags import methods as bags
-from gazelle.studio.displays import tables as displays
+from gazelle.studio.displays import methods as displays
 from gazelle.studio.downloads import download, save_file
 from gazelle.studio.graph_view import methods as graph_view
-from gazelle.studio.motion import tables as motion
-from gazelle.studio.plugins import tables as plugins
-from gazelle.studio.routing import Method, Route, methods_of, routes_of, streams_of
+from gazelle.studio.motion import methods as motion
+from gazelle.studio.plugins import methods as plugins
+from gazelle.studio.routing import Method, Route, methods_of, methods_without, routes_of, streams_of
 from gazelle.studio.scenes.assets import mesh_answer, texture_answer
 from gazelle.studio.scenes.robot import get_robot
-from gazelle.studio.settings import tables as settings
+from gazelle.studio.settings.layouts import (
+    delete_layout,
+    list_layouts,
+    load_layout,
+    save_layout,
+)
+from gazelle.studio.settings.rqt_perspectives import open_perspective
+from gazelle.studio.settings.rviz_files import open_rviz
 from gazelle.studio.streams import StreamKind
 from gazelle.studio.studio import Studio
 from gazelle.studio.world import methods as world
 
 __all__ = ["METHODS", "ROUTES", "STREAMS"]
 
+_SETTINGS = {
+    "layout.delete": delete_layout,
+    "layout.list": list_layouts,
+    "layout.load": load_layout,
+    "layout.save": save_layout,
+    "perspective.open": open_perspective,
+    "rviz.open": open_rviz,
+}
+
 METHODS: dict[str, Method[Studio]] = {
     **methods_of(lambda studio: studio.graph_view, graph_view.METHODS),
     **methods_of(lambda studio: studio.world, world.METHODS),
     **methods_of(lambda studio: studio.bags, bags.METHODS),
-    **settings.METHODS,
+    **methods_without(_SETTINGS),
     **methods_of(lambda studio: studio.desk, plugins.METHODS),
     **methods_of(lambda studio: studio.robots, {**motion.METHODS, "robot.get": get_robot}),
     **displays.METHODS,

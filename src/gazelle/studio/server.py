@@ -15,9 +15,9 @@ from websockets.asyncio.server import ServerConnection, serve
 from websockets.http11 import Request, Response
 
 from gazelle.errors import GazelleError
+from gazelle.graph.glibc_malloc import keep_freed_memory
 from gazelle.studio.connection import Connection
 from gazelle.studio.http_answers import answer_to, response
-from gazelle.studio.memory import keep_freed_memory
 from gazelle.studio.protocol import ROUTES
 from gazelle.studio.security import guard_for
 from gazelle.studio.studio import Studio

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import struct
 import threading
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
@@ -20,7 +21,16 @@ if TYPE_CHECKING:
     from gazelle.studio.request_params import Params
     from gazelle.studio.workers import Workers
 
-__all__ = ["MAX_BEHIND_BYTES", "Channel", "Frame", "OpenStream", "Outlet", "StreamKind"]
+__all__ = [
+    "MAX_BEHIND_BYTES",
+    "Channel",
+    "Frame",
+    "OpenStream",
+    "Outlet",
+    "Pace",
+    "StreamKind",
+    "every",
+]
 
 MAX_BEHIND_BYTES = 8 << 20
 """What may wait for the page on one batch channel."""
@@ -278,3 +288,50 @@ class Channel:
             head = _HEADER.pack(self.number, value.kind, value.number, value.stamp_s)
             return b"".join((head, *value.parts))
         return f'{{"op":"data","ch":{self.number},"value":{json_text(value)}}}'
+
+
+class Pace:
+    """Lets something happen at most `rate_hz` times a second, the last one never lost."""
+
+    def __init__(self, channel: Channel, act: Callable[[], None], rate_hz: float) -> None:
+        """Call `act` in the thread that is due or in the event loop; it must be short."""
+        self._channel = channel
+        self._act = act
+        self._period_s = 1.0 / rate_hz
+        self._lock = threading.Lock()
+        self._due_s = 0.0
+        self._waiting = False
+
+    def __call__(self) -> None:
+        """Something new is there."""
+        now_s = time.monotonic()
+        with self._lock:
+            if self._waiting:
+                return
+            wait_s = self._due_s - now_s
+            if wait_s > 0:
+                self._waiting = True
+            else:
+                self._due_s = now_s + self._period_s
+        if wait_s > 0:
+            self._channel.later(wait_s, self._late)
+        else:
+            self._act()
+
+    def _late(self) -> None:
+        with self._lock:
+            self._waiting = False
+            self._due_s = time.monotonic() + self._period_s
+        if not self._channel.closed:
+            self._act()
+
+
+def every(channel: Channel, period_s: float, act: Callable[[], None]) -> None:
+    """Call `act` now and so often until the channel closes; in the event loop, so be short."""
+
+    def again() -> None:
+        if not channel.closed:
+            act()
+            channel.later(period_s, again)
+
+    again()

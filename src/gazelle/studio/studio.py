@@ -6,13 +6,13 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from gazelle.graph import Graph
-from gazelle.studio.bags.bag_services import Bags
+from gazelle.studio.bags.methods import Bags
 from gazelle.studio.bags.player import Playing
 from gazelle.studio.bags.recorder import Recording
 from gazelle.studio.displays.topic_display import DisplayContext
 from gazelle.studio.downloads import Downloads
 from gazelle.studio.frames import Frames
-from gazelle.studio.graph_view.graph_services import graph_parts
+from gazelle.studio.graph_view.methods import graph_parts
 from gazelle.studio.lazy import closed_with
 from gazelle.studio.pages import Pages
 from gazelle.studio.plugins.shown_panels import Desk
@@ -20,7 +20,7 @@ from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.robot import RobotContext
 from gazelle.studio.subscriptions import Taps
 from gazelle.studio.workers import Workers
-from gazelle.studio.world.world_services import world_parts
+from gazelle.studio.world.methods import world_parts
 
 __all__ = ["Studio"]
 

@@ -7,18 +7,33 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE, MessageInfo, Node, RawMessage
 from gazelle.interfaces import Message, from_cdr, message_type
 from gazelle.interfaces.definition import Array
+from gazelle.interfaces.stamps import seconds_of
 from gazelle.studio.errors import StudioError
 
 if TYPE_CHECKING:
     from gazelle.graph import Subscription
 
-__all__ = ["Arrival", "Listener", "Sample", "Taps", "topic_name"]
+__all__ = ["Arrival", "Listener", "Sample", "Taps", "stamp_s", "topic_name"]
+
+_MAX_ARRIVALS = 5000
+_HEADER = "std_msgs/msg/Header"
+_STAMP = (struct.Struct("<iI"), struct.Struct(">iI"))
+_STAMP_PLACE = 4
+
+
+def stamp_s(message: Any, arrived_s: float) -> float:
+    """Return when a message is from: its header's time, else when it came, seconds."""
+    header = getattr(message, "header", None)
+    stamp = getattr(header, "stamp", None)
+    if stamp is not None and (stamp.sec or stamp.nanosec):
+        return seconds_of(stamp)
+    return arrived_s
 
 
 class Sample(NamedTuple):
@@ -42,13 +57,6 @@ class Sample(NamedTuple):
             NotFoundError: nothing defines the type.
         """
         return from_cdr(message_type(self.raw.type_name), self.raw.data)
-
-
-Listener = Callable[[Sample], None]
-_MAX_ARRIVALS = 5000
-_HEADER = "std_msgs/msg/Header"
-_STAMP = (struct.Struct("<iI"), struct.Struct(">iI"))
-_STAMP_PLACE = 4
 
 
 class Arrival(NamedTuple):
@@ -182,3 +190,6 @@ def _header_s(data: bytes) -> float:
         return 0.0
     sec, nanosec = _STAMP[data[1] != 1].unpack_from(data, _STAMP_PLACE)
     return float(sec + nanosec * 1e-9)
+
+
+Listener = Callable[[Sample], None]

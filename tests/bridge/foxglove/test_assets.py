@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.bridge.foxglove.assets import read_asset
+from gazelle.bridge.foxglove.bridge import read_asset
 from gazelle.workspace import Workspace
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from gazelle.bridge.foxglove.schemas import SchemaBook
+from gazelle.bridge.foxglove.channels import SchemaBook
 from gazelle.interfaces import known_types, message_type, to_cdr
 
 pytestmark = pytest.mark.reference

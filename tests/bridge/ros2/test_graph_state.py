@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, Spoken, Wanted, crosses, wishes_of
 from gazelle.bridge.ros2.qos import Quality
-from gazelle.bridge.ros2.state import NOTHING, End, RosState
+from gazelle.bridge.ros2.ros_graph import NOTHING, End, RosState
 from gazelle.graph import ANY_TYPE, Entity, Kind
 from gazelle.graph.key_expressions import Qos
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.bridge.ros2.qos import Quality, request_for, widened
-from gazelle.bridge.ros2.state import End
+from gazelle.bridge.ros2.ros_graph import End
 
 
 def end(node: str = "/rviz", *, reliable: bool = True, latched: bool = False) -> End:

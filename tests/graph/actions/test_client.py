@@ -20,7 +20,7 @@ from gazelle.graph.actions import (
     ServerGoal,
     actions_of,
 )
-from gazelle.graph.actions.comm_state import TRANSITIONS, steps
+from gazelle.graph.actions.client_goal import TRANSITIONS, steps
 from gazelle.interfaces import message_type, ros1_message_type
 
 FIBONACCI = "actionlib_tutorials/Fibonacci"

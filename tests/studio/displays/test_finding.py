@@ -11,7 +11,7 @@ from tests.installed_packages import code_of_page, installed
 from tests.studio.conftest import Talk
 from tests.studio.page import Page, RefusedError
 
-from gazelle.studio.displays.finding import find_display
+from gazelle.studio.displays.methods import find_display
 from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.settings.rviz_files import rviz_value
 

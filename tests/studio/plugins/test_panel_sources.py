@@ -10,9 +10,14 @@ import pytest
 from tests.studio.plugins.rqt.package import write_package
 
 from gazelle.errors import GazelleError
-from gazelle.studio.plugins.names import own_panel
-from gazelle.studio.plugins.panel_sources import Source, all_sources, named_file
-from gazelle.studio.plugins.reading import Unreadable, panel_classes
+from gazelle.studio.plugins.panel_sources import (
+    Source,
+    Unreadable,
+    all_sources,
+    named_file,
+    own_panel,
+    panel_classes,
+)
 from gazelle.workspace import Workspace
 
 _PACKAGE = """<package format="3">

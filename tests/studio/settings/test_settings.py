@@ -10,10 +10,10 @@ import pytest
 from tests.shared_files import SHARED, shared_cases
 
 from gazelle.studio.errors import StudioError
+from gazelle.studio.protocol import METHODS
 from gazelle.studio.request_params import Params
 from gazelle.studio.settings.rqt_perspectives import perspective_value
 from gazelle.studio.settings.rviz_files import rviz_value
-from gazelle.studio.settings.tables import METHODS
 
 _ROS1 = """
 Visualization Manager:

@@ -6,7 +6,7 @@ from typing import NotRequired, TypedDict
 
 import pytest
 
-from gazelle.studio.typescript.ros import ros_interfaces
+from gazelle.studio.typescript.interfaces import ros_interfaces
 
 
 class Note(TypedDict):

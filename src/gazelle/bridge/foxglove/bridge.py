@@ -1,33 +1,75 @@
-"""The bridge: the graph as viewers of Foxglove's protocol see it."""
+"""The bridge: the graph as viewers of Foxglove's protocol see it.
+
+The server answers any web page, so only what a description is made of leaves this machine: files of
+such kinds, inside packages and models.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
+from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
+from urllib.parse import unquote
 
-from gazelle.bridge.foxglove.assets import read_asset
-from gazelle.bridge.foxglove.channels import Topics
+from gazelle.bridge.foxglove.channels import SchemaBook, Topics
 from gazelle.bridge.foxglove.client_publishers import Speech
 from gazelle.bridge.foxglove.clock import Pulse
-from gazelle.bridge.foxglove.connections import connections_of
-from gazelle.bridge.foxglove.node_parameters import NodeParameters
-from gazelle.bridge.foxglove.parameters import Parameters
-from gazelle.bridge.foxglove.schemas import SchemaBook
+from gazelle.bridge.foxglove.parameters import NodeParameters, Parameters
 from gazelle.bridge.foxglove.server_interface import Allow, Connections, Requests, Viewers
 from gazelle.bridge.foxglove.services import Services
 from gazelle.bridge.sync_thread import Settling
 from gazelle.errors import GazelleError
+from gazelle.graph import Entity, Kind
 from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.names import is_hidden
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph
     from gazelle.workspace import Workspace
 
-__all__ = ["FoxgloveBridge"]
+__all__ = ["FoxgloveBridge", "connections_of", "read_asset"]
 
+_SCHEMES = ("package", "model")
+_MESHES = frozenset({".dae", ".fbx", ".glb", ".gltf", ".mtl", ".obj", ".stl"})
+_PICTURES = frozenset({".bmp", ".jpeg", ".jpg", ".png", ".tga", ".tif", ".tiff", ".webp"})
+_DESCRIPTIONS = frozenset({".sdf", ".srdf", ".urdf", ".xacro"})
 _NAME = "foxglove_bridge"
 _IDLE_S = 5.0
 _ENDING_S = 5.0
+
+
+def connections_of(entities: Iterable[Entity], own: str) -> Connections:
+    """Return the nodes that publish, subscribe and answer, by topic and service.
+
+    Args:
+        entities: of the graph.
+        own: the bridge's node, whose subscriptions are the viewers' and are left out.
+    """
+    found: dict[Kind, dict[str, set[str]]] = {
+        kind: {} for kind in (Kind.PUBLISHER, Kind.SUBSCRIPTION, Kind.SERVICE)
+    }
+    for one in entities:
+        is_own_ear = one.kind is Kind.SUBSCRIPTION and one.node == own
+        if one.kind in found and not is_hidden(one.name) and not is_own_ear:
+            found[one.kind].setdefault(one.name, set()).add(one.node)
+    return Connections(*(_sorted(side) for side in found.values()))
+
+
+def read_asset(workspace: Workspace, uri: str) -> bytes | None:
+    """Return a file's bytes, None when there is none, or it is none of a viewer's business.
+
+    Args:
+        workspace: finds packages and models.
+        uri: ``package://…`` or ``model://…``.
+    """
+    scheme, _, place = uri.partition("://")
+    path = PurePosixPath(unquote(place))
+    if scheme not in _SCHEMES or not _stays_inside(unquote(place)):
+        return None
+    if path.suffix.lower() not in _MESHES | _PICTURES | _DESCRIPTIONS:
+        return None
+    found = workspace.resolve(uri).path
+    return found.read_bytes() if found is not None and found.is_file() else None
 
 
 class FoxgloveBridge:
@@ -153,3 +195,12 @@ class FoxgloveBridge:
     def _notice(self, text: str) -> None:
         if not self._node.closed:
             self._node.log("warn", text)
+
+
+def _sorted(side: dict[str, set[str]]) -> dict[str, tuple[str, ...]]:
+    return {name: tuple(sorted(nodes)) for name, nodes in sorted(side.items())}
+
+
+def _stays_inside(place: str) -> bool:
+    """Whether no part of a path leads out of the package that it starts with."""
+    return not any(part in ("", ".", "..") or set("\\:") & set(part) for part in place.split("/"))

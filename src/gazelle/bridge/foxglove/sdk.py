@@ -10,6 +10,7 @@ import threading
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
+from gazelle.bridge.foxglove.parameters import plain_value
 from gazelle.bridge.foxglove.server_interface import (
     Allow,
     Connections,
@@ -17,7 +18,6 @@ from gazelle.bridge.foxglove.server_interface import (
     ServiceOffer,
     ServiceSide,
 )
-from gazelle.bridge.foxglove.values import plain_value
 from gazelle.errors import GraphError
 from gazelle.graph.errors import coded
 

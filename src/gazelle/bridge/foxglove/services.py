@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.bridge.foxglove.schemas import SchemaBook
+from gazelle.bridge.foxglove.channels import SchemaBook
 from gazelle.bridge.foxglove.server_interface import ServiceOffer, ServiceSide, Viewers
 from gazelle.errors import GazelleError
 from gazelle.graph import Entity, Kind

@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bag.definition_sharing import TextShare
-from gazelle.bridge.mirrors import Mirrors
+from gazelle.bridge.node_mirrors import Mirrors
 from gazelle.bridge.ros1.addresses import Address, MasterAddress
 from gazelle.bridge.ros1.connections import Crossing
 from gazelle.bridge.ros1.graph_state import BRIDGE_NAME, TypeBook, traits_of, wishes_of

@@ -7,12 +7,11 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gazelle.bridge.mirrors import Mirrors
-from gazelle.bridge.node_mirrors import Traits
+from gazelle.bridge.node_mirrors import Mirrors, Traits
 from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, Wanted, Wishes, crosses
-from gazelle.bridge.ros2.link import Link
 from gazelle.bridge.ros2.qos import Quality, request_for
-from gazelle.bridge.ros2.state import NOTHING, RosState
+from gazelle.bridge.ros2.rclpy_process import Link
+from gazelle.bridge.ros2.ros_graph import NOTHING, RosState
 from gazelle.bridge.ros2.types import MessageKind, ServiceKind, TypeBook
 from gazelle.errors import GazelleError
 from gazelle.interfaces import from_cdr, to_cdr

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from gazelle.bridge.ros2.qos import Quality
-from gazelle.bridge.ros2.state import RosState
+from gazelle.bridge.ros2.ros_graph import RosState
 from gazelle.graph import ANY_TYPE, Entity, Kind
 from gazelle.graph.names import is_hidden, is_legal_base, split
 

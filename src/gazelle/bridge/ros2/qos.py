@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from gazelle.bridge.ros2.state import End
+from gazelle.bridge.ros2.ros_graph import End
 from gazelle.graph.errors import coded
 
 __all__ = ["Quality", "request_for", "widened"]

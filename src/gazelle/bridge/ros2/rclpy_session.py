@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.ros2.from_ros import Inward
 from gazelle.bridge.ros2.graph_state import wishes_of
-from gazelle.bridge.ros2.link import Link, Outcome
-from gazelle.bridge.ros2.rclpy_process import About, Side
-from gazelle.bridge.ros2.state import NOTHING, RosState
+from gazelle.bridge.ros2.rclpy_process import About, Link, Outcome, Side
+from gazelle.bridge.ros2.ros_graph import NOTHING, RosState
 from gazelle.bridge.ros2.to_ros import Outward
 from gazelle.bridge.ros2.types import TypeBook
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.bridge.raw_subscription import Sample, Tap
 from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, Spoken, Wishes
-from gazelle.bridge.ros2.link import Link
 from gazelle.bridge.ros2.qos import Quality, widened
-from gazelle.bridge.ros2.state import RosState
+from gazelle.bridge.ros2.rclpy_process import Link
+from gazelle.bridge.ros2.ros_graph import RosState
 from gazelle.bridge.ros2.types import ServiceKind, TypeBook
 from gazelle.errors import GazelleError
 from gazelle.interfaces import from_cdr, to_cdr

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from gazelle.graph.actions.action_info import ActionInfo, actions_of
 from gazelle.graph.actions.client import ActionClient
-from gazelle.graph.actions.client_goal import ClientGoal
-from gazelle.graph.actions.comm_state import CommState
+from gazelle.graph.actions.client_goal import ClientGoal, CommState
 from gazelle.graph.actions.goal import (
     ActionlibStatus,
     GoalEvent,

@@ -8,8 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.actions.client_events import News
-from gazelle.graph.actions.client_goal import ClientGoal
-from gazelle.graph.actions.comm_state import CommState, steps
+from gazelle.graph.actions.client_goal import ClientGoal, CommState, steps
 from gazelle.graph.actions.goal import ActionlibStatus
 from gazelle.graph.actions.types import ActionTypes
 from gazelle.interfaces.stamps import set_stamp

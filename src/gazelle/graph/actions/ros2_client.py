@@ -13,9 +13,9 @@ from gazelle.graph.actions.client_events import News
 from gazelle.graph.actions.client_goal import ClientGoal
 from gazelle.graph.actions.goal import Ros2Status
 from gazelle.graph.actions.types import ActionTypes
-from gazelle.graph.closing import CallsInFlight
 from gazelle.graph.key_expressions import Kind
 from gazelle.graph.service_requests import Turn, Turns
+from gazelle.graph.sessions import CallsInFlight
 from gazelle.interfaces.stamps import set_stamp
 
 if TYPE_CHECKING:

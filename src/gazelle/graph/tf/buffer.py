@@ -18,8 +18,8 @@ from gazelle.graph.tf.exceptions import (
     InvalidFrameError,
     TransformError,
     UnknownFrameError,
+    gap_text,
 )
-from gazelle.graph.tf.gaps import gap_text
 from gazelle.graph.tf.history import History, Sample, StaticHistory
 
 __all__ = ["FrameInfo", "StampedPose", "TransformBuffer"]

@@ -1,4 +1,4 @@
-"""Why a transform cannot be had; the texts are tf2's."""
+"""Why a transform cannot be had, in tf2's texts, and whose job it would be (REP 105)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,34 @@ __all__ = [
     "InvalidFrameError",
     "TransformError",
     "UnknownFrameError",
+    "gap_text",
 ]
+
+_BASES = frozenset({"base_footprint", "base_link", "base"})
+_MAPS = frozenset({"map", "earth", "world"})
+_LOCALISERS = "localisation or SLAM (amcl, gmapping, slam_toolbox)"
+_DRIVES = (
+    "the drive (plug-in: <publishOdomTF>, publish_odom_tf; diff_drive_controller: enable_odom_tf) "
+    "or robot_localization"
+)
+_JOINTS = (
+    "robot_state_publisher, which wants every joint in /joint_states, or a "
+    "static_transform_publisher"
+)
+
+
+def gap_text(first: str, second: str) -> str:
+    """Return a sentence about the transform that would join two trees.
+
+    Args:
+        first: root of one tree.
+        second: root of the other.
+    """
+    parent, child = _ordered(first, second)
+    return (
+        f"nobody publishes a transform from the tree of '{parent}' to '{child}'; that is the job "
+        f"of {_owner(parent, child)}"
+    )
 
 
 class TransformError(GraphError):
@@ -40,3 +67,26 @@ class ExtrapolationError(TransformError):
 
 class InvalidFrameError(TransformError):
     """A frame's name cannot be one."""
+
+
+def _ordered(first: str, second: str) -> tuple[str, str]:
+    """Return the frame that is above by REP 105 first: map, odom, base_link."""
+    return (first, second) if _rank(first) <= _rank(second) else (second, first)
+
+
+def _rank(frame: str) -> int:
+    bare = frame.rpartition("/")[2]
+    if bare in _MAPS:
+        return 0
+    if bare == "odom":
+        return 1
+    return 2 if bare in _BASES else 3
+
+
+def _owner(parent: str, child: str) -> str:
+    above, below = _rank(parent), _rank(child)
+    if above == 0 and below == 1:
+        return _LOCALISERS
+    if above == 1 and below in {2, 3}:
+        return _DRIVES
+    return _JOINTS

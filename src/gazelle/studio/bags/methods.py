@@ -1,19 +1,27 @@
-"""Methods and streams of bags."""
+"""Methods and streams of bags, and what they work on."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, TypedDict
 
-from gazelle.studio.bags.bag_services import Bags
-from gazelle.studio.bags.player import PlayerState
-from gazelle.studio.bags.recorder import RecorderState
+from gazelle.studio.bags.player import PlayerState, Playing
+from gazelle.studio.bags.recorder import RecorderState, Recording
 from gazelle.studio.request_params import Params
 from gazelle.studio.routing import Method
 from gazelle.studio.streams import Channel, OpenStream, StreamKind
 
-__all__ = ["METHODS", "STREAMS", "BagState"]
+__all__ = ["METHODS", "STREAMS", "BagState", "Bags"]
 
 _PERIOD_S = 0.2
+
+
+@dataclass(frozen=True)
+class Bags:
+    """The recorder and the player of a graph's pages."""
+
+    recording: Recording
+    playing: Playing
 
 
 class BagState(TypedDict):

@@ -1,4 +1,4 @@
-"""``image``, and the displays Image and Camera."""
+"""``image``, the displays Image and Camera, and ``turtles``, the canvas that turtlesim draws."""
 
 from __future__ import annotations
 
@@ -17,14 +17,15 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.request_params import Params
-from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Channel, Frame, OpenStream
-from gazelle.studio.subscriptions import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Taps, stamp_s
 
-__all__ = ["CameraInfo", "info_topic", "open_camera", "open_image", "open_picture"]
+__all__ = ["CameraInfo", "info_topic", "open_camera", "open_image", "open_picture", "open_turtles"]
 
 _SUFFIXES = ("/compressedDepth", "/compressed")
 _MAX_PX = 16_384
+_NODE = "/turtlesim"
+_QUALITY = 92
 
 
 def open_image(context: DisplayContext, channel: Channel, params: Params) -> OpenStream:
@@ -100,6 +101,13 @@ def info_topic(topic: str) -> str:
     for suffix in _SUFFIXES:
         topic = topic.removesuffix(suffix)
     return f"{topic.rpartition('/')[0]}/camera_info"
+
+
+def open_turtles(context: DisplayContext, channel: Channel, params: Params) -> OpenStream:
+    """Stream ``turtles`` of a ``node``: its hidden topic ``~_canvas`` as pictures."""
+    node = context.taps.node.resolve_name(params.text("node", _NODE))
+    wanted = Params(params.where, {"topic": f"{node}/_canvas", "quality": _QUALITY})
+    return open_picture(Site(context, channel, wanted))
 
 
 def _settings(params: Params) -> PictureSettings:

@@ -13,9 +13,8 @@ from gazelle.studio.displays.point_colours import Colouring
 from gazelle.studio.displays.points import Points, budget_of, points_frame
 from gazelle.studio.displays.topic_display import Site, open_newest
 from gazelle.studio.errors import StudioError
-from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Frame, OpenStream
-from gazelle.studio.subscriptions import Sample
+from gazelle.studio.subscriptions import Sample, stamp_s
 
 __all__ = ["open_depth_cloud"]
 

@@ -16,9 +16,8 @@ from gazelle.interfaces.poses import unit_pose_of
 from gazelle.studio.displays.topic_display import Site, open_newest
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
-from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Frame, OpenStream
-from gazelle.studio.subscriptions import Sample
+from gazelle.studio.subscriptions import Sample, stamp_s
 
 __all__ = ["KIND_MAP", "KIND_MAP_PART", "open_map"]
 

@@ -12,11 +12,9 @@ from gazelle.studio.displays.topic_display import Site
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
-from gazelle.studio.pacing import every
 from gazelle.studio.scenes.shapes import MeshPartValue, mesh_geometry
-from gazelle.studio.stamps import stamp_s
-from gazelle.studio.streams import OpenStream
-from gazelle.studio.subscriptions import Sample
+from gazelle.studio.streams import OpenStream, every
+from gazelle.studio.subscriptions import Sample, stamp_s
 from gazelle.workspace import Workspace
 
 __all__ = [

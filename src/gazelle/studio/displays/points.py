@@ -1,4 +1,7 @@
-"""LaserScan, point clouds, sensors of one number: coloured points, as many as the page wants."""
+"""LaserScan, point clouds, sensors of one number: coloured points, as many as the page wants.
+
+Positions of large clouds go in half the bytes: 16 bits for each axis of the cloud's own cube.
+"""
 
 from __future__ import annotations
 
@@ -11,34 +14,74 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
-from gazelle.studio.displays.packing import pack
 from gazelle.studio.displays.point_colours import Colouring, ramp
 from gazelle.studio.displays.topic_display import Site, open_newest
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values
-from gazelle.studio.stamps import stamp_s
 from gazelle.studio.streams import Frame, OpenStream
-from gazelle.studio.subscriptions import Sample
+from gazelle.studio.subscriptions import Sample, stamp_s
 
 __all__ = [
     "BUDGET",
     "KIND_PACKED_POINTS",
     "KIND_POINTS",
+    "PackedPositions",
     "Points",
     "budget_of",
     "open_points",
+    "pack",
     "points_frame",
     "points_of",
 ]
 
+_MIN_COUNT = 4096
+_LEVELS = 65_535
+_COARSEST_M = 0.002
 KIND_POINTS = 20
 KIND_PACKED_POINTS = 29
+
 BUDGET = 100_000
 """Points of one message that a page gets unless it says otherwise."""
 
 _MAX_BUDGET = 5_000_000
 # By sensor_msgs/PointField's numbers.
 _FIELD_TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+
+
+class PackedPositions(NamedTuple):
+    """Positions as whole numbers: ``origin_m + step_m * levels``.
+
+    Attributes:
+        origin_m: x, y and z of the cube's lowest corner.
+        step_m: metres per level.
+        levels: (N, 3) uint16.
+    """
+
+    origin_m: float
+    step_m: float
+    levels: NDArray[np.uint16]
+
+
+def pack(xyz: NDArray[np.float32]) -> PackedPositions | None:
+    """Return positions packed; None where that saves little or would move points by millimetres.
+
+    Args:
+        xyz: (N, 3) finite positions, metres.
+    """
+    if len(xyz) < _MIN_COUNT:
+        return None
+    values = np.ravel(xyz)
+    low, high = float(values.min()), float(values.max())
+    step = (high - low) / _LEVELS
+    if not step <= _COARSEST_M:
+        return None
+    if step == 0.0:
+        step = 1.0
+    # One step for all axes: passes over plain arrays are much faster than over rows of three.
+    levels = values * np.float32(1.0 / step)
+    levels += np.float32(0.5 - low / step)
+    np.clip(levels, 0.0, _LEVELS, out=levels)
+    return PackedPositions(low, step, levels.astype(np.uint16).reshape(xyz.shape))
 
 
 class Points(NamedTuple):
@@ -108,22 +151,6 @@ def points_frame(points: Points, pose: Pose, colouring: Colouring, at_s: float) 
     return Frame(KIND_PACKED_POINTS, count, at_s, parts)
 
 
-def _colours(points: Points, pose: Pose, colouring: Colouring) -> NDArray[np.uint32]:
-    chosen = colouring.transformer
-    if points.rgb is not None and chosen in ("", "RGB8"):
-        return points.rgb
-    values = points.channels.get(colouring.channel)
-    if values is not None and chosen in ("", "Intensity"):
-        return ramp(values, colouring.bounds, colouring.colours)
-    if chosen == "AxisColor":
-        values = points.xyz[:, colouring.axis]
-        if colouring.in_fixed_frame:
-            row = pose.matrix()[colouring.axis].astype(np.float32)
-            values = points.xyz @ row[:3] + row[3]
-        return ramp(values, colouring.axis_bounds, colouring.colours)
-    return np.full(len(points.xyz), colouring.flat, np.uint32)
-
-
 def _from_cloud2(message: Any, budget: int, channels: tuple[str, ...], with_rgb: bool) -> Points:
     fields = {one.name: one for one in message.fields}
     missing = [name for name in "xyz" if name not in fields]
@@ -187,6 +214,56 @@ class _Cloud:
         return np.ndarray((self.count,), item, self._data, offset, strides)
 
 
+def _from_scan(message: Any, budget: int, channels: tuple[str, ...], _with_rgb: bool) -> Points:
+    ranges = np.asarray(message.ranges, np.float32)
+    every = max(1, -(-len(ranges) // budget))
+    ways = _directions(len(ranges), message.angle_min, message.angle_increment)[::every]
+    ranges = ranges[::every]
+    good = (ranges >= message.range_min) & (ranges <= message.range_max)
+    xyz = np.zeros((int(good.sum()), 3), np.float32)
+    xyz[:, :2] = ways[good] * ranges[good, None]
+    intensities = np.asarray(message.intensities, np.float32)[::every]
+    found = {"intensity": intensities[good]} if len(intensities) == len(ranges) else {}
+    return Points(xyz, {name: values for name, values in found.items() if name in channels})
+
+
+def _from_cloud(message: Any, budget: int, channels: tuple[str, ...], with_rgb: bool) -> Points:
+    every = max(1, math.ceil(len(message.points) / budget))
+    chosen = message.points[::every]
+    xyz = np.array([(one.x, one.y, one.z) for one in chosen], np.float32).reshape(-1, 3)
+    named = {one.name: np.asarray(one.values, np.float32)[::every] for one in message.channels}
+    fitting = {name: values for name, values in named.items() if len(values) == len(xyz)}
+    wanted = {name: fitting[name] for name in channels if name in fitting}
+    rgb = None
+    if with_rgb and "rgb" in fitting:
+        rgb = _packed_rgb(np.ascontiguousarray(fitting["rgb"]).view(np.uint32))
+    return _finite(Points(xyz, wanted, rgb, len(message.points)))
+
+
+def _from_reading(message: Any, _budget: int, channels: tuple[str, ...], _with_rgb: bool) -> Points:
+    """A sensor of one number is a point in its own frame, as in RViz."""
+    name = message.FIELDS[1].name
+    values = {name: np.array([getattr(message, name)])}
+    xyz = np.zeros((1, 3), np.float32)
+    return Points(xyz, {name: found for name, found in values.items() if name in channels})
+
+
+def _colours(points: Points, pose: Pose, colouring: Colouring) -> NDArray[np.uint32]:
+    chosen = colouring.transformer
+    if points.rgb is not None and chosen in ("", "RGB8"):
+        return points.rgb
+    values = points.channels.get(colouring.channel)
+    if values is not None and chosen in ("", "Intensity"):
+        return ramp(values, colouring.bounds, colouring.colours)
+    if chosen == "AxisColor":
+        values = points.xyz[:, colouring.axis]
+        if colouring.in_fixed_frame:
+            row = pose.matrix()[colouring.axis].astype(np.float32)
+            values = points.xyz @ row[:3] + row[3]
+        return ramp(values, colouring.axis_bounds, colouring.colours)
+    return np.full(len(points.xyz), colouring.flat, np.uint32)
+
+
 def _without_padding(data: Any, height: int, row: int, used: int) -> NDArray[np.uint8]:
     flat = np.frombuffer(data, np.uint8, row * height)
     return np.ascontiguousarray(flat.reshape(height, row)[:, :used]).reshape(-1)
@@ -213,44 +290,10 @@ def _finite(points: Points) -> Points:
     )
 
 
-def _from_scan(message: Any, budget: int, channels: tuple[str, ...], _with_rgb: bool) -> Points:
-    ranges = np.asarray(message.ranges, np.float32)
-    every = max(1, -(-len(ranges) // budget))
-    ways = _directions(len(ranges), message.angle_min, message.angle_increment)[::every]
-    ranges = ranges[::every]
-    good = (ranges >= message.range_min) & (ranges <= message.range_max)
-    xyz = np.zeros((int(good.sum()), 3), np.float32)
-    xyz[:, :2] = ways[good] * ranges[good, None]
-    intensities = np.asarray(message.intensities, np.float32)[::every]
-    found = {"intensity": intensities[good]} if len(intensities) == len(ranges) else {}
-    return Points(xyz, {name: values for name, values in found.items() if name in channels})
-
-
 @lru_cache(maxsize=16)
 def _directions(count: int, first_rad: float, step_rad: float) -> NDArray[np.float32]:
     angles = first_rad + step_rad * np.arange(count)
     return np.stack([np.cos(angles), np.sin(angles)], axis=1).astype(np.float32)
-
-
-def _from_cloud(message: Any, budget: int, channels: tuple[str, ...], with_rgb: bool) -> Points:
-    every = max(1, math.ceil(len(message.points) / budget))
-    chosen = message.points[::every]
-    xyz = np.array([(one.x, one.y, one.z) for one in chosen], np.float32).reshape(-1, 3)
-    named = {one.name: np.asarray(one.values, np.float32)[::every] for one in message.channels}
-    fitting = {name: values for name, values in named.items() if len(values) == len(xyz)}
-    wanted = {name: fitting[name] for name in channels if name in fitting}
-    rgb = None
-    if with_rgb and "rgb" in fitting:
-        rgb = _packed_rgb(np.ascontiguousarray(fitting["rgb"]).view(np.uint32))
-    return _finite(Points(xyz, wanted, rgb, len(message.points)))
-
-
-def _from_reading(message: Any, _budget: int, channels: tuple[str, ...], _with_rgb: bool) -> Points:
-    """A sensor of one number is a point in its own frame, as in RViz."""
-    name = message.FIELDS[1].name
-    values = {name: np.array([getattr(message, name)])}
-    xyz = np.zeros((1, 3), np.float32)
-    return Points(xyz, {name: found for name, found in values.items() if name in channels})
 
 
 _READERS: dict[str, Callable[[Any, int, tuple[str, ...], bool], Points]] = {

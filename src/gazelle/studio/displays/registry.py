@@ -10,8 +10,8 @@ from gazelle.studio.displays.depth_cloud import open_depth_cloud
 from gazelle.studio.displays.display import Display
 from gazelle.studio.displays.maps import open_map
 from gazelle.studio.displays.markers import open_interactive, open_markers
-from gazelle.studio.displays.plain import open_plain
 from gazelle.studio.displays.points import open_points
+from gazelle.studio.displays.topic_display import open_plain
 
 __all__ = ["DISPLAYS", "own_display"]
 

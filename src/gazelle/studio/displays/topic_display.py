@@ -1,4 +1,7 @@
-"""What all displays of a topic share: the newest message, and its pose in the fixed frame."""
+"""What all displays of a topic share: the newest message, and its pose in the fixed frame.
+
+Path, Odometry, Pose, Range and the like are no more than that: the page draws their messages.
+"""
 
 from __future__ import annotations
 
@@ -10,14 +13,14 @@ from gazelle.geometry import Pose
 from gazelle.graph.tf import TransformError
 from gazelle.interfaces.stamps import ns_of
 from gazelle.studio.errors import StudioError
-from gazelle.studio.frames import Frames
-from gazelle.studio.pacing import every
+from gazelle.studio.frames import Frames, pose_values
+from gazelle.studio.json_text import message_value
 from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.assets import Assets
-from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.subscriptions import Sample, Taps
+from gazelle.studio.streams import Channel, OpenStream, every
+from gazelle.studio.subscriptions import Sample, Taps, stamp_s
 
-__all__ = ["DisplayContext", "Site", "open_newest", "open_on"]
+__all__ = ["DisplayContext", "Site", "open_newest", "open_on", "open_plain"]
 
 _RETRY_S = 0.5
 
@@ -167,3 +170,21 @@ class _Newest:
         made = self._make(sample)
         self._failed = False
         return made
+
+
+def open_plain(site: Site) -> OpenStream:
+    """Send each message with the pose of its frame in the fixed one."""
+
+    def make(sample: Sample) -> Any:
+        message = site.headed(sample)
+        # Joint states have no frame; efforts are drawn at the robot's joints.
+        framed = bool(message.header.frame_id) or hasattr(message, "pose")
+        pose = pose_values(site.pose(message.header)) if framed else None
+        return {
+            "pose": pose,
+            "stamp_s": stamp_s(message, sample.time_s),
+            "frame": message.header.frame_id,
+            "message": message_value(message, None),
+        }
+
+    return open_newest(site, make)

@@ -1,12 +1,13 @@
-"""Methods and streams of the graph."""
+"""Methods and streams of the graph, and what they work on."""
 
 from __future__ import annotations
+
+from contextlib import ExitStack
+from dataclasses import dataclass
 
 from gazelle.graph import Node
 from gazelle.studio.frames import Frames
 from gazelle.studio.graph_view.actions import open_action
-from gazelle.studio.graph_view.graph_services import GraphParts
-from gazelle.studio.graph_view.joints import publish_joints
 from gazelle.studio.graph_view.nodes import get_node, kill_node, list_loggers, set_logger
 from gazelle.studio.graph_view.parameters import (
     delete_parameter,
@@ -18,30 +19,33 @@ from gazelle.studio.graph_view.parameters import (
 )
 from gazelle.studio.graph_view.plot import open_plot
 from gazelle.studio.graph_view.publishers import (
+    Outbox,
     Publishers,
     list_publishers,
+    publish,
+    publish_joints,
     remove_publisher,
     set_publisher,
 )
-from gazelle.studio.graph_view.publishing import Outbox, publish
-from gazelle.studio.graph_view.rates import open_stats
 from gazelle.studio.graph_view.reconfigure import (
     DynamicClients,
     get_reconfigurable,
     list_reconfigurable,
     set_reconfigurable,
 )
-from gazelle.studio.graph_view.rosout import open_rosout
+from gazelle.studio.graph_view.rosout import Console, open_rosout
 from gazelle.studio.graph_view.services import call_service
-from gazelle.studio.graph_view.topics import open_echo
-from gazelle.studio.graph_view.topology import get_graph, open_graph
+from gazelle.studio.graph_view.topics import open_echo, open_stats
+from gazelle.studio.graph_view.topology import Topology, get_graph, open_graph
 from gazelle.studio.graph_view.transforms import open_tf, open_tree
 from gazelle.studio.graph_view.types import get_type, list_types
+from gazelle.studio.lazy import Once, closed_with
+from gazelle.studio.pages import Pages
 from gazelle.studio.routing import Method, methods_of, methods_without, streams_of
 from gazelle.studio.streams import StreamKind
 from gazelle.studio.subscriptions import Taps
 
-__all__ = ["METHODS", "STREAMS"]
+__all__ = ["METHODS", "STREAMS", "GraphParts", "graph_parts"]
 
 _NODE_METHODS: dict[str, Method[Node]] = {
     "graph.get": get_graph,
@@ -80,7 +84,6 @@ _FRAME_STREAMS: dict[str, StreamKind[Frames]] = {
     "tf": StreamKind(latest=True, open=open_tf),
     "tf.tree": StreamKind(latest=True, open=open_tree),
 }
-
 METHODS: dict[str, Method[GraphParts]] = {
     **methods_of(lambda parts: parts.node, _NODE_METHODS),
     **methods_of(lambda parts: parts.outbox, _OUTBOX_METHODS),
@@ -95,3 +98,43 @@ STREAMS: dict[str, StreamKind[GraphParts]] = {
     **streams_of(lambda parts: parts.topology(), {"graph": StreamKind(False, open_graph)}),
     **streams_of(lambda parts: parts.console(), {"rosout": StreamKind(False, open_rosout)}),
 }
+
+
+@dataclass(frozen=True)
+class GraphParts:
+    """A graph as pages look at it.
+
+    Attributes:
+        node: who looks and calls.
+        taps: topics that are listened to.
+        frames: where frames are.
+        outbox: publishers of single messages.
+        clients: those of dynamic_reconfigure.
+        topology: who speaks with whom; followed from the first look on.
+        console: what nodes say; kept from the first look on.
+        publishers: those that go on by themselves.
+    """
+
+    node: Node
+    taps: Taps
+    frames: Frames
+    outbox: Outbox
+    clients: DynamicClients
+    topology: Once[Topology]
+    console: Once[Console]
+    publishers: Once[Publishers]
+
+
+def graph_parts(taps: Taps, frames: Frames, pages: Pages, ending: ExitStack) -> GraphParts:
+    """Return the parts that end with others."""
+    node = taps.node
+    return GraphParts(
+        node,
+        taps,
+        frames,
+        Outbox(node),
+        DynamicClients(node),
+        topology=Once(lambda: closed_with(ending, Topology(node.graph))),
+        console=Once(lambda: closed_with(ending, Console(taps))),
+        publishers=Once(lambda: closed_with(ending, Publishers(node, pages))),
+    )

@@ -7,9 +7,8 @@ from typing import TypedDict
 import numpy as np
 
 from gazelle.studio.frames import NO_POSE, Frames, pose_values, poses_in
-from gazelle.studio.pacing import Pace, every
 from gazelle.studio.request_params import Params
-from gazelle.studio.streams import Channel, Frame, OpenStream
+from gazelle.studio.streams import Channel, Frame, OpenStream, Pace, every
 
 __all__ = ["KIND_FRAMES", "FrameNames", "FrameRow", "TfFrame", "open_tf", "open_tree"]
 

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from gazelle.studio.plugins.containers import Column, Row
 from gazelle.studio.plugins.panel import Panel
 from gazelle.studio.plugins.panel_node import PanelNode
 from gazelle.studio.plugins.widgets import (
     Button,
     Checkbox,
     Choice,
+    Column,
     Image,
     Label,
     Number,
     Plot,
+    Row,
     Slider,
     Table,
     TextInput,

@@ -11,10 +11,14 @@ from gazelle.studio.plugins.rqt.plugin_xml import rqt_plugins
 from gazelle.studio.plugins.rqt.porting import PortedPlugin, how_to_port
 from gazelle.studio.plugins.shown_panels import Desk
 from gazelle.studio.request_params import Params
-from gazelle.studio.streams import Channel, OpenStream
+from gazelle.studio.routing import Method, Route, methods_without
+from gazelle.studio.streams import Channel, OpenStream, StreamKind
 from gazelle.workspace import Workspace
 
 __all__ = [
+    "METHODS",
+    "ROUTES",
+    "STREAMS",
     "PanelEntry",
     "PanelInfo",
     "file_answer",
@@ -141,3 +145,13 @@ def _script(source: Source) -> Any:
     path = (folder / name).resolve()
     inside = path.is_relative_to(folder) and path.suffix in _ENDINGS
     return path if name and inside and path.is_file() else None
+
+
+METHODS: dict[str, Method[Desk]] = {
+    "plugin.event": take_event,
+    "plugin.list": list_panels,
+    **methods_without({"plugin.port": port_panel}),
+    "plugin.reload": reload_panel,
+}
+STREAMS: dict[str, StreamKind[Desk]] = {"plugin": StreamKind(latest=False, open=open_panel)}
+ROUTES: dict[str, Route[Desk]] = {"plugin": file_answer}

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 if TYPE_CHECKING:
-    from gazelle.studio.plugins.containers import Part
     from gazelle.studio.plugins.panel_node import PanelNode
+    from gazelle.studio.plugins.widgets import Part
 
 __all__ = ["Panel", "PanelLink"]
 

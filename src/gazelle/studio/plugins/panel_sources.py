@@ -1,8 +1,13 @@
-"""Where panels come from: files that were named, packages of the workspace, entry points."""
+"""Which panels there are: in files that were named, packages of the workspace, entry points.
+
+Which ones a Python file has is read without running it.
+"""
 
 from __future__ import annotations
 
+import ast
 import importlib.util
+import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -10,13 +15,73 @@ from typing import NamedTuple
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GazelleError
 from gazelle.extensions import ExtensionGroup, entry_points_of
-from gazelle.studio.plugins.reading import PanelClass, Unreadable, panel_classes
+from gazelle.studio.plugins.rqt.plugin_xml import rqt_plugins
 from gazelle.workspace import Package, Workspace
 
-__all__ = ["FOLDER", "Source", "all_sources", "named_file", "sources_of_package"]
+__all__ = [
+    "FOLDER",
+    "PanelClass",
+    "Source",
+    "Unreadable",
+    "all_sources",
+    "named_file",
+    "own_panel",
+    "panel_classes",
+    "sources_of_package",
+]
+
+_MODULES = ("gazelle.studio.plugins", "gazelle.studio.plugins.panel")
+_MARK = "gazelle.studio"
+_MAX_BYTES = 2 << 20
+_TEXTS = ("title", "group", "about", "module")
 
 FOLDER = "panels"
 """Folder of a package whose Python files are looked at."""
+
+
+class PanelClass(NamedTuple):
+    """A class that derives from `Panel`.
+
+    Attributes:
+        name: of the class.
+        line: where it begins.
+        texts: class attributes that are written as plain texts: title, group, about, module.
+    """
+
+    name: str
+    line: int
+    texts: dict[str, str]
+
+
+class Unreadable(NamedTuple):
+    """Why a file's panels are not known; it names file and line."""
+
+    reason: str
+
+
+def panel_classes(file: Path) -> tuple[PanelClass, ...] | Unreadable:
+    """Return the panels of a file in order; none when it does not speak of Studio."""
+    try:
+        if file.stat().st_size > _MAX_BYTES:
+            return ()
+        text = file.read_text(encoding="utf-8", errors="replace")
+        if _MARK not in text:
+            return ()
+        tree = ast.parse(text, str(file))
+    except SyntaxError as error:
+        return Unreadable(f"{file}:{error.lineno}: SyntaxError: {error.msg}")
+    except (OSError, ValueError, MemoryError, RecursionError) as error:
+        return Unreadable(f"{file}: {error}")
+    bases = set(_names_of_panel(tree))
+    found = []
+    for node in tree.body:
+        if not isinstance(node, ast.ClassDef):
+            continue
+        if any(ast.unparse(base) in bases for base in node.bases):
+            bases.add(node.name)
+            if not node.name.startswith("_"):
+                found.append(PanelClass(node.name, node.lineno, dict(_texts(node))))
+    return tuple(found)
 
 
 class Source(NamedTuple):
@@ -100,6 +165,55 @@ def sources_of_package(package: Package) -> Iterator[Source]:
             continue
         for one in classes:
             yield _source(package.name, file, one, origin)._replace(folders=folders)
+
+
+def own_panel(words: str) -> str:
+    """Return the kind that ``rqt -s WORDS`` means among the user's panels, empty for none.
+
+    A panel comes before a plug-in of rqt of the same name: it is what became of it.
+
+    Args:
+        words: ``package.Class`` or ``Class`` of a panel; package, ``module.Class`` or
+            ``package/module.Class`` of a plug-in of rqt.
+    """
+    workspace = Workspace.discover()
+    for name, source in all_sources((), workspace).items():
+        if words in (name, source.class_name):
+            return f"plugin:{name}"
+    for plugin in rqt_plugins(workspace):
+        class_name = re.split(r"\.|::", plugin.type)[-1]
+        if words in (plugin.name, plugin.type, plugin.package, class_name):
+            return f"rqt-plugin:{plugin.name}"
+    return ""
+
+
+def _names_of_panel(tree: ast.Module) -> Iterator[str]:
+    """Yield how the file may write the class `Panel`."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                if alias.name in _MODULES:
+                    yield f"{alias.asname or alias.name}.Panel"
+        elif isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                name = alias.asname or alias.name
+                if node.module in _MODULES and alias.name in ("Panel", "*"):
+                    yield "Panel" if alias.name == "*" else name
+                elif f"{node.module}.{alias.name}" in _MODULES:
+                    yield f"{name}.Panel"
+
+
+def _texts(node: ast.ClassDef) -> Iterator[tuple[str, str]]:
+    for statement in node.body:
+        match statement:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant(value=str(text))):
+                pass
+            case ast.AnnAssign(target=ast.Name(id=name), value=ast.Constant(value=str(text))):
+                pass
+            case _:
+                continue
+        if name in _TEXTS:
+            yield name, text
 
 
 def _installed() -> Iterator[Source]:

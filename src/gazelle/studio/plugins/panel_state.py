@@ -10,10 +10,20 @@ from dataclasses import fields, replace
 from typing import Any, TypedDict
 
 from gazelle.diagnostics import did_you_mean
-from gazelle.studio.plugins.containers import Column, Part, Row, all_widgets
 from gazelle.studio.plugins.panel import Panel
 from gazelle.studio.plugins.widget_values import accepted, check_sendable, first_value, refitted
-from gazelle.studio.plugins.widgets import Button, Choice, Handler, Image, Plot, Widget
+from gazelle.studio.plugins.widgets import (
+    Button,
+    Choice,
+    Column,
+    Handler,
+    Image,
+    Part,
+    Plot,
+    Row,
+    Widget,
+    all_widgets,
+)
 
 __all__ = ["PanelState", "State", "checked_layout", "handler_of"]
 

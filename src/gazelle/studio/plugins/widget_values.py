@@ -1,14 +1,16 @@
-"""Which values a widget takes, from the panel's code and from the page."""
+"""Which values a widget takes, from the panel's code and from the page; pictures too."""
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
+from gazelle.studio.displays.image_encodings import PictureSettings, encoded_picture
+from gazelle.studio.http_answers import Answer
 from gazelle.studio.json_text import finite_number, json_text
-from gazelle.studio.plugins.pictures import checked_picture
 from gazelle.studio.plugins.widgets import (
     Button,
     Checkbox,
@@ -23,11 +25,60 @@ from gazelle.studio.plugins.widgets import (
     Widget,
 )
 
-__all__ = ["accepted", "check_sendable", "chosen", "first_value", "refitted"]
+__all__ = [
+    "accepted",
+    "check_sendable",
+    "checked_picture",
+    "chosen",
+    "first_value",
+    "picture_answer",
+    "refitted",
+]
 
+_SETTINGS = PictureSettings(quality=85)
+_FILES = {b"\x89PNG": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 _MAX_ROWS = 1000
+
 _EVENTS = (Slider, Number, Checkbox, Choice, TextInput, Button)
 """Kinds that a person acts on."""
+
+
+def checked_picture(value: Any) -> Any:
+    """Return a picture that can be shown; an array is copied, its owner goes on drawing.
+
+    Raises:
+        TypeError: it is none.
+    """
+    if hasattr(value, "data") and (hasattr(value, "encoding") or hasattr(value, "format")):
+        return value
+    if isinstance(value, bytes) and _type_of(value):
+        return value
+    if isinstance(value, np.ndarray) and value.dtype == np.uint8:
+        if value.ndim == 2 or (value.ndim == 3 and value.shape[2] in (1, 3, 4)):
+            return value.squeeze(2).copy() if value.shape[2:] == (1,) else value.copy()
+        raise TypeError(f"an array of shape {value.shape} is no picture: (H, W), (H, W, 3 or 4)")
+    kind = f"an array of {value.dtype}" if isinstance(value, np.ndarray) else type(value).__name__
+    raise TypeError(
+        f"{kind} is no picture: an Image or CompressedImage message, an array of uint8, "
+        "or the bytes of a PNG or JPEG file"
+    )
+
+
+def picture_answer(value: Any) -> Answer:
+    """Return the file of a picture.
+
+    Raises:
+        StudioError: the message's encoding is not known, or the data do not fit the size.
+    """
+    if isinstance(value, bytes):
+        return Answer(value, _type_of(value), packed=False)
+    if isinstance(value, np.ndarray):
+        from PIL import Image
+
+        data = io.BytesIO()
+        Image.fromarray(value).save(data, "PNG", compress_level=1)
+        return Answer(data.getvalue(), "image/png", packed=False)
+    return Answer(encoded_picture(value, _SETTINGS).jpeg, "image/jpeg", packed=False)
 
 
 def first_value(widget: Widget) -> Any:
@@ -109,6 +160,10 @@ def refitted(widget: Widget, value: Any) -> Any:
     if isinstance(widget, Slider | Number):
         return chosen(widget, value)
     return value
+
+
+def _type_of(data: bytes) -> str:
+    return next((kind for start, kind in _FILES.items() if data.startswith(start)), "")
 
 
 def _number(widget: Slider | Number, value: Any) -> float:

@@ -1,9 +1,12 @@
-"""What a panel is made of. Widgets are values: a panel's code changes what they show, not them."""
+"""What a panel is made of: widgets, and rows and columns of them.
+
+Widgets are values: a panel's code changes what they show, not them.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,15 +14,19 @@ __all__ = [
     "Button",
     "Checkbox",
     "Choice",
+    "Column",
     "Handler",
     "Image",
     "Label",
     "Number",
+    "Part",
     "Plot",
+    "Row",
     "Slider",
     "Table",
     "TextInput",
     "Widget",
+    "all_widgets",
 ]
 
 Handler = str | Callable[..., Any]
@@ -213,6 +220,52 @@ class Table(Widget):
         object.__setattr__(self, "columns", tuple(str(column) for column in self.columns))
 
 
+@dataclass(frozen=True, slots=True, init=False)
+class Row:
+    """Widgets beside each other.
+
+    Attributes:
+        children: widgets, rows and columns.
+        title: shown above them.
+    """
+
+    children: tuple[Part, ...]
+    title: str
+
+    def __init__(self, *children: Part, title: str = "") -> None:
+        object.__setattr__(self, "children", children)
+        object.__setattr__(self, "title", title)
+
+
+@dataclass(frozen=True, slots=True, init=False)
+class Column:
+    """Widgets below each other; with a title, a group.
+
+    Attributes:
+        children: widgets, rows and columns.
+        title: shown above them.
+    """
+
+    children: tuple[Part, ...]
+    title: str
+
+    def __init__(self, *children: Part, title: str = "") -> None:
+        object.__setattr__(self, "children", children)
+        object.__setattr__(self, "title", title)
+
+
+def all_widgets(parts: Iterable[object]) -> Iterator[object]:
+    """Yield everything inside rows and columns, in order; what is no widget too."""
+    for part in parts:
+        if isinstance(part, Row | Column):
+            yield from all_widgets(part.children)
+        else:
+            yield part
+
+
 def _check_range(name: str, least: float, most: float) -> None:
     if not least < most:
         raise ValueError(f"widget '{name}': min {least:g} is not below max {most:g}")
+
+
+Part = Widget | Row | Column

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, NotRequired, TypedDict
 
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import YamlError, read_yaml
-from gazelle.studio.displays.finding import find_display
+from gazelle.studio.displays.methods import find_display
 from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.errors import StudioError
 from gazelle.studio.request_params import Params

@@ -1,6 +1,7 @@
-"""A `TypedDict` as a TypeScript interface, with the texts of its docstring.
+"""Typed dictionaries and ROS messages as TypeScript interfaces.
 
-A ROS message in it is `Annotated[Any, "package/msg/Name"]`.
+A `TypedDict` comes with the texts of its docstring; a ROS message in it is
+`Annotated[Any, "package/msg/Name"]` and has the fields of its definition, as JSON has them.
 """
 
 from __future__ import annotations
@@ -10,11 +11,13 @@ import json
 import re
 import types
 import typing
+from collections.abc import Iterable, Mapping
 from typing import Annotated, Any, Literal, NotRequired, Required, TypeVar
 
-from gazelle.studio.typescript.ros import ros_name
+from gazelle.interfaces import Definition, Field, RosVersion, definition
+from gazelle.interfaces.definition import FORMATS, Array
 
-__all__ = ["interface", "type_text"]
+__all__ = ["interface", "ros_interfaces", "ros_name", "type_text"]
 
 _PLAIN: dict[Any, str] = {
     Any: "Json",
@@ -25,6 +28,31 @@ _PLAIN: dict[Any, str] = {
     type(None): "null",
 }
 _ATTRIBUTE = re.compile(r"^    (\w+): (.*(?:\n {8}.*)*)", re.MULTILINE)
+
+
+def ros_name(full: str) -> str:
+    """Return a message's name in TypeScript: ``visualization_msgs/msg/Marker`` is ``Marker``."""
+    return full.rpartition("/")[2]
+
+
+def ros_interfaces(messages: Iterable[str], added: Mapping[str, type]) -> list[str]:
+    """Return the interfaces of messages and of all messages inside, each once.
+
+    Args:
+        messages: full names, such as ``visualization_msgs/msg/Marker``.
+        added: by full name, a `TypedDict` of what the server adds to the fields of a message.
+
+    Raises:
+        ValueError: two of them have the same name in TypeScript.
+    """
+    found: dict[str, Definition] = {}
+    for name in messages:
+        _collect(name, found)
+    owner: dict[str, str] = {}
+    for full in found:
+        if owner.setdefault(ros_name(full), full) != full:
+            raise ValueError(f"{owner[ros_name(full)]} and {full} have one name in TypeScript")
+    return [_interface(one, added.get(full)) for full, one in found.items()]
 
 
 def interface(message: type) -> str:
@@ -83,3 +111,32 @@ def type_text(kind: Any) -> str:
     if origin is dict:
         return f"Record<string, {type_text(parts[1])}>"
     raise TypeError(f"{kind} is no type of JSON values")
+
+
+def _collect(full: str, found: dict[str, Definition]) -> None:
+    """Add a message behind those inside of it."""
+    if full in found:
+        return
+    known = definition(full, RosVersion.ROS2)
+    for field in known.fields:
+        if field.type.is_message:
+            _collect(field.type.base, found)
+    found[full] = known
+
+
+def _interface(message: Definition, added: type | None) -> str:
+    base = f" extends {added.__name__}" if added is not None else ""
+    fields = (f"  {one.name}: {_field_text(one)};" for one in message.fields)
+    head = f"export interface {ros_name(message.name)}{base} {{"
+    return "\n".join((f"/** `{message.name}`. */", head, *fields, "}\n"))
+
+
+def _field_text(field: Field) -> str:
+    base = field.type.base
+    if field.type.is_message:
+        text = ros_name(base)
+    elif base == "bool":
+        text = "boolean"
+    else:
+        text = "number" if base in FORMATS else "string"
+    return text if field.type.array is Array.ONE else f"{text}[]"

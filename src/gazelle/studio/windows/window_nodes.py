@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import re
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,12 +25,36 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node
 from gazelle.studio.windows.page_owner import Request, is_switched_off, present, say
 
-__all__ = ["gzclient", "image_view", "rqt", "rqt_bag", "rqt_plot", "run_view", "rviz"]
+__all__ = [
+    "action_caller",
+    "gzclient",
+    "image_view",
+    "rqt",
+    "rqt_action",
+    "rqt_bag",
+    "rqt_console",
+    "rqt_ez_publisher",
+    "rqt_graph",
+    "rqt_logger_level",
+    "rqt_msg",
+    "rqt_plot",
+    "rqt_publisher",
+    "rqt_reconfigure",
+    "rqt_robot_steering",
+    "rqt_service_caller",
+    "rqt_srv",
+    "rqt_tf_tree",
+    "rqt_top",
+    "rqt_topic",
+    "run_view",
+    "rviz",
+]
 
 _FIELDS = re.compile(r"^(?P<start>[^:]*/)(?P<fields>[^/]+(?::[^/]+)+)$")
 _PLUGIN = re.compile(r"^(?P<package>\w+?)(?:[./].*)?$")
 _VALUED = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--standalone",
            "--perspective-file", "-p", "--perspective", "-t", "--ht", "--args")  # fmt: skip
+_Node = Callable[[NodeArguments, Graph, threading.Event], int]
 
 
 def run_view(
@@ -95,13 +119,20 @@ def rqt(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     plugin = options.get("-s") or options.get("--standalone") or ""
     if plugin:
         found = _PLUGIN.match(plugin)
-        from gazelle.studio.plugins.names import own_panel
+        from gazelle.studio.plugins.panel_sources import own_panel
 
         panel = own_panel(plugin) or (found["package"] if found else plugin)
         return run_view(panel, {}, arguments, graph, stop)
     file = options.get("--perspective-file", "")
     params = {"perspective": _path(file)} if file else {}
     return run_view("rqt_gui", params, arguments, graph, stop)
+
+
+def _opens(panel: str) -> _Node:
+    def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+        return run_view(panel, {}, arguments, graph, stop)
+
+    return run
 
 
 def _words(rest: Sequence[str]) -> tuple[list[str], dict[str, str]]:
@@ -132,3 +163,20 @@ def _absolute(topic: str) -> str:
 def _path(file: str) -> str:
     """The page's server may run in another folder."""
     return str(Path(file).expanduser().absolute())
+
+
+action_caller = _opens("action_caller")
+rqt_action = _opens("rqt_action")
+rqt_console = _opens("rqt_console")
+rqt_ez_publisher = _opens("rqt_ez_publisher")
+rqt_graph = _opens("rqt_graph")
+rqt_logger_level = _opens("rqt_logger_level")
+rqt_msg = _opens("rqt_msg")
+rqt_publisher = _opens("rqt_publisher")
+rqt_reconfigure = _opens("rqt_reconfigure")
+rqt_robot_steering = _opens("rqt_robot_steering")
+rqt_service_caller = _opens("rqt_service_caller")
+rqt_srv = _opens("rqt_srv")
+rqt_tf_tree = _opens("rqt_tf_tree")
+rqt_top = _opens("rqt_top")
+rqt_topic = _opens("rqt_topic")

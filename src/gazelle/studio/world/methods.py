@@ -1,10 +1,16 @@
-"""Methods, streams and paths of the world."""
+"""Methods, streams and paths of the world, and what they work on."""
 
 from __future__ import annotations
 
+from contextlib import ExitStack
+from dataclasses import dataclass
+
+from gazelle.studio.lazy import Once, closed_with
 from gazelle.studio.routing import Method, Route, methods_of, methods_without, streams_of
+from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.streams import StreamKind
 from gazelle.studio.subscriptions import Taps
+from gazelle.studio.workers import Workers
 from gazelle.studio.world.edit import (
     apply_wrench,
     command_joint,
@@ -24,11 +30,9 @@ from gazelle.studio.world.streams import (
     open_scene,
     open_stats,
 )
-from gazelle.studio.world.time import pause, play, reset, set_factor, step
-from gazelle.studio.world.world_control import WorldLink
-from gazelle.studio.world.world_services import WorldParts
+from gazelle.studio.world.world_control import WorldLink, pause, play, reset, set_factor, step
 
-__all__ = ["METHODS", "ROUTES", "STREAMS"]
+__all__ = ["METHODS", "ROUTES", "STREAMS", "WorldParts", "world_parts"]
 
 _CALLS: dict[str, Method[WorldLink]] = {
     "world.delete": delete_model,
@@ -54,7 +58,6 @@ _SCENE: dict[str, StreamKind[Scene]] = {
     "world.joints": StreamKind(latest=True, open=open_joints),
     "world.scene": StreamKind(latest=False, open=open_scene),
 }
-
 METHODS: dict[str, Method[WorldParts]] = {
     **methods_of(lambda parts: parts.link, _CALLS),
     **methods_without({"world.models": list_models}),
@@ -64,3 +67,24 @@ STREAMS: dict[str, StreamKind[WorldParts]] = {
     **streams_of(lambda parts: parts.scene(), _SCENE),
 }
 ROUTES: dict[str, Route[object]] = {"thumbnail": thumbnail}
+
+
+@dataclass(frozen=True)
+class WorldParts:
+    """The world of a graph, if one is running.
+
+    Attributes:
+        link: calls it.
+        taps: its topics.
+        scene: what is in it; followed from the first look on.
+    """
+
+    link: WorldLink
+    taps: Taps
+    scene: Once[Scene]
+
+
+def world_parts(taps: Taps, workers: Workers, assets: Assets, ending: ExitStack) -> WorldParts:
+    """Return the parts that end with others."""
+    scene = Once(lambda: closed_with(ending, Scene(taps, workers, assets)))
+    return WorldParts(WorldLink(taps.node), taps, scene)

@@ -1,4 +1,4 @@
-"""Calls to the running world."""
+"""The running world: calls to it; its time: playing, pausing, stepping, resetting."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle.diagnostics import nearest_names
 from gazelle.graph import Node
 from gazelle.graph.gazebo_names import SHOWN_SPACE, offered_name
 from gazelle.interfaces import message_type
@@ -13,9 +14,10 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.services import request_response
 from gazelle.studio.request_params import Params
 
-__all__ = ["WorldLink", "pose_message", "pose_of"]
+__all__ = ["WorldLink", "pause", "play", "pose_message", "pose_of", "reset", "set_factor", "step"]
 
 _DO = "/_gazelle/do"
+_RESETS = {"world": "reset_world", "poses": "reset_world", "time": "reset_simulation"}
 
 
 @dataclass(frozen=True)
@@ -79,3 +81,38 @@ def pose_message(values: list[float]) -> Any:
     place, turn = message.position, message.orientation
     place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w = values
     return message
+
+
+def pause(world: WorldLink, _params: Params) -> Any:
+    """``world.pause``."""
+    world.call("pause_physics", "std_srvs/Empty")
+    return {}
+
+
+def play(world: WorldLink, _params: Params) -> Any:
+    """``world.play``."""
+    world.call("unpause_physics", "std_srvs/Empty")
+    return {}
+
+
+def step(world: WorldLink, params: Params) -> Any:
+    """``world.step``: pauses, and takes so many steps."""
+    count = params.whole("count", 1, least=1, most=1_000_000)
+    control = message_type("ros_gz_interfaces/WorldControl")(pause=True, multi_step=count)
+    kind = "ros_gz_interfaces/ControlWorld"
+    world.call("control_world", kind, world_control=control)
+    return {}
+
+
+def reset(world: WorldLink, params: Params) -> Any:
+    """``world.reset``: poses alone, or time as well."""
+    what = params.text("what", "world")
+    if what not in _RESETS:
+        raise StudioError(f"world.reset: there is no '{what}'", known=nearest_names(what, _RESETS))
+    world.call(_RESETS[what], "std_srvs/Empty")
+    return {}
+
+
+def set_factor(world: WorldLink, params: Params) -> Any:
+    """``world.factor``: the wanted real-time factor, 0 for as fast as possible."""
+    return world.ask(op="factor", wanted_rtf=params.number("wanted_rtf", least=0.0))

@@ -1,4 +1,7 @@
-"""The display that a class means: Gazelle's own, or one that a pip package adds."""
+"""The streams that show messages, and which display a class of RViz means.
+
+It is Gazelle's own, or one that a pip package adds.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +11,24 @@ from typing import NamedTuple, TypedDict
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.extensions import Extension, ExtensionGroup, load_extensions
+from gazelle.studio.displays.cameras import open_image, open_turtles
 from gazelle.studio.displays.display import Display, DisplayRow, display_row
 from gazelle.studio.displays.registry import DISPLAYS, own_display
+from gazelle.studio.displays.topic_display import DisplayContext, Site, open_on
+from gazelle.studio.errors import unknown
 from gazelle.studio.request_params import Params
+from gazelle.studio.routing import Method, methods_without
+from gazelle.studio.streams import Channel, OpenStream, StreamKind
 
-__all__ = ["Added", "AddedDisplays", "added_displays", "find_display", "list_added"]
+__all__ = [
+    "METHODS",
+    "STREAMS",
+    "Added",
+    "AddedDisplays",
+    "added_displays",
+    "find_display",
+    "list_added",
+]
 
 
 class Added(NamedTuple):
@@ -65,6 +81,16 @@ def list_added(_params: Params) -> AddedDisplays:
     return {"displays": rows, "problems": list(added.problems)}
 
 
+def _open_display(context: DisplayContext, channel: Channel, params: Params) -> OpenStream:
+    name = params.text("display").rpartition("/")[2]
+    display = find_display(name)
+    if display is None or display.open is None:
+        added = added_displays()
+        known = (row.name for row in (*DISPLAYS.values(), *added.displays.values()) if row.open)
+        raise unknown("display", name, known, hint=" ".join(added.problems))
+    return open_on(Site(context, channel, params, display.convert), display.open)
+
+
 def _problems(extension: Extension[Display], earlier: dict[str, Display]) -> Iterator[str]:
     display = extension.part
     for name in (display.name, *display.aliases):
@@ -82,3 +108,11 @@ def _problems(extension: Extension[Display], earlier: dict[str, Display]) -> Ite
             f"adds the display '{display.name}', drawn {what}, which is none of Gazelle's displays "
             f"with a topic{f'; {hint}' if hint else ''}"
         )
+
+
+METHODS: dict[str, Method[object]] = methods_without({"display.list": list_added})
+STREAMS: dict[str, StreamKind[DisplayContext]] = {
+    "display": StreamKind(latest=True, open=_open_display),
+    "image": StreamKind(latest=True, open=open_image),
+    "turtles": StreamKind(latest=True, open=open_turtles),
+}

@@ -1,4 +1,4 @@
-"""``motion.mesh``: a mesh file of the person's machine as ``shape_msgs/Mesh`` has it."""
+"""Methods and streams of the panel MotionPlanning; planned paths, and mesh files as messages."""
 
 from __future__ import annotations
 
@@ -11,11 +11,33 @@ from typing import Any, TypedDict
 import numpy as np
 
 from gazelle.studio.errors import StudioError
+from gazelle.studio.json_text import message_value
+from gazelle.studio.motion.planning_scene import open_scene
+from gazelle.studio.motion.robot import get_motion_robot
 from gazelle.studio.request_params import Params
+from gazelle.studio.routing import Method, methods_without
+from gazelle.studio.scenes.robot import RobotContext
+from gazelle.studio.streams import Channel, OpenStream, StreamKind
+from gazelle.studio.subscriptions import Sample, Taps
 
-__all__ = ["MotionMesh", "read_mesh"]
+__all__ = ["METHODS", "STREAMS", "MotionMesh", "open_path", "read_mesh"]
 
 _MAX_TRIANGLES = 200_000
+
+
+def open_path(taps: Taps, channel: Channel, params: Params) -> OpenStream:
+    """Send each ``moveit_msgs/DisplayTrajectory`` of a ``topic``."""
+
+    def value(sample: Sample) -> Any:
+        message: Any = sample.message()
+        if not hasattr(message, "trajectory_start"):
+            raise StudioError(f"{message.TYPE_NAME} is no moveit_msgs/DisplayTrajectory")
+        return message_value(message, None)
+
+    def take(sample: Sample) -> None:
+        channel.offer(lambda: value(sample))
+
+    return OpenStream(taps.listen(params.text("topic"), take))
 
 
 class MotionMesh(TypedDict):
@@ -60,3 +82,13 @@ def _value(name: str, parts: list[tuple[Any, Any]]) -> MotionMesh:
         raise StudioError(text, hint="Planning needs a simple shape; reduce the mesh first.")
     places, index = np.unique(corners.round(9), axis=0, return_inverse=True)
     return {"vertices": places.tolist(), "triangles": index.reshape(-1)[faces].tolist()}
+
+
+METHODS: dict[str, Method[RobotContext]] = {
+    **methods_without({"motion.mesh": read_mesh}),
+    "motion.robot": get_motion_robot,
+}
+STREAMS: dict[str, StreamKind[Taps]] = {
+    "motion.path": StreamKind(latest=True, open=open_path),
+    "motion.scene": StreamKind(latest=True, open=open_scene),
+}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import platform
 import sys
 
-from gazelle.studio.memory import keep_freed_memory
+from gazelle.graph.glibc_malloc import keep_freed_memory
 
 
 def test_glibc_alone_can_be_told_to_keep_memory() -> None:
