@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import platform
 import subprocess
 import sys
 
 import pytest
+
+from gazelle.graph.glibc_malloc import keep_freed_memory
 
 _FREED_AFTER_LARGER_ONES = """
 import sys
@@ -62,3 +65,8 @@ def test_large_blocks_go_back_to_the_system(largest: int) -> None:
     ended = subprocess.run(words, capture_output=True, text=True, check=True)
     # 52 and 58 MB of blocks.
     assert float(ended.stdout) > 45.0
+
+
+def test_glibc_alone_can_be_told_to_keep_memory() -> None:
+    is_glibc = sys.platform == "linux" and platform.libc_ver()[0] == "glibc"
+    assert keep_freed_memory() is is_glibc
