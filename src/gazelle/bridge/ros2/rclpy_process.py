@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 from gazelle.bridge.ros2.interpreters import Interpreter, child_environment, sourced_hint
-from gazelle.bridge.ros2.rclpy_side.frames import Frame, FrameKind, Pipes
+from gazelle.bridge.ros2.rclpy_side.pipes import Frame, FrameKind, Pipes
 from gazelle.errors import GraphError
 from gazelle.graph.errors import ServiceRefusedError, coded
 

@@ -8,10 +8,9 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from .calls import Calls
-from .echoes import Echoes, Speakers
-from .frames import FrameKind, Pipes
-from .ros_types import MissingTypeError, class_of
+from .own_messages import Echoes, Speakers
+from .pipes import FrameKind, Pipes
+from .service_clients import Calls, MissingTypeError, class_of
 
 __all__ = ["Endpoints"]
 

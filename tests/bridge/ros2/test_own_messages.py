@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from gazelle.bridge.ros2.rclpy_side import echoes
-from gazelle.bridge.ros2.rclpy_side.echoes import Echoes, Speakers
+from gazelle.bridge.ros2.rclpy_side import own_messages
+from gazelle.bridge.ros2.rclpy_side.own_messages import Echoes, Speakers
 
 
 class Info(NamedTuple):
@@ -69,7 +69,7 @@ def test_lost_message_swallows_no_later_one(monkeypatch: pytest.MonkeyPatch) -> 
         monotonic = staticmethod(lambda: now[0])
 
     clock: Any = Clock
-    monkeypatch.setattr(echoes, "time", clock)
+    monkeypatch.setattr(own_messages, "time", clock)
     brief, latched = Echoes(), Echoes(for_ever=True)
     for one in (brief, latched):
         one.note(b"\0\1\0\0old")

@@ -9,7 +9,7 @@ from typing import IO, NamedTuple
 
 import pytest
 
-from gazelle.bridge.ros2.rclpy_side.frames import Frame, FrameKind, Pipes
+from gazelle.bridge.ros2.rclpy_side.pipes import Frame, FrameKind, Pipes
 
 
 class Ends(NamedTuple):

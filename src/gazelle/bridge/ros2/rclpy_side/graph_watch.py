@@ -7,7 +7,7 @@ from collections import Counter
 from typing import Any
 
 from .endpoints import Endpoints
-from .frames import Pipes
+from .pipes import Pipes
 
 __all__ = ["Watch"]
 

@@ -1,4 +1,4 @@
-"""Calls of ROS's services on behalf of the graph."""
+"""Calls of ROS's services on behalf of the graph, and classes of ROS's types by name."""
 
 from __future__ import annotations
 
@@ -6,12 +6,21 @@ import time
 from importlib import import_module
 from typing import Any, NamedTuple
 
-from .frames import FrameKind, Pipes
+from .pipes import FrameKind, Pipes
 
-__all__ = ["Calls"]
+__all__ = ["Calls", "MissingTypeError", "class_of"]
 
 _PATIENCE_S = 5.0
 _RETRY_S = 0.02
+_OF_ACTIONS = {
+    "SendGoal": "SendGoalService",
+    "GetResult": "GetResultService",
+    "FeedbackMessage": "FeedbackMessage",
+}
+
+
+class MissingTypeError(Exception):
+    """ROS's Python has no such type."""
 
 
 class _Call(NamedTuple):
@@ -77,3 +86,22 @@ class Calls:
 
     def _fail(self, call: _Call, reason: str) -> None:
         self._pipes.send(FrameKind.FAILURE, call.channel, call.number, reason.encode())
+
+
+def class_of(name: str) -> Any:
+    """Return the class of ``pkg/msg/Name``, ``pkg/srv/Name`` or a piece of an action.
+
+    The pieces are ``pkg/action/Name_SendGoal``, ``…_GetResult`` and ``…_FeedbackMessage``.
+
+    Raises:
+        MissingTypeError: it cannot be imported.
+    """
+    try:
+        package, part, bare = name.split("/")
+        module = import_module(f"{package}.{part}")
+        if part != "action":
+            return getattr(module, bare)
+        action, _, piece = bare.rpartition("_")
+        return getattr(getattr(module, action).Impl, _OF_ACTIONS[piece])
+    except (ImportError, AttributeError, ValueError, KeyError) as error:
+        raise MissingTypeError(f"{type(error).__name__}: {error}") from error
