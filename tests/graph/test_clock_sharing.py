@@ -14,14 +14,7 @@ import pytest
 from tests.graph.conftest import sleep_in_thread
 from tests.patience import stretched
 
-from gazelle.graph import (
-    Graph,
-    Node,
-    Publisher,
-    clock_page,
-    clock_sharing,
-    clock_waits,
-)
+from gazelle.graph import Graph, Node, Publisher, clock, clock_page, clock_sharing
 from gazelle.graph.clock_sharing import SharedClock, share_clock
 from gazelle.interfaces import message_type
 
@@ -137,8 +130,8 @@ def test_sleepers_look_at_the_page(simulator: _Simulator, reader: Node, eventual
 def test_sleepers_hear_of_time_that_goes_on_after_a_pause(
     simulator: _Simulator, reader: Node, eventually: Wait, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(clock_waits, "_STILL_LOOKS", 1)
-    monkeypatch.setattr(clock_waits, "_LONG_STILL_S", 3600.0)
+    monkeypatch.setattr(clock, "_STILL_LOOKS", 1)
+    monkeypatch.setattr(clock, "_LONG_STILL_S", 3600.0)
     looks = [0]
     still = reader.clock._waits.still
 
@@ -158,7 +151,7 @@ def test_sleepers_hear_of_time_that_goes_on_after_a_pause(
 def test_who_sleeps_for_moments_hears_each_step(
     simulator: _Simulator, reader: Node, eventually: Wait, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(clock_waits, "_MANY", 1)
+    monkeypatch.setattr(clock, "_MANY", 1)
     for from_s, length_ns in ((5, 1_000_000), (1000, S)):
         thread, outcome = sleep_in_thread(lambda ns=length_ns: reader.clock.sleep(ns))
         eventually(lambda: bool(reader.clock._sleepers))
