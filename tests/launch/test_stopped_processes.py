@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from tests.patience import eventually
 
-from gazelle.launch.stopped_processes import StoppedProcess
+from gazelle.launch.node_process import StoppedProcess
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "waitid"), reason="the system has no waitid")
 

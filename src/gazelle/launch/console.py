@@ -1,22 +1,44 @@
-"""roslaunch's own lines on the terminal: colours where it is one, plain text elsewhere."""
+"""What roslaunch says: its lines on the terminal, and the folder that a run's logs go to."""
 
 from __future__ import annotations
 
+import contextlib
+import os
 import sys
-from collections.abc import Callable, Mapping
+import uuid
+from collections.abc import Callable, Iterator, Mapping
 from datetime import datetime
-from typing import Any, TextIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 from gazelle.documents.yaml import dump_yaml
+from gazelle.folders import ros_log_folder
 from gazelle.launch.config import LaunchConfig
 from gazelle.log_files import LogStream
 from gazelle.parameters.trees import leaves_at
 from gazelle.process_exit import drop_output, when_nobody_reads
 
-__all__ = ["Console", "dump_text", "summary"]
+if TYPE_CHECKING:
+    from gazelle.graph import Graph
+
+__all__ = ["Console", "RunLog", "begin_log", "dump_text", "run_log", "summary"]
 
 _BOLD, _RED, _YELLOW, _RESET = "\x1b[1m", "\x1b[31m", "\x1b[33m", "\x1b[0m"
 _MAX_VALUE = 20
+
+
+class RunLog(NamedTuple):
+    """The run that a launch belongs to.
+
+    Attributes:
+        run_id: the value of ``/run_id``.
+        folder: of all log files.
+        is_new: no launch before this one had it.
+    """
+
+    run_id: str
+    folder: Path
+    is_new: bool
 
 
 class Console:
@@ -69,6 +91,35 @@ class Console:
             drop_output(self._stream)
 
 
+def run_log(graph: Graph, wanted: str = "", other: str = "") -> RunLog:
+    """Return the run of the graph, or begin one, with its folder.
+
+    Args:
+        graph: another launch or roscore may have set its ``/run_id``.
+        wanted: the identifier asked for on the command line.
+        other: that of a real ROS which is being joined.
+    """
+    known = other or (
+        str(graph.parameters.get("/run_id")) if graph.parameters.has("/run_id") else ""
+    )
+    run_id = wanted or known or str(uuid.uuid1())
+    return RunLog(run_id, _folder(run_id), run_id != known)
+
+
+@contextlib.contextmanager
+def begin_log(console: Console, folder: Path) -> Iterator[None]:
+    """Keep what a console shows in ``roslaunch-HOST-PID.log`` and say so."""
+    name = f"roslaunch-{os.uname().nodename}-{os.getpid()}.log"
+    with contextlib.closing(LogStream(folder / name)) as log:
+        console.plain(f"... logging to {log.path}")
+        console.plain("Press Ctrl-C to interrupt\n")
+        console.keep(log)
+        try:
+            yield
+        finally:
+            console.keep(None)
+
+
 def summary(config: LaunchConfig, params: Mapping[str, Any]) -> str:
     """Return the SUMMARY block: parameters with shortened values, nodes by namespace."""
     lines = ["", "SUMMARY", "========", "", "PARAMETERS"]
@@ -83,16 +134,29 @@ def summary(config: LaunchConfig, params: Mapping[str, Any]) -> str:
     return "\n".join([*lines, ""])
 
 
-def _short(value: Any) -> str:
-    text = str(value)
-    if len(text) > _MAX_VALUE:
-        text = text[: _MAX_VALUE - 3] + "..."
-    return text.replace("\n", " ")
-
-
 def dump_text(config: LaunchConfig) -> str:
     """Return what ``roslaunch --dump-params`` prints."""
     leaves: dict[str, Any] = {}
     for name, value in config.params.items():
         leaves.update(leaves_at(name, value))
     return dump_yaml(leaves)
+
+
+def _folder(run_id: str) -> Path:
+    """Make ``~/.ros/log/RUN_ID`` and let ``latest`` point at it."""
+    root = ros_log_folder(os.environ)
+    folder = root / run_id
+    folder.mkdir(parents=True, exist_ok=True)
+    link = root / "latest"
+    if link.is_symlink() or not link.exists():
+        part = root / f".latest-{os.getpid()}"
+        part.symlink_to(folder)
+        part.replace(link)
+    return folder
+
+
+def _short(value: Any) -> str:
+    text = str(value)
+    if len(text) > _MAX_VALUE:
+        text = text[: _MAX_VALUE - 3] + "..."
+    return text.replace("\n", " ")

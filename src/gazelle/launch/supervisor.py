@@ -21,12 +21,12 @@ from gazelle.launch.executables import Executable
 from gazelle.launch.node_host import HostEnded, NodeEnded, NodeHost, NodeReady
 from gazelle.launch.node_process import (
     LaunchedProcess,
+    StoppedProcess,
     code_text,
     end_text,
     node_words,
     start_process,
 )
-from gazelle.launch.stopped_processes import StoppedProcess
 from gazelle.launch.watchdog import Guard
 
 __all__ = ["StopTimes", "Supervisor"]

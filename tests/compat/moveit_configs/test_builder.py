@@ -20,8 +20,10 @@ from gazelle.compat.moveit_configs import (
 from gazelle.compat.moveit_configs.parameter_files import rendered
 from gazelle.errors import LaunchError, UserFileError
 from gazelle.launch.ros2.launch_context import LaunchContext
-from gazelle.launch.ros2.launch_ros.utilities.node_parameters import evaluate_parameters
-from gazelle.launch.ros2.launch_ros.utilities.normalizing import normalize_parameters
+from gazelle.launch.ros2.launch_ros.utilities.node_parameters import (
+    evaluate_parameters,
+    normalize_parameters,
+)
 from gazelle.launch.ros2.substitutions import LaunchConfiguration, TextSubstitution
 from gazelle.workspace import ament_index
 

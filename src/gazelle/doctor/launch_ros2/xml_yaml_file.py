@@ -84,7 +84,7 @@ def _problem(document: YamlDocument) -> YamlProblem | None:
 
 def _report(problem: YamlProblem, diagnostics: Diagnostics) -> None:
     """Tell what the launch itself would."""
-    from gazelle.launch.ros2.explaining import explain_yaml
+    from gazelle.launch.ros2.error_diagnostics import explain_yaml
 
     found = explain_yaml(problem)
     message = found.message or f"the launch file cannot be read: {problem.what}"

@@ -1,25 +1,130 @@
-"""What the element readers share: substituted attributes, conditions, places, reports."""
+"""What roslaunch elements may have, what is in force where they stand, and how they are read."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any, NamedTuple
 
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.documents import scaled
 from gazelle.documents.files import is_folder
+from gazelle.documents.yaml import ROSPARAM, load_yaml
 from gazelle.launch.config import LaunchConfig
-from gazelle.launch.ros1.scope import Scope
 from gazelle.launch.ros1.substitution_args import Substitution, SubstitutionError, directory_of
-from gazelle.launch.ros1.tables import ELEMENTS
-from gazelle.launch.ros1.values import bool_value
 from gazelle.workspace import Workspace
 
-__all__ = ["Reading", "TagError"]
+__all__ = [
+    "ELEMENTS",
+    "PARAM_TYPES",
+    "Element",
+    "Reading",
+    "Scope",
+    "TagError",
+    "bool_value",
+    "param_value",
+]
 
+_NODE_OPTIONS = ("args", "machine", "ns", "clear_params", "cwd", "launch-prefix")
+
+
+class Element(NamedTuple):
+    """Attributes of an element; ``if`` and ``unless`` go with every one."""
+
+    required: tuple[str, ...]
+    optional: tuple[str, ...] = ()
+
+    @property
+    def attributes(self) -> tuple[str, ...]:
+        """All attributes the element may have."""
+        return (*self.required, *self.optional, "if", "unless")
+
+
+ELEMENTS: dict[str, Element] = {
+    "arg": Element(("name",), ("default", "value", "doc")),
+    "env": Element(("name", "value")),
+    "group": Element((), ("ns", "clear_params")),
+    "include": Element(("file",), ("ns", "clear_params", "pass_all_args")),
+    "machine": Element(
+        ("name", "address"),
+        ("env-loader", "ssh-port", "user", "password", "default", "timeout"),
+    ),
+    "node": Element(
+        ("pkg", "type", "name"),
+        (*_NODE_OPTIONS, "respawn", "respawn_delay", "required", "output"),
+    ),
+    "param": Element(("name",), ("value", "type", "textfile", "binfile", "command")),
+    "remap": Element(("from", "to")),
+    "rosparam": Element((), ("command", "file", "param", "ns", "subst_value")),
+    "test": Element(("test-name", "pkg", "type"), ("name", *_NODE_OPTIONS, "time-limit", "retry")),
+}  # fmt: skip
+PARAM_TYPES = ("auto", "str", "string", "int", "double", "bool", "boolean", "yaml")
 _MAX_INCLUDES = 2000
+
+
+@dataclass(slots=True)
+class Scope:
+    """The state of one element's children; `child` copies it, so nothing leaks upwards.
+
+    Attributes:
+        file: the file being read.
+        namespace: absolute, ends with ``/``.
+        args: arguments declared so far; None for one without value.
+        given: arguments passed to this file and not yet declared.
+        fixed: arguments declared with a fixed value.
+        remaps: pairs (from, to), later ones win.
+        env: environment for the nodes that follow.
+        private_params: ``~name`` parameters for the nodes that follow.
+        stack: places of the includes that led here, outermost first.
+        pass_all: the include passed all its arguments, so unknown ones are fine.
+        in_node: this is the inside of a ``<node>``: names are private to it.
+    """
+
+    file: str
+    namespace: str = "/"
+    args: dict[str, str | None] = field(default_factory=dict)
+    given: dict[str, str] = field(default_factory=dict)
+    fixed: set[str] = field(default_factory=set)
+    remaps: tuple[tuple[str, str], ...] = ()
+    env: dict[str, str] = field(default_factory=dict)
+    private_params: dict[str, Any] = field(default_factory=dict)
+    stack: tuple[SourceSpan, ...] = ()
+    pass_all: bool = False
+    in_node: bool = False
+
+    def child(self, namespace: str = "") -> Scope:
+        """Return a copy for a ``<group>`` or ``<node>``, one namespace deeper."""
+        return replace(
+            self,
+            namespace=self.join(namespace),
+            args=dict(self.args),
+            fixed=set(self.fixed),
+            env=dict(self.env),
+            private_params=dict(self.private_params),
+        )
+
+    def included(
+        self, file: str, namespace: str, given: dict[str, str], place: SourceSpan
+    ) -> Scope:
+        """Return the scope of an included file: it sees only the arguments given."""
+        inner = self.child(namespace)
+        return replace(
+            inner, file=file, args={}, given=dict(given), fixed=set(), stack=(*self.stack, place)
+        )
+
+    def join(self, namespace: str) -> str:
+        """Return a namespace resolved in this one, ending with ``/``."""
+        if not namespace:
+            return self.namespace
+        joined = namespace if namespace.startswith("/") else self.namespace + namespace
+        return joined.rstrip("/") + "/"
+
+    def add_remap(self, source: str, target: str) -> None:
+        """Add a remap; one for the same name is replaced."""
+        kept = tuple(pair for pair in self.remaps if pair[0] != source)
+        self.remaps = (*kept, (source, target))
 
 
 class TagError(Exception):
@@ -229,3 +334,49 @@ class Reading:
             None,
             did_you_mean(path.name, here),
         )
+
+
+def param_value(text: str, type_name: str) -> Any:
+    """Return the typed value of a ``<param>``.
+
+    ``auto`` tries int, float (only with a dot: ``1e-3`` stays a string, as in roslaunch), bool.
+
+    Raises:
+        ValueError: the text does not fit the type, or the type is unknown.
+        YamlError: it is no YAML, for the type ``yaml``.
+    """
+    if type_name == "auto":
+        return _auto_value(text)
+    if type_name in {"str", "string"}:
+        return text
+    if type_name == "int":
+        return int(text)
+    if type_name == "double":
+        return float(text)
+    if type_name in {"bool", "boolean"}:
+        return bool_value(text)
+    if type_name == "yaml":
+        return load_yaml(text, ROSPARAM)
+    raise ValueError(f"type '{type_name}' is unknown; known are {', '.join(PARAM_TYPES)}")
+
+
+def bool_value(text: str) -> bool:
+    """Return roslaunch's truth value: true, 1, false or 0.
+
+    Raises:
+        ValueError: it is none of these.
+    """
+    lowered = text.lower().strip()
+    if lowered in {"true", "1"}:
+        return True
+    if lowered in {"false", "0"}:
+        return False
+    raise ValueError(f"{text} is not a 'bool' type")
+
+
+def _auto_value(text: str) -> Any:
+    try:
+        return float(text) if "." in text else int(text)
+    except ValueError:
+        lowered = text.lower()
+        return lowered == "true" if lowered in {"true", "false"} else text

@@ -11,11 +11,9 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.documents.files import is_file
 from gazelle.launch.config import LaunchConfig
 from gazelle.launch.environment import ros1_variables
-from gazelle.launch.ros1.element_reader import Reading, TagError
+from gazelle.launch.ros1.element_reader import ELEMENTS, Reading, Scope, TagError
 from gazelle.launch.ros1.elements import HANDLERS
-from gazelle.launch.ros1.scope import Scope
 from gazelle.launch.ros1.substitution_args import TOLD
-from gazelle.launch.ros1.tables import ELEMENTS
 from gazelle.workspace import Workspace
 
 __all__ = ["load_launch_files", "load_launch_text"]

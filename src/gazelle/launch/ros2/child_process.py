@@ -1,9 +1,11 @@
-"""A process of a launch: its start in the event loop, its output, its end."""
+"""A process of a launch: its start in the event loop, its output line by line, its end."""
 
 from __future__ import annotations
 
 import asyncio
+import codecs
 import contextlib
+import logging
 import os
 import pty
 import sys
@@ -16,10 +18,43 @@ from gazelle.launch.watchdog import Guard
 from gazelle.parent_process import PARENT_VARIABLE
 from gazelle.process_exit import interrupts_held
 
-__all__ = ["ChildProcess", "Guarded", "start_child"]
+__all__ = ["ChildProcess", "Guarded", "OutputLines", "start_child"]
 
 # What a process wrote last is awaited so long, since a child of it may hold its output open.
 _LAST_WORDS_S = 0.5
+
+
+class OutputLines:
+    """Cuts the output of a process into lines and logs each as soon as it ends."""
+
+    def __init__(
+        self, logger: logging.Logger, format_line: Callable[[str], str], *, is_cached: bool
+    ) -> None:
+        self._logger = logger
+        self._format_line = format_line
+        self._is_cached = is_cached
+        self._decoder = codecs.getincrementaldecoder("utf-8")("replace")
+        self._part = ""
+        self._all: list[str] = []
+
+    def add(self, data: bytes) -> None:
+        """Take more of the output."""
+        text = self._decoder.decode(data)
+        if self._is_cached:
+            self._all.append(text)
+        *lines, self._part = (self._part + text).split("\n")
+        for line in lines:
+            self._logger.info(self._format_line(line.removesuffix("\r")))
+
+    def end(self) -> None:
+        """Log what has no line end behind it."""
+        if self._part:
+            self._logger.info(self._format_line(self._part))
+        self._part = ""
+
+    def text(self) -> str:
+        """Return all of it so far; empty unless it is cached."""
+        return "".join(self._all)
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,48 +171,6 @@ class ChildProcess(asyncio.SubprocessProtocol):
             self.complete.set_result(self.transport.get_returncode())
 
 
-class _Terminal(asyncio.Protocol):
-    """The launcher's end of a process's terminal."""
-
-    def __init__(self, child: ChildProcess, fd: int) -> None:
-        self._child = child
-        self._fd = fd
-
-    def data_received(self, data: bytes) -> None:
-        # The line discipline writes a carriage return before each line feed.
-        self._child.pipe_data_received(self._fd, data.replace(b"\r\n", b"\n"))
-
-    def connection_lost(self, exc: Exception | None) -> None:
-        self._child.pipe_connection_lost(self._fd, exc)
-
-
-class _Held:
-    """Starts a process with SIGINT held, and lets it go before anything else has its turn."""
-
-    def __init__(self, starting: Coroutine[Any, Any, Any]) -> None:
-        self._starting = starting
-
-    def __await__(self) -> Generator[Any, None, Any]:
-        with interrupts_held():
-            # The process is started in the first step; all others wait for its pipes.
-            try:
-                awaited = self._starting.send(None)
-            except StopIteration as done:
-                return done.value
-        while True:
-            caught: BaseException | None = None
-            sent: Any = None
-            try:
-                sent = yield awaited
-            except BaseException as error:  # noqa: BLE001 - it is the coroutine's to handle
-                caught = error
-            try:
-                go_on = self._starting
-                awaited = go_on.send(sent) if caught is None else go_on.throw(caught)
-            except StopIteration as done:
-                return done.value
-
-
 async def start_child(
     on_start: Callable[[ChildProcess], None],
     on_output: Callable[[int, bytes], None],
@@ -236,6 +229,48 @@ async def start_child(
     for fd, near, _far in terminals:
         await child.read_terminal(fd, near)
     return child
+
+
+class _Terminal(asyncio.Protocol):
+    """The launcher's end of a process's terminal."""
+
+    def __init__(self, child: ChildProcess, fd: int) -> None:
+        self._child = child
+        self._fd = fd
+
+    def data_received(self, data: bytes) -> None:
+        # The line discipline writes a carriage return before each line feed.
+        self._child.pipe_data_received(self._fd, data.replace(b"\r\n", b"\n"))
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._child.pipe_connection_lost(self._fd, exc)
+
+
+class _Held:
+    """Starts a process with SIGINT held, and lets it go before anything else has its turn."""
+
+    def __init__(self, starting: Coroutine[Any, Any, Any]) -> None:
+        self._starting = starting
+
+    def __await__(self) -> Generator[Any, None, Any]:
+        with interrupts_held():
+            # The process is started in the first step; all others wait for its pipes.
+            try:
+                awaited = self._starting.send(None)
+            except StopIteration as done:
+                return done.value
+        while True:
+            caught: BaseException | None = None
+            sent: Any = None
+            try:
+                sent = yield awaited
+            except BaseException as error:  # noqa: BLE001 - it is the coroutine's to handle
+                caught = error
+            try:
+                go_on = self._starting
+                awaited = go_on.send(sent) if caught is None else go_on.throw(caught)
+            except StopIteration as done:
+                return done.value
 
 
 def _is_there(group: int) -> bool:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import dump_yaml, load_yaml
 from gazelle.launch.ros2.condition import Condition
-from gazelle.launch.ros2.launch_ros.temporary import write_temporary
+from gazelle.launch.ros2.launch_ros.parameter_descriptions import write_temporary
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
 from gazelle.launch.ros2.substitutions import LaunchConfiguration
 from gazelle.launch.ros2.utilities import (

@@ -1,4 +1,4 @@
-"""Which line of the user's launch file made something, or raised something."""
+"""Which line of the user's made something or raised something, and what is told of an error."""
 
 from __future__ import annotations
 
@@ -16,12 +16,15 @@ from gazelle.diagnostics import SourceSpan
 __all__ = [
     "calling_place",
     "is_the_users",
+    "keep_explanation",
     "keep_place",
+    "kept_explanation",
     "kept_place",
     "raising_place",
     "written_at",
 ]
 
+_EXPLANATION = "_gazelle_explanation"
 _OURS = str(Path(__file__).parents[2])
 # Also the folder of commands such as gazelle.
 _NOT_THE_USERS = (
@@ -31,6 +34,17 @@ _NOT_THE_USERS = (
 )
 _ATTRIBUTE = "_gazelle_place"
 _element: ContextVar[SourceSpan | None] = ContextVar("element", default=None)
+
+
+def keep_explanation(error: BaseException, message: str = "", fix: str = "") -> None:
+    """Remember with an error a shorter or fuller message, and what to do."""
+    setattr(error, _EXPLANATION, (message, fix))
+
+
+def kept_explanation(error: BaseException) -> tuple[str, str]:
+    """Return what was remembered: message and what to do, each empty without."""
+    found: tuple[str, str] = getattr(error, _EXPLANATION, ("", ""))
+    return found
 
 
 @contextlib.contextmanager

@@ -3,20 +3,36 @@
 import sys as _sys
 
 from gazelle.launch.ros2 import *  # noqa: F403
-from gazelle.launch.ros2 import action, actions, condition, conditions, descriptions, event, event_handler, event_handlers, events, frontend, invalid_launch_file_error, launch_description_sources, logging, substitution, substitutions, utilities
-from gazelle.launch.ros2 import launch_context
-from gazelle.launch.ros2 import launch_description
-from gazelle.launch.ros2 import launch_description_entity
-from gazelle.launch.ros2 import launch_introspector
-from gazelle.launch.ros2 import launch_service
-from gazelle.launch.ros2 import launch_description_source
+from gazelle.launch.ros2 import (
+    action,
+    actions,
+    condition,
+    conditions,
+    descriptions,
+    event,
+    event_handler,
+    event_handlers,
+    events,
+    frontend,
+    invalid_launch_file_error,
+    launch_context,
+    launch_description,
+    launch_description_entity,
+    launch_description_source,
+    launch_description_sources,
+    launch_introspector,
+    launch_service,
+    logging,
+    substitution,
+    substitutions,
+    utilities,
+)
 from gazelle.launch.ros2.events import process as _process
 from gazelle.launch.ros2.frontend import entity as _frontend_entity
 from gazelle.launch.ros2.frontend import expose as _expose
 from gazelle.launch.ros2.frontend import parse_substitution as _parse_substitution
 from gazelle.launch.ros2.frontend import parser as _parser
 from gazelle.launch.ros2.frontend import type_utils as _frontend_type_utils
-from gazelle.launch.ros2.launch_description_sources import files as _files
 from gazelle.launch.ros2.launch_description_sources import sources as _sources
 from gazelle.launch.ros2.logging import handlers as _handlers
 from gazelle.launch.ros2.utilities import type_utils as _type_utils
@@ -176,7 +192,7 @@ _sys.modules.update(
             **{f"events.{_one}": events for _one in _EVENTS},
             **{f"events.process.{_one}": _process for _one in _PROCESS_EVENTS},
             **{f"launch_description_sources.{_one}": _sources for _one in _SOURCES},
-            **{f"launch_description_sources.{_one}": _files for _one in _FILES},
+            **{f"launch_description_sources.{_one}": _sources for _one in _FILES},
             **{f"substitutions.{_one}": substitutions for _one in _SUBSTITUTIONS},
             **{f"utilities.{_one}": utilities for _one in _UTILITIES},
         }.items()

@@ -22,9 +22,8 @@ from gazelle.launch.ros2.launch_ros.actions import ros_timer as _ros_timer
 from gazelle.launch.ros2.launch_ros.actions import scoped_settings as _scope
 from gazelle.launch.ros2.launch_ros.events import lifecycle as _lifecycle
 from gazelle.launch.ros2.launch_ros.events import matchers as _matchers
-from gazelle.launch.ros2.launch_ros.utilities import node_parameters as _evaluating
 from gazelle.launch.ros2.launch_ros.utilities import namespaces as _namespaces
-from gazelle.launch.ros2.launch_ros.utilities import normalizing as _normalizing
+from gazelle.launch.ros2.launch_ros.utilities import node_parameters as _node_parameters
 
 __all__ = [
     "actions",
@@ -77,10 +76,10 @@ for _name, _module in {
     "substitutions.find_package": substitutions,
     "substitutions.parameter": substitutions,
     "utilities": _utilities,
-    "utilities.evaluate_parameters": _evaluating,
+    "utilities.evaluate_parameters": _node_parameters,
     "utilities.namespace_utils": _namespaces,
-    "utilities.normalize_parameters": _normalizing,
-    "utilities.normalize_remap_rule": _normalizing,
+    "utilities.normalize_parameters": _node_parameters,
+    "utilities.normalize_remap_rule": _node_parameters,
     "utilities.to_parameters_list": _parameters,
     "utilities.track_node_names": _namespaces,
 }.items():

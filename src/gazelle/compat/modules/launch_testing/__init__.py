@@ -3,14 +3,22 @@
 import sys as _sys
 
 from gazelle.launch.ros2.launch_testing import *  # noqa: F403
-from gazelle.launch.ros2.launch_testing import actions, asserts, event_handlers, loader, markers, ready_aggregator, tools
-from gazelle.launch.ros2.launch_testing import launch_test
-from gazelle.launch.ros2.launch_testing import process_handlers
-from gazelle.launch.ros2.launch_testing import proc_lookup
-from gazelle.launch.ros2.launch_testing import output_text
-from gazelle.launch.ros2.launch_testing import process_proxy
-from gazelle.launch.ros2.launch_testing import test_result
-from gazelle.launch.ros2.launch_testing import test_runner
+from gazelle.launch.ros2.launch_testing import (
+    actions,
+    asserts,
+    event_handlers,
+    launch_test,
+    loader,
+    markers,
+    output_text,
+    proc_lookup,
+    process_handlers,
+    process_proxy,
+    ready_aggregator,
+    test_result,
+    test_runner,
+    tools,
+)
 
 _MODULES = {
     "actions": actions,

@@ -8,8 +8,8 @@ from typing import Any, List  # noqa: UP035
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.condition import Condition
 from gazelle.launch.ros2.frontend import Entity, Parser
+from gazelle.launch.ros2.launch_ros.actions.node_keywords import newer_names
 from gazelle.launch.ros2.launch_ros.actions.node_markup import parameters_of, remaps_of
-from gazelle.launch.ros2.launch_ros.actions.older_names import newer_names
 from gazelle.launch.ros2.launch_ros.parameter_descriptions import (
     Parameter,
     ParameterFile,

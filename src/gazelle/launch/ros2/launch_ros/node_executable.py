@@ -1,26 +1,33 @@
-"""What runs a node of a launch file."""
+"""What runs a node of a launch file: its command, found when the node is started."""
 
 from __future__ import annotations
 
 import os
 import shlex
 import stat
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan
 from gazelle.launch.environment import command_folder
-from gazelle.launch.executables import Executable, find_executable, script_command
+from gazelle.launch.executables import Executable as FoundExecutable
+from gazelle.launch.executables import find_executable, script_command
+from gazelle.launch.ros2.descriptions import Executable
 from gazelle.launch.ros2.error_diagnostics import with_diagnostic
 from gazelle.launch.ros2.substitutions import SubstitutionFailure
+from gazelle.launch.ros2.utilities import (
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
 from gazelle.node_specs.unavailable_packages import missing_node, replacement_of
 from gazelle.workspace.ament_index import PackageNotFoundError, known_workspace
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.launch_context import LaunchContext
 
-__all__ = ["NodeCommand", "node_command", "wrapper_script"]
+__all__ = ["NodeCommand", "NodeExecutable", "node_command", "wrapper_script"]
 
 _COMPILED = "launch.compiled-node"
 _NO_PACKAGE = "launch.package-missing"
@@ -38,7 +45,54 @@ class NodeCommand(NamedTuple):
 
     words: tuple[str, ...]
     program: str
-    found: Executable | None = None
+    found: FoundExecutable | None = None
+
+
+class NodeExecutable(Executable):
+    """A node's command; its first word stands for several, such as an interpreter and a file.
+
+    Attributes:
+        command: what was found; None before.
+    """
+
+    command: NodeCommand | None = None
+
+    @classmethod
+    def of(cls, plain: Executable) -> NodeExecutable:
+        """Return the same command as that of a node."""
+        made = cls.__new__(cls)
+        made.__dict__.update(plain.__dict__)
+        return made
+
+    def find(
+        self, context: LaunchContext, package: Any, executable: Any, place: SourceSpan | None
+    ) -> bool:
+        """Look for what runs the node; False when it is compiled code that is not here.
+
+        Raises:
+            PackageNotFoundError: there is no such package.
+            SubstitutionFailure: the package has no such executable.
+        """
+        name = _text(context, executable)
+        self.command = node_command(
+            context, None if package is None else _text(context, package), name, place
+        )
+        if self.command is None:
+            return False
+        first = [normalize_to_list_of_substitutions(word) for word in self.command.words]
+        self.cmd = [*first, *self.cmd[1:]]
+        if self.name is None:
+            self.name = normalize_to_list_of_substitutions(self.command.program)
+        return True
+
+    def add_words(self, words: Iterable[Any]) -> None:
+        """Put words behind the command."""
+        self.cmd += [normalize_to_list_of_substitutions(word) for word in words]
+
+    def _prefix_words(self, context: LaunchContext, program: str) -> list[str]:
+        # A filter is about the node, not about the interpreter that runs it.
+        own = program if self.command is None else self.command.program
+        return super()._prefix_words(context, own)
 
 
 def node_command(
@@ -101,18 +155,6 @@ def node_command(
     raise with_diagnostic(error, code, missing.message, missing.span, fix=fix)
 
 
-def _tell_of_absence(context: LaunchContext, missing: Diagnostic, code: str, what: str) -> None:
-    found = Diagnostics()
-    message = f"{missing.message.partition(chr(10))[0].partition(';')[0]}; the others go on"
-    found.report(code, message, missing.span, fix=what)
-    context.tell(next(iter(found)))
-
-
-def _near(missing: Diagnostic) -> str:
-    """Return the names like the one that is missing, or nothing."""
-    return missing.fix if missing.fix.startswith("did you mean") else ""
-
-
 def wrapper_script(command: NodeCommand) -> Path:
     """Return a file that runs a command, for where the path of an executable is wanted."""
     if len(command.words) == 1:
@@ -127,3 +169,19 @@ def wrapper_script(command: NodeCommand) -> Path:
         part.chmod(part.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)
         part.replace(script)
     return script
+
+
+def _tell_of_absence(context: LaunchContext, missing: Diagnostic, code: str, what: str) -> None:
+    found = Diagnostics()
+    message = f"{missing.message.partition(chr(10))[0].partition(';')[0]}; the others go on"
+    found.report(code, message, missing.span, fix=what)
+    context.tell(next(iter(found)))
+
+
+def _near(missing: Diagnostic) -> str:
+    """Return the names like the one that is missing, or nothing."""
+    return missing.fix if missing.fix.startswith("did you mean") else ""
+
+
+def _text(context: LaunchContext, value: Any) -> str:
+    return perform_substitutions(context, normalize_to_list_of_substitutions(value))

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import atexit
 import os
+from functools import cache
 from pathlib import Path
+from tempfile import NamedTemporaryFile, gettempdir
 from typing import TYPE_CHECKING, Any
 
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import MAX_CHARACTERS, YamlError, load_yaml
-from gazelle.launch.ros2.launch_ros.temporary import write_temporary
 from gazelle.launch.ros2.substitution import (
     SomeSubstitutionsType,
     SomeSubstitutionsType_types_tuple,
@@ -23,11 +25,14 @@ from gazelle.launch.ros2.utilities.type_utils import (
     normalize_typed_substitution,
     perform_typed_substitution,
 )
+from gazelle.temporary_files import own_prefix, sweep
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.launch_context import LaunchContext
 
-__all__ = ["Parameter", "ParameterFile", "ParameterValue"]
+__all__ = ["Parameter", "ParameterFile", "ParameterValue", "write_temporary"]
+
+_PREFIX = "launch_params_"
 
 
 class ParameterValue:
@@ -155,6 +160,34 @@ class ParameterFile:
         if self.__is_temporary and self.__evaluated is not None:
             self.__evaluated.unlink(missing_ok=True)
             self.__evaluated = None
+
+
+def write_temporary(text: str) -> Path:
+    """Write a file of parameters that is deleted when the launcher ends.
+
+    ROS 2 leaves it behind; a node that is started again reads it again. What a launcher that was
+    killed left is deleted by the next one.
+    """
+    with NamedTemporaryFile(
+        mode="w", prefix=own_prefix(_PREFIX), suffix="", delete=False, encoding="utf-8"
+    ) as file:
+        file.write(text)
+    path = Path(file.name)
+    _written().append(path)
+    return path
+
+
+@cache
+def _written() -> list[Path]:
+    files: list[Path] = []
+    sweep(Path(gettempdir()), _PREFIX)
+
+    def delete() -> None:
+        for path in files:
+            path.unlink(missing_ok=True)
+
+    atexit.register(delete)
+    return files
 
 
 def _substituted(path: Path, context: LaunchContext) -> Path:

@@ -7,13 +7,11 @@ from gazelle.launch.ros2.substitutions.boolean_substitution import (
     AllSubstitution,
     AndSubstitution,
     AnySubstitution,
-    NotSubstitution,
-    OrSubstitution,
-)
-from gazelle.launch.ros2.substitutions.choosing import (
     EqualsSubstitution,
     IfElseSubstitution,
     NotEqualsSubstitution,
+    NotSubstitution,
+    OrSubstitution,
 )
 from gazelle.launch.ros2.substitutions.command_and_expression import Command, PythonExpression
 from gazelle.launch.ros2.substitutions.files import (
@@ -25,17 +23,15 @@ from gazelle.launch.ros2.substitutions.files import (
     ThisLaunchFile,
     ThisLaunchFileDir,
 )
-from gazelle.launch.ros2.substitutions.joined import (
-    ForEachVar,
-    ForLoopIndex,
-    StringJoinSubstitution,
-)
 from gazelle.launch.ros2.substitutions.substitution_failure import SubstitutionFailure
 from gazelle.launch.ros2.substitutions.variables import (
     AnonName,
     EnvironmentVariable,
+    ForEachVar,
+    ForLoopIndex,
     LaunchConfiguration,
     LocalSubstitution,
+    StringJoinSubstitution,
 )
 
 __all__ = [

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from gazelle.documents import LimitError
 from gazelle.documents.command_output import CommandResult, run_limited
 from gazelle.launch.ros2 import logging as launch_logging
-from gazelle.launch.ros2.failing import keep_explanation
 from gazelle.launch.ros2.frontend import expose_substitution
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
 from gazelle.launch.ros2.substitutions.substitution_failure import (
@@ -19,6 +18,7 @@ from gazelle.launch.ros2.substitutions.substitution_failure import (
     counted,
     described,
 )
+from gazelle.launch.ros2.user_spans import keep_explanation
 from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,

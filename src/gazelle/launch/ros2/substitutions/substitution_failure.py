@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from gazelle.launch.ros2.failing import keep_explanation
 from gazelle.launch.ros2.substitution import Substitution
+from gazelle.launch.ros2.user_spans import keep_explanation
 
 __all__ = ["SubstitutionFailure", "counted", "described"]
 

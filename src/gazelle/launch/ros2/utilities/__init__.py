@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from gazelle.launch.ros2.utilities import type_utils
-from gazelle.launch.ros2.utilities.classes import (
+from gazelle.launch.ros2.utilities.normalization import (
     ensure_argument_type,
     is_a,
     is_a_subclass,
     isclassinstance,
-)
-from gazelle.launch.ros2.utilities.normalization import (
     normalize_to_list_of_entities,
     normalize_to_list_of_substitutions,
     perform_substitutions,
+    visit_all_entities_and_collect_futures,
 )
 from gazelle.launch.ros2.utilities.signals import (
     AsyncSafeSignalManager,
@@ -22,7 +21,6 @@ from gazelle.launch.ros2.utilities.signals import (
     on_sigquit,
     on_sigterm,
 )
-from gazelle.launch.ros2.utilities.visiting import visit_all_entities_and_collect_futures
 
 __all__ = [
     "AsyncSafeSignalManager",

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, List  # noqa: UP035
 
 from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType, Substitution
-from gazelle.launch.ros2.utilities.classes import ensure_argument_type
 from gazelle.launch.ros2.utilities.normalization import (
+    ensure_argument_type,
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )

@@ -14,15 +14,16 @@ from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.actions import ExecuteProcess
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
 from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity
-from gazelle.launch.ros2.launch_ros.actions.node_keywords import check_keywords, check_lists
+from gazelle.launch.ros2.launch_ros.actions.node_keywords import (
+    check_keywords,
+    check_lists,
+    newer_names,
+)
 from gazelle.launch.ros2.launch_ros.actions.node_markup import node_arguments
-from gazelle.launch.ros2.launch_ros.actions.older_names import newer_names
-from gazelle.launch.ros2.launch_ros.executable import NodeExecutable
 from gazelle.launch.ros2.launch_ros.launch_graph import carry_graph
-from gazelle.launch.ros2.launch_ros.names import check_name, check_namespace
-from gazelle.launch.ros2.launch_ros.parameter_descriptions import Parameter
+from gazelle.launch.ros2.launch_ros.node_executable import NodeExecutable
+from gazelle.launch.ros2.launch_ros.parameter_descriptions import Parameter, write_temporary
 from gazelle.launch.ros2.launch_ros.substitutions import ExecutableInPackage
-from gazelle.launch.ros2.launch_ros.temporary import write_temporary
 from gazelle.launch.ros2.launch_ros.utilities import (
     add_node_name,
     evaluate_parameters,
@@ -32,6 +33,7 @@ from gazelle.launch.ros2.launch_ros.utilities import (
     normalize_remap_rules,
     prefix_namespace,
 )
+from gazelle.launch.ros2.launch_ros.utilities.namespaces import check_name, check_namespace
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType
 from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,

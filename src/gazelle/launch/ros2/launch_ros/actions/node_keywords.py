@@ -1,4 +1,4 @@
-"""Arguments of nodes that people get wrong."""
+"""Arguments of nodes that people get wrong, or that were called otherwise up to Foxy."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from typing import Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.launch.ros2 import logging as launch_logging
+from gazelle.launch.ros2.deprecation import warn_once
 from gazelle.launch.ros2.descriptions import Executable
 from gazelle.launch.ros2.substitution import Substitution
 
-__all__ = ["check_keywords", "check_lists"]
+__all__ = ["check_keywords", "check_lists", "newer_names"]
 
 # Names of XML, of roslaunch and of haste.
 _MEANT = {
@@ -27,6 +28,36 @@ _MEANT = {
     "remaps": "remappings",
     "type": "executable",
 }
+
+
+def newer_names(
+    owner: str, given: dict[str, Any], kwargs: dict[str, Any], old_names: Mapping[str, str]
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return arguments by their names of today, and those that are left.
+
+    Args:
+        owner: the class, for messages.
+        given: by the names of today, None where nothing is given.
+        kwargs: all others.
+        old_names: old names and those of today.
+
+    Raises:
+        TypeError: an argument is given by both names.
+    """
+    found, rest = dict(given), dict(kwargs)
+    for old, new in old_names.items():
+        if old not in rest:
+            continue
+        if found.get(new) is not None:
+            raise TypeError(f"{owner}: both '{old}' and '{new}' are given; leave out '{old}'")
+        found[new] = rest.pop(old)
+        warn_once(
+            f"The parameter '{old}' of {owner} is deprecated, use '{new}' (Foxy was the last to "
+            "have it)",
+            FutureWarning,
+            stacklevel=3,
+        )
+    return found, rest
 
 
 def check_keywords(kind: type, kwargs: Mapping[str, Any]) -> None:

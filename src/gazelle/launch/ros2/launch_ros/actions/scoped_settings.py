@@ -8,12 +8,15 @@ from gazelle.folders import ros_log_folder
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
 from gazelle.launch.ros2.launch_ros.launch_graph import launch_node
-from gazelle.launch.ros2.launch_ros.names import InvalidNamespaceError, check_namespace
 from gazelle.launch.ros2.launch_ros.utilities import (
     evaluate_parameter_dict,
     make_namespace_absolute,
     normalize_parameter_dict,
     prefix_namespace,
+)
+from gazelle.launch.ros2.launch_ros.utilities.namespaces import (
+    InvalidNamespaceError,
+    check_namespace,
 )
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType
 from gazelle.launch.ros2.substitutions import SubstitutionFailure

@@ -13,13 +13,11 @@ from gazelle.launch.ros2.launch_ros.utilities.namespaces import (
 from gazelle.launch.ros2.launch_ros.utilities.node_parameters import (
     evaluate_parameter_dict,
     evaluate_parameters,
-    parameter_values,
-)
-from gazelle.launch.ros2.launch_ros.utilities.normalizing import (
     normalize_parameter_dict,
     normalize_parameters,
     normalize_remap_rule,
     normalize_remap_rules,
+    parameter_values,
 )
 
 __all__ = [

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.launch.ros2.launch_ros import temporary
+from gazelle.launch.ros2.launch_ros import parameter_descriptions
+from gazelle.launch.ros2.launch_ros.parameter_descriptions import write_temporary
 
 
 @pytest.fixture
@@ -19,9 +20,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """The folder for temporary files, in which this process has written none yet."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     monkeypatch.setattr("atexit.register", lambda function: function)
-    temporary._written.cache_clear()
+    parameter_descriptions._written.cache_clear()
     yield tmp_path
-    temporary._written.cache_clear()
+    parameter_descriptions._written.cache_clear()
 
 
 @pytest.mark.skipif(os.name != "posix", reason="nobody is asked for there")
@@ -31,7 +32,7 @@ def test_what_a_killed_launcher_left_is_deleted_by_the_next(folder: Path) -> Non
     ours = folder / f"launch_params_{os.getpid()}-x"
     for path in (old, ours):
         path.write_text("a")
-    new = temporary.write_temporary("b")
+    new = write_temporary("b")
     assert not old.exists()
     assert ours.exists()
     assert new.read_text(encoding="utf-8") == "b"
@@ -40,7 +41,7 @@ def test_what_a_killed_launcher_left_is_deleted_by_the_next(folder: Path) -> Non
 
 def test_files_are_deleted_when_the_launcher_ends(tmp_path: Path) -> None:
     code = (
-        "from gazelle.launch.ros2.launch_ros.temporary import write_temporary\n"
+        "from gazelle.launch.ros2.launch_ros.parameter_descriptions import write_temporary\n"
         "paths = [write_temporary(text) for text in 'ab']\n"
         "print([path.read_text() for path in paths])\n"
     )
