@@ -16,7 +16,7 @@ WHEN_RUN = {
     # A URDF's <gazebo> holds SDF, and an <include> of SDF may name a URDF.
     "gazelle.description.sdf_reader.models": 5,
     # The originals' packages, which users import from, gather modules that need each other.
-    "gazelle.launch.ros2.actions": 31,
+    "gazelle.launch.ros2.actions": 27,
 }
 # Those that only types close: by their first module, for one class and its parts know each other.
 WITH_TYPES = {
@@ -26,7 +26,7 @@ WITH_TYPES = {
     "gazelle.graph.actions.actionlib_wire",
     "gazelle.graph.clock",
     "gazelle.launch.ros2.action",
-    "gazelle.launch.ros2.launch_context",
+    "gazelle.launch.ros2.event_handler",
     "gazelle.simulator.handles",
     "gazelle.simulator.plugins.named",
     "gazelle.workspace.uri_resolver",
