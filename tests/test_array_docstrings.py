@@ -31,6 +31,12 @@ _SHAPE = re.compile(
 )
 
 
+def _files(layer: str) -> Iterator[Path]:
+    """Yield the modules of a layer, which may be a single one."""
+    folder = SOURCE / layer
+    yield from folder.rglob("*.py") if folder.is_dir() else [folder.with_suffix(".py")]
+
+
 def _public(body: list[ast.stmt]) -> Iterator[ast.FunctionDef]:
     for node in body:
         if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_"):
@@ -52,7 +58,7 @@ def _has_array(function: ast.FunctionDef) -> bool:
 def test_public_functions_with_arrays_tell_a_shape(layer: str) -> None:
     silent = [
         f"{path.relative_to(SOURCE)}:{function.lineno} {function.name}"
-        for path in sorted((SOURCE / layer).rglob("*.py"))
+        for path in sorted(_files(layer))
         if not any(part.startswith("_") for part in path.relative_to(SOURCE).parts)
         for function in _public(ast.parse(path.read_text(encoding="utf-8")).body)
         if _has_array(function) and not _SHAPE.search(ast.get_docstring(function) or "")

@@ -15,8 +15,8 @@ from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.moveit.config import typed_config
+from gazelle.description.moveit.package_files import read_yaml
 from gazelle.description.moveit.parameter_reader import Settings as MoveItSettings
-from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.launch_tree import follow

@@ -1,4 +1,7 @@
-"""Forward kinematics of a description: where links stand when joints are not at zero."""
+"""Forward kinematics of a description: where links stand when joints are not at zero.
+
+Also which links fixed joints make one body.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,7 @@ from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import IDENTITY_POSE, Pose, quat_xyzw_about_axis
 
-__all__ = ["movable_joints", "posed_model"]
+__all__ = ["fixed_groups", "fixed_heads", "movable_joints", "posed_model"]
 
 _TURNING = frozenset(
     {
@@ -21,6 +24,29 @@ _TURNING = frozenset(
         JointType.GEARBOX,
     }
 )
+
+
+def fixed_heads(model: Model) -> dict[str, str]:
+    """Return for every link the first of those it is fixed to."""
+    above = {joint.child: joint.parent for joint in model.joints if joint.type is JointType.FIXED}
+    heads: dict[str, str] = {}
+    for link in model.links:
+        name, way = link.name, dict[str, None]()
+        while name in above and name not in heads and name not in way:
+            way[name] = None
+            name = above[name]
+        head = heads.get(name, name)
+        heads[link.name] = head
+        heads |= dict.fromkeys(way, head)
+    return heads
+
+
+def fixed_groups(model: Model) -> dict[str, tuple[str, ...]]:
+    """Return the links of every body by its first link, that one included."""
+    groups: dict[str, list[str]] = {}
+    for name, head in fixed_heads(model).items():
+        groups.setdefault(head, []).append(name)
+    return {head: tuple(names) for head, names in groups.items()}
 
 
 def movable_joints(model: Model) -> tuple[str, ...]:

@@ -58,29 +58,6 @@ def load_models(
     return models
 
 
-def _load_models(
-    text: str,
-    workspace: Workspace | None,
-    diagnostics: Diagnostics,
-    mappings: Mapping[str, str] | None,
-    *,
-    inserts: bool = True,
-) -> tuple[Model, ...]:
-    if text.lstrip("\ufeff \t\r\n").startswith("<"):
-        return _models_of_text(text, workspace, diagnostics, inserts=inserts)
-    path = _locate(text, workspace, diagnostics)
-    if path is None:
-        return ()
-    if is_folder(path) or path.name == _MODEL_CONFIG:
-        folder = path if is_folder(path) else path.parent
-        model = _leniently(
-            lambda found: read_model_file(folder, workspace=workspace, diagnostics=found),
-            diagnostics,
-        )
-        return () if model is None else (model,)
-    return _models_of_file(path, workspace, diagnostics, mappings, inserts=inserts)
-
-
 def load_world(
     source: str | os.PathLike[str],
     *,
@@ -113,6 +90,29 @@ def load_world(
         diagnostics.raise_if_errors()
         raise AssertionError("an error was reported")
     return world
+
+
+def _load_models(
+    text: str,
+    workspace: Workspace | None,
+    diagnostics: Diagnostics,
+    mappings: Mapping[str, str] | None,
+    *,
+    inserts: bool = True,
+) -> tuple[Model, ...]:
+    if text.lstrip("\ufeff \t\r\n").startswith("<"):
+        return _models_of_text(text, workspace, diagnostics, inserts=inserts)
+    path = _locate(text, workspace, diagnostics)
+    if path is None:
+        return ()
+    if is_folder(path) or path.name == _MODEL_CONFIG:
+        folder = path if is_folder(path) else path.parent
+        model = _leniently(
+            lambda found: read_model_file(folder, workspace=workspace, diagnostics=found),
+            diagnostics,
+        )
+        return () if model is None else (model,)
+    return _models_of_file(path, workspace, diagnostics, mappings, inserts=inserts)
 
 
 def _pass_on(found: Diagnostics, diagnostics: Diagnostics) -> None:

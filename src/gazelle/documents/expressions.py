@@ -18,24 +18,22 @@ from gazelle.documents.files import LimitError, scaled
 
 __all__ = ["HUGE_NUMBER", "Budget", "compile_limited", "names_in_code"]
 
-
 HUGE_NUMBER = r"\d{7,}"
-
 _MAX_STEPS = 2_000_000
-
 _MAX_ITEMS = 2_000_000
-
 _MAX_CHARACTERS = 10_000_000
-
 _MAX_BITS = 100_000
-
 _MAX_FACTORS = 10_000
-
 _COUNTING = (math.factorial, math.comb, math.perm)
-
 _PADDING = frozenset({"center", "expandtabs", "ljust", "rjust", "to_bytes", "zfill"})
-
 _CONTAINERS = (list, tuple, set, frozenset, dict)
+_OPERATIONS: dict[type[ast.operator], str] = {
+    ast.Add: "_limited_sum",
+    ast.LShift: "_limited_shift",
+    ast.Mod: "_limited_modulo",
+    ast.Mult: "_limited_product",
+    ast.Pow: "_limited_power",
+}
 
 
 class Budget:
@@ -169,6 +167,32 @@ class Budget:
             _check_size(size, _MAX_CHARACTERS, "a text of {} characters")
 
 
+def compile_limited(text: str, name: str = "<expression>") -> CodeType:
+    """Compile an expression whose names include `Budget.names`.
+
+    Args:
+        text: a Python expression.
+        name: the file name in tracebacks.
+
+    Raises:
+        SyntaxError: it is none.
+        LimitError: it is nested absurdly deep.
+    """
+    try:
+        tree = _Limiting().visit(ast.parse(text, name, "eval"))
+        return compile(ast.fix_missing_locations(tree), name, "eval")
+    except (RecursionError, MemoryError) as error:
+        raise LimitError("an expression is nested too deep to be understood") from error
+
+
+def names_in_code(code: CodeType) -> Iterator[str]:
+    """Yield the names an expression uses, those inside its comprehensions and lambdas too."""
+    yield from code.co_names
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from names_in_code(constant)
+
+
 def _expanded_size(value: Any, known: dict[int, int]) -> int:
     """Return how many items a value prints; what it holds several times counts as often."""
     if not isinstance(value, _CONTAINERS):
@@ -203,41 +227,6 @@ def _check_size(size: int, most: int, what: str) -> None:
     if size > most and size > (limit := scaled(most)):
         shown = str(size) if size < 10**15 else "more than 10^15"
         raise LimitError(f"{what.format(shown)} is above the limit of {limit}")
-
-
-_OPERATIONS: dict[type[ast.operator], str] = {
-    ast.Add: "_limited_sum",
-    ast.LShift: "_limited_shift",
-    ast.Mod: "_limited_modulo",
-    ast.Mult: "_limited_product",
-    ast.Pow: "_limited_power",
-}
-
-
-def compile_limited(text: str, name: str = "<expression>") -> CodeType:
-    """Compile an expression whose names include `Budget.names`.
-
-    Args:
-        text: a Python expression.
-        name: the file name in tracebacks.
-
-    Raises:
-        SyntaxError: it is none.
-        LimitError: it is nested absurdly deep.
-    """
-    try:
-        tree = _Limiting().visit(ast.parse(text, name, "eval"))
-        return compile(ast.fix_missing_locations(tree), name, "eval")
-    except (RecursionError, MemoryError) as error:
-        raise LimitError("an expression is nested too deep to be understood") from error
-
-
-def names_in_code(code: CodeType) -> Iterator[str]:
-    """Yield the names an expression uses, those inside its comprehensions and lambdas too."""
-    yield from code.co_names
-    for constant in code.co_consts:
-        if isinstance(constant, CodeType):
-            yield from names_in_code(constant)
 
 
 class _Limiting(ast.NodeTransformer):

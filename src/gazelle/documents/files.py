@@ -1,4 +1,4 @@
-"""Reading files that may be endless, enormous, or no files at all."""
+"""Reading files that may be endless, enormous, no files at all, or saved by a newer Gazelle."""
 
 from __future__ import annotations
 
@@ -22,12 +22,51 @@ __all__ = [
     "names_matching",
     "read_limited",
     "read_text_limited",
+    "refused_version",
     "scaled",
 ]
 
-
 # Python's glob goes into itself at each "/".
 _MAX_PATTERN_DEPTH = 100
+_VARIABLE = "GAZELLE_LIMITS"
+HOW_TO_RAISE = f"if the file means it, set the environment variable {_VARIABLE}=10 for ten times"
+"""What to do about a limit, for messages."""
+TEXT_BYTES = 64 << 20
+"""Size of the largest text that is read, in bytes."""
+_MEBIBYTE = 1 << 20
+_CHUNK = 4 << 20
+
+
+class LimitError(GazelleError):
+    """The work a file asks for is above a limit."""
+
+
+class FileLimitError(OSError):
+    """A file is larger than is read, or is no file with an end.
+
+    Attributes:
+        reason: which of it, without the advice that ``strerror`` ends with.
+    """
+
+    def __init__(self, number: int, reason: str, path: str, advice: str = "") -> None:
+        self.reason = reason
+        super().__init__(number, reason + advice, path)
+
+
+def refused_version(what: str, version: object, known: int) -> str:
+    """Return why a saved file is not read, empty for a version that is known.
+
+    Args:
+        what: names the file, such as ``the layout 'desk'``.
+        version: as it stands in the file.
+        known: the newest that this Gazelle reads; it reads the older ones, too.
+    """
+    if not isinstance(version, int) or isinstance(version, bool) or version < 1:
+        return f"{what} is of version {version!r}, which is none: versions are 1, 2, 3 …"
+    if version <= known:
+        return ""
+    text = f"{what} is of version {version}, saved by a newer Gazelle; this one reads versions up "
+    return text + f"to {known} (pip install --upgrade gazelle-sim)"
 
 
 def exists(path: str | os.PathLike[str]) -> bool:
@@ -55,17 +94,6 @@ def names_matching(pattern: str, folder: str | os.PathLike[str]) -> list[str]:
     return sorted(glob(pattern, root_dir=folder, recursive=True))  # noqa: PTH207
 
 
-_VARIABLE = "GAZELLE_LIMITS"
-
-HOW_TO_RAISE = f"if the file means it, set the environment variable {_VARIABLE}=10 for ten times"
-
-"""What to do about a limit, for messages."""
-
-
-class LimitError(GazelleError):
-    """The work a file asks for is above a limit."""
-
-
 def scaled(count: int) -> int:
     """Return a limit times what ``GAZELLE_LIMITS`` says, which is 1 when it is not set.
 
@@ -82,27 +110,6 @@ def scaled(count: int) -> int:
     if not (math.isfinite(factor) and factor > 0):
         raise GazelleError(f"{_VARIABLE}='{text}' is not a number above 0, such as 10")
     return int(count * factor)
-
-
-TEXT_BYTES = 64 << 20
-
-"""Size of the largest text that is read, in bytes."""
-
-_MEBIBYTE = 1 << 20
-
-_CHUNK = 4 << 20
-
-
-class FileLimitError(OSError):
-    """A file is larger than is read, or is no file with an end.
-
-    Attributes:
-        reason: which of it, without the advice that ``strerror`` ends with.
-    """
-
-    def __init__(self, number: int, reason: str, path: str, advice: str = "") -> None:
-        self.reason = reason
-        super().__init__(number, reason + advice, path)
 
 
 def read_limited(path: str | os.PathLike[str], most_bytes: int) -> bytes:

@@ -1,18 +1,24 @@
-"""Reading numpy archives that may be damaged, or larger than there is room for."""
+"""Numpy archives: read though they may be damaged or too large, and kept for the next run."""
 
 from __future__ import annotations
 
 import math
+import os
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.documents.files import HOW_TO_RAISE, scaled
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["ArchiveError", "read_arrays"]
+__all__ = ["ArchiveError", "keep_arrays", "keeps_arrays", "kept_arrays", "read_arrays"]
 
 _MAX_BYTES = 1 << 30
 
@@ -42,6 +48,39 @@ def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
         except Exception as error:
             # zipfile, its decompressors and numpy have errors of their own each.
             raise ArchiveError(str(error) or type(error).__name__) from error
+
+
+def kept_arrays(file: Path) -> dict[str, NDArray[Any]] | None:
+    """Return the arrays of a file by name, of any shape; None when it is not there or damaged."""
+    try:
+        return read_arrays(file)
+    except (OSError, ArchiveError):
+        return None
+
+
+def keep_arrays(file: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Write arrays of any shape beside and rename, so that a reader never sees half a file.
+
+    A read-only home only costs the time of the next run.
+    """
+    # Typed loosely: NumPy before 2.2 knows no other argument, and would save one as an array.
+    loose: dict[str, Any] = dict(arrays)
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with NamedTemporaryFile(dir=file.parent, suffix=".tmp", delete=False) as target:
+            np.savez(target, **loose)
+        Path(target.name).replace(file)
+    except OSError:
+        return
+
+
+def keeps_arrays(folder: Path) -> bool:
+    """Tell whether files can be kept in a folder, which is made where it is missing."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    return os.access(folder, os.W_OK)
 
 
 def _check_size(packed: zipfile.ZipFile) -> None:

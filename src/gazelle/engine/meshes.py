@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from gazelle.description.model import MeshShape, Polyline, Solid
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents import read_limited
+from gazelle.documents.npz_files import keep_arrays, kept_arrays
 from gazelle.engine.outline import ear_clipped
 from gazelle.engine.round_shapes import RoundShape, fitted_round_shape
 from gazelle.engine.surface_pieces import MIN_VOLUME_M3, connected_parts, surface_pieces
@@ -31,7 +32,6 @@ from gazelle.geometry import (
     load_mesh,
     mesh_volume_m3,
 )
-from gazelle.geometry.array_cache import keep_arrays, kept_arrays
 from gazelle.geometry.mesh_files import MAX_MESH_BYTES
 
 __all__ = [

@@ -18,10 +18,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from gazelle.description.model import MeshShape
+from gazelle.documents.npz_files import keeps_arrays
 from gazelle.engine.meshes import MeshKey, decomposed, kept_file, mesh_key, pieces_folder
 from gazelle.errors import GazelleError
 from gazelle.geometry import announce
-from gazelle.geometry.array_cache import keeps_arrays
 
 __all__ = ["split_ahead"]
 

@@ -11,7 +11,6 @@ from gazelle.geometry.convex_decomposition import (
     is_splitting,
     without_splitting,
 )
-from gazelle.geometry.heightmaps import heightmap_mesh, polyline_mesh
 from gazelle.geometry.mass_properties import (
     Inertia6,
     MassProperties,
@@ -65,7 +64,9 @@ from gazelle.geometry.primitive_meshes import (
     cone_mesh,
     cylinder_mesh,
     ellipsoid_mesh,
+    heightmap_mesh,
     plane_mesh,
+    polyline_mesh,
     sphere_mesh,
 )
 

@@ -20,6 +20,9 @@ from gazelle.geometry.mesh import (
 
 __all__ = ["read_mtl", "read_obj"]
 
+Corner = tuple[int, int, int]
+_IGNORED = frozenset({"s", "l", "p", "vp", "mg", "lod", "shadow_obj", "trace_obj", "bevel"})
+
 
 def read_mtl(text: str, file: Path) -> tuple[dict[str, MeshMaterial], tuple[MeshNote, ...]]:
     """Read a library's text.
@@ -44,6 +47,23 @@ def read_mtl(text: str, file: Path) -> tuple[dict[str, MeshMaterial], tuple[Mesh
                 text_ = f"'{file.name}' line {number}: '{line.strip()}' cannot be understood"
                 notes.append(MeshNote("mesh.incomplete", text_))
     return materials, tuple(notes)
+
+
+def read_obj(data: bytes, file: Path) -> Mesh:
+    """Read an OBJ file's bytes; lengths are metres, axes as written, as in Gazebo.
+
+    Faces with more than three corners are split into a fan. Texture coordinates keep OBJ's
+    sense (v up), missing normals are computed.
+
+    Raises:
+        MeshError: a line cannot be understood (with its number), or there are no faces.
+    """
+    reader = _Reader(file)
+    for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), start=1):
+        words = line.split()
+        if words and not words[0].startswith("#"):
+            reader.line(number, words)
+    return reader.mesh()
 
 
 def _with(
@@ -87,28 +107,6 @@ def _textured(material: MeshMaterial, name: str, file: Path, notes: list[MeshNot
     text = f"texture '{name}' not found beside '{file.name}', the part is shown plain"
     notes.append(MeshNote("mesh.missing-texture", text))
     return material
-
-
-Corner = tuple[int, int, int]
-
-_IGNORED = frozenset({"s", "l", "p", "vp", "mg", "lod", "shadow_obj", "trace_obj", "bevel"})
-
-
-def read_obj(data: bytes, file: Path) -> Mesh:
-    """Read an OBJ file's bytes; lengths are metres, axes as written, as in Gazebo.
-
-    Faces with more than three corners are split into a fan. Texture coordinates keep OBJ's
-    sense (v up), missing normals are computed.
-
-    Raises:
-        MeshError: a line cannot be understood (with its number), or there are no faces.
-    """
-    reader = _Reader(file)
-    for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), start=1):
-        words = line.split()
-        if words and not words[0].startswith("#"):
-            reader.line(number, words)
-    return reader.mesh()
 
 
 @dataclass(slots=True)

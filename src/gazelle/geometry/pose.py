@@ -23,19 +23,8 @@ __all__ = [
     "yaw_from_quat_xyzw",
 ]
 
-
 Vector = Sequence[float] | NDArray[np.float64]
-
-
-def cross(a: Vector, b: Vector) -> NDArray[np.float64]:
-    """Return ``a × b`` (3,), some twenty times as fast as `numpy.cross`."""
-    ax, ay, az = a
-    bx, by, bz = b
-    return np.array((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), dtype=np.float64)
-
-
 Vector3 = tuple[float, float, float]
-
 QuatXyzw = tuple[float, float, float, float]
 
 
@@ -122,6 +111,13 @@ class Pose:
 
 
 IDENTITY_POSE = Pose()
+
+
+def cross(a: Vector, b: Vector) -> NDArray[np.float64]:
+    """Return ``a × b`` (3,), some twenty times as fast as `numpy.cross`."""
+    ax, ay, az = a
+    bx, by, bz = b
+    return np.array((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx), dtype=np.float64)
 
 
 def quat_xyzw_from_rpy(rpy_rad: Vector3) -> QuatXyzw:

@@ -19,7 +19,6 @@ __all__ = [
 
 CREASE_ANGLE_RAD = math.radians(35.0)
 """Faces that meet at a smaller angle are shaded as one curved surface."""
-
 _WELD_SHARE = 1e-7
 _MAX_NEIGHBOURS = 256
 _NORMAL_STEPS = 1 << 14
@@ -105,13 +104,6 @@ def smooth_corners(
     return unit_rows(normals)
 
 
-def _corner_angles(corners_m: NDArray[np.float64]) -> NDArray[np.float64]:
-    after = unit_rows((np.roll(corners_m, -1, axis=1) - corners_m).reshape(-1, 3))
-    before = unit_rows((np.roll(corners_m, 1, axis=1) - corners_m).reshape(-1, 3))
-    angles: NDArray[np.float64] = np.arccos(np.clip(np.einsum("ij,ij->i", after, before), -1, 1))
-    return angles
-
-
 def rounded_normals(normals: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return normals, (n, 3), rounded so that sums of the same faces in any order are equal."""
     return np.round(normals * _NORMAL_STEPS)
@@ -123,3 +115,10 @@ def unit_rows(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     unit: NDArray[np.float64] = rows / np.where(lengths > 0, lengths, 1.0)[:, None]
     unit[lengths == 0] = (0.0, 0.0, 1.0)
     return unit
+
+
+def _corner_angles(corners_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    after = unit_rows((np.roll(corners_m, -1, axis=1) - corners_m).reshape(-1, 3))
+    before = unit_rows((np.roll(corners_m, 1, axis=1) - corners_m).reshape(-1, 3))
+    angles: NDArray[np.float64] = np.arccos(np.clip(np.einsum("ij,ij->i", after, before), -1, 1))
+    return angles

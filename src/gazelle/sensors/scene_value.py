@@ -30,9 +30,9 @@ from gazelle.description.model.shape import (
     Plane,
     Polyline,
     Shape,
+    Solid,
     Sphere,
 )
-from gazelle.description.model.solid import Solid
 from gazelle.geometry import IDENTITY_POSE, MeshPart, Pose
 from gazelle.sensors.picture_overlays import equivalent_box
 from gazelle.sensors.scene_types import (

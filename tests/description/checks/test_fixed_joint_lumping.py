@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.description.checks.pain import FIXTURES, examined, place
+from tests.description.checks.pain import FIXTURES, examined, finding, place
 from tests.shared_files import needs_shared
 
 from gazelle.description.model import Model
@@ -13,6 +13,27 @@ from gazelle.description.urdf_reader import read_urdf
 from gazelle.description.urdf_reader.fixed_joint_lumping import collision_names, lumped_links
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
+
+
+def test_preserved_dummy_root_lets_the_robot_vanish() -> None:
+    item = finding("pain_04_massless/preserved_root.urdf")
+    assert item.code == "robot.preserved-massless"
+    assert item.message == (
+        "the fixed joint 'base_joint' is preserved, but 'base_footprint' has no <inertial>: "
+        "Gazebo drops that link, and with it the whole robot: nothing appears; here it is kept"
+    )
+    assert place(item) == '<joint name="base_joint" type="fixed">'
+    assert item.fix.startswith("remove <preserveFixedJoint>")
+    assert "not modeled in sdf" in item.phrase
+
+
+def test_preserved_frame_is_dropped_alone() -> None:
+    item = finding("pain_04_massless/preserved_frame.urdf")
+    assert item.code == "robot.preserved-massless"
+    assert item.message.endswith(
+        "'camera_frame' has no <inertial>: Gazebo drops that link; here it is kept"
+    )
+
 
 BROKEN = FIXTURES / "pain_06_lumping/broken/sensors.urdf"
 

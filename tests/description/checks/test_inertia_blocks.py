@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from gazelle.description.checks.inertia_blocks import inertial_block, sdf_block, urdf_block
+from gazelle.description.checks.inertia import inertial_block, sdf_block, urdf_block
 from gazelle.geometry import MassProperties, Pose, box_mass_properties, is_legal_inertia
 
 BODY = MassProperties(1.25, (0.1, -0.2, 1e-17), (3.0, 0.1, 0.2, 2.0, 0.3, 1.5))

@@ -27,7 +27,7 @@ from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
 from gazelle.control.parameter_sources.ros2_node_parameters import read_ros_arguments
 from gazelle.control.parameter_sources.ros2_parameter_file import read_parameter_file
-from gazelle.description.moveit.yaml_positions import read_yaml
+from gazelle.description.moveit.package_files import read_yaml
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.launch_ros1.launched_nodes import parameter_places

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.cli.inertia.bodies import BodyError, Dimensions, body_named, solid_of
-from gazelle.description.checks.inertia_blocks import sdf_block, urdf_block
+from gazelle.description.checks.inertia import sdf_block, urdf_block
 from gazelle.geometry import (
     MESH_SUFFIXES,
     MassError,

@@ -17,10 +17,10 @@ from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph
     relative_graph,
 )
 from gazelle.description.sdformat_emulation.gz_sdf.console import Code, SdfError, error_line
-from gazelle.description.sdformat_emulation.gz_sdf.describing import described_specification
 from gazelle.description.sdformat_emulation.gz_sdf.inertial_stats import inertial_stats
-from gazelle.description.sdformat_emulation.gz_sdf.rewriting import (
+from gazelle.description.sdformat_emulation.gz_sdf.printer import (
     Snap,
+    described_specification,
     with_angles_in_degrees,
     with_includes,
 )

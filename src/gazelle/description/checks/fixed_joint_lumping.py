@@ -1,10 +1,13 @@
-"""What Gazebo loses of a URDF when it lumps links behind fixed joints; here nothing is lost."""
+"""What Gazebo loses of a URDF when it lumps links behind fixed joints; here nothing is lost.
+
+Links without mass that ``preserveFixedJoint`` keeps apart are dropped there, too.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gazelle.description.model import Link, Model, PluginTag
+from gazelle.description.model import Joint, JointType, Link, Model, PluginTag
 from gazelle.description.urdf_reader.fixed_joint_lumping import (
     collision_names,
     lumped_joints,
@@ -13,10 +16,35 @@ from gazelle.description.urdf_reader.fixed_joint_lumping import (
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
-__all__ = ["check_lumping"]
+__all__ = ["check_lumping", "check_preserved"]
 
 # sdformat puts the remaining link's name into these two, in plug-ins that stand below <gazebo>.
 _REPLACED = frozenset({"bodyName", "frameName"})
+
+
+def check_preserved(model: Model, diagnostics: Diagnostics) -> None:
+    """Report links without mass that ``preserveFixedJoint`` keeps apart from those with mass."""
+    if model.source_format != "urdf":
+        return
+    heads = lumped_links(model)
+    has_mass = {
+        heads.get(link.name, link.name)
+        for link in model.links
+        if link.inertial is not None and not link.inertial.estimated
+    }
+    for joint in model.joints:
+        if joint.type is not JointType.FIXED or not joint.disable_fixed_joint_lumping:
+            continue
+        parent, child = (heads.get(name, name) for name in (joint.parent, joint.child))
+        is_root = all(other.child != parent for other in model.joints) and parent != "world"
+        if is_root and parent not in has_mass and child in has_mass:
+            _report_massless(
+                joint, parent, ", and with it the whole robot: nothing appears", diagnostics
+            )
+        elif child not in has_mass:
+            below = [other.child for other in model.joints if other.parent == child]
+            lost = f" with all that hangs on it, such as '{below[0]}'" if below else ""
+            _report_massless(joint, child, lost, diagnostics)
 
 
 def check_lumping(model: Model, diagnostics: Diagnostics, *, root: Tag | None = None) -> None:
@@ -35,6 +63,18 @@ def check_lumping(model: Model, diagnostics: Diagnostics, *, root: Tag | None = 
     _check_gravity(model, heads, diagnostics)
     if root is not None:
         _check_watched_collisions(root, model, heads, diagnostics)
+
+
+def _report_massless(joint: Joint, massless: str, lost: str, diagnostics: Diagnostics) -> None:
+    text = (
+        f"the fixed joint '{joint.name}' is preserved, but '{massless}' has no <inertial>: Gazebo "
+        f"drops that link{lost}; here it is kept"
+    )
+    fix = (
+        f"remove <preserveFixedJoint> (<disableFixedJointLumping>) from '{joint.name}', or give "
+        f"'{massless}' an <inertial> with a small mass, such as 0.01 kg and 1e-6 kg·m²"
+    )
+    diagnostics.report("robot.preserved-massless", text, joint.span, fix=fix)
 
 
 def _check_plugins(model: Model, heads: dict[str, str], diagnostics: Diagnostics) -> None:

@@ -1,4 +1,7 @@
-"""Judges the mass properties of links: can a body have them, and do they fit its shapes?"""
+"""Mass and inertia of links: can a body have them, and do they fit its shapes?
+
+What is wrong comes with a block of URDF or SDF, ready to be pasted.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,6 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from gazelle.description.checks.inertia_blocks import inertial_block
 from gazelle.description.checks.inertia_units import (
     DENSITY_RANGE_KG_M3,
     Fit,
@@ -25,13 +27,15 @@ __all__ = [
     "InertiaFinding",
     "check_inertia",
     "check_mass_ratios",
+    "inertial_block",
     "repaired",
+    "sdf_block",
+    "urdf_block",
 ]
 
+_WORDS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 WATER_KG_M3 = 1000.0
-
 _DUMMY_KG = 1e-3
-
 SUPERSEDED_CODES = frozenset(
     {
         "sdf.bad-inertia",
@@ -42,7 +46,6 @@ SUPERSEDED_CODES = frozenset(
     }
 )
 """What the readers say of the same mistakes; a report shows one of the two."""
-
 _MAX_MASS_RATIO = 1000.0
 
 
@@ -60,6 +63,40 @@ class InertiaFinding(NamedTuple):
     record: LinkRecord
     body: MassProperties | None = None
     is_placeholder: bool = False
+
+
+def urdf_block(body: MassProperties) -> str:
+    """Return URDF's ``<inertial>``; the tensor's axes are those of the link."""
+    moments = " ".join(
+        f'{word}="{_shown(value)}"' for word, value in zip(_WORDS, body.inertia_kg_m2, strict=True)
+    )
+    return (
+        "<inertial>\n"
+        f'  <origin xyz="{_point(body)}" rpy="0 0 0"/>\n'
+        f'  <mass value="{_shown(body.mass_kg)}"/>\n'
+        f"  <inertia {moments}/>\n"
+        "</inertial>"
+    )
+
+
+def sdf_block(body: MassProperties) -> str:
+    """Return SDF's ``<inertial>``; the tensor's axes are those of the link."""
+    moments = "\n".join(
+        f"    <{word}>{_shown(value)}</{word}>"
+        for word, value in zip(_WORDS, body.inertia_kg_m2, strict=True)
+    )
+    return (
+        "<inertial>\n"
+        f"  <pose>{_point(body)} 0 0 0</pose>\n"
+        f"  <mass>{_shown(body.mass_kg)}</mass>\n"
+        f"  <inertia>\n{moments}\n  </inertia>\n"
+        "</inertial>"
+    )
+
+
+def inertial_block(body: MassProperties, source_format: str) -> str:
+    """Return the block of ``urdf`` or ``sdf``."""
+    return urdf_block(body) if source_format == "urdf" else sdf_block(body)
 
 
 def check_inertia(
@@ -112,6 +149,15 @@ def repaired(record: LinkRecord, density_kg_m3: float | None = None) -> MassProp
         return None
     body = written.body
     return MassProperties(mass, body.center_m, legalised_inertia(body.inertia_kg_m2))
+
+
+def _point(body: MassProperties) -> str:
+    return " ".join(_shown(value) for value in body.center_m)
+
+
+def _shown(value: float) -> str:
+    """Nine digits: with fewer, a thin plate's tensor can break the triangle inequality."""
+    return f"{value:.9g}" if abs(value) > 1e-15 else "0"
 
 
 def _judged(record: LinkRecord, density: float | None) -> Iterator[InertiaFinding]:

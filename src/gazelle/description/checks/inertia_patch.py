@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 from xml.parsers import expat
 
-from gazelle.description.checks.inertia import InertiaFinding
-from gazelle.description.checks.inertia_blocks import inertial_block
+from gazelle.description.checks.inertia import InertiaFinding, inertial_block
 from gazelle.description.checks.written_inertials import LinkRecord
 from gazelle.diagnostics import SourceSpan
 from gazelle.geometry import MassProperties

@@ -24,10 +24,8 @@ __all__ = [
 
 DENSITY_RANGE_KG_M3 = (20.0, 20_000.0)
 """From foam to gold."""
-
 # Of the equivalent box to the bounding box: all mass at the ends of an edge.
 _MAX_RATIO = math.sqrt(3.0)
-
 _MIN_RATIO = 0.2
 _SLACK_M = 0.002
 _USUAL_DENSITY = 1000.0
@@ -85,11 +83,6 @@ def box_fit(body: MassProperties, points_m: NDArray[np.float64]) -> Fit:
     return Fit(edges, bounds, _exceeds(edges, bounds), small, turned)
 
 
-def _exceeds(edges: Iterable[float], bounds: Iterable[float]) -> bool:
-    pairs = zip(edges, bounds, strict=True)
-    return any(edge > _MAX_RATIO * bound * 1.02 + _SLACK_M for edge, bound in pairs)
-
-
 def is_inside(point_m: Iterable[float], points_m: NDArray[np.float64]) -> bool:
     """Return whether a point lies in the bounding box of points (n, 3), with a little slack."""
     low, high = points_m.min(axis=0), points_m.max(axis=0)
@@ -123,6 +116,11 @@ def guess_units(record: LinkRecord) -> UnitGuess | None:
         reasons.append("its centre of mass is in millimetres: a factor of 0.001")
         body = MassProperties(body.mass_kg, (small[0], small[1], small[2]), body.inertia_kg_m2)
     return UnitGuess(tuple(reasons), body) if reasons else None
+
+
+def _exceeds(edges: Iterable[float], bounds: Iterable[float]) -> bool:
+    pairs = zip(edges, bounds, strict=True)
+    return any(edge > _MAX_RATIO * bound * 1.02 + _SLACK_M for edge, bound in pairs)
 
 
 def _mesh_guess(record: LinkRecord, mass_kg: float) -> tuple[str, float] | None:

@@ -1,17 +1,41 @@
-"""Joints that cannot do what their numbers promise."""
+"""What a robot's tree of links and joints promises and cannot keep.
+
+KDL leaves out the mass of a root link; a joint may start outside its limits, or its own damping
+and friction may hold it.
+"""
 
 from __future__ import annotations
 
 import math
 
-from gazelle.description.model import Joint, JointAxis, JointType, Model
+from gazelle.description.model import Joint, JointAxis, JointType, Link, Model
 from gazelle.diagnostics import Diagnostics
 
-__all__ = ["check_joints"]
+__all__ = ["check_joints", "check_root"]
 
 _TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 # The PR2's joints need up to three times their effort for their top speed.
 _MAX_SHARE = 5.0
+
+
+def check_root(model: Model, diagnostics: Diagnostics) -> None:
+    """Report a root link with mass, which KDL leaves out."""
+    root = _root(model)
+    if model.source_format != "urdf" or root is None or root.name == "world":
+        return
+    if root.inertial is None or root.inertial.estimated or len(model.links) == 1:
+        return
+    text = (
+        f"the root link '{root.name}' has an inertia. KDL keeps none for a root: "
+        "robot_state_publisher warns, and dynamics computed with KDL lack its mass"
+    )
+    fix = (
+        '<link name="base_footprint"/>\n'
+        '<joint name="base_footprint_joint" type="fixed">\n'
+        f'  <parent link="base_footprint"/>\n  <child link="{root.name}"/>\n</joint>'
+    )
+    place = root.inertial.span or root.span
+    diagnostics.report("robot.root-inertia", text, place, fix=f"add an empty root:\n{fix}")
 
 
 def check_joints(model: Model, diagnostics: Diagnostics) -> None:
@@ -22,6 +46,11 @@ def check_joints(model: Model, diagnostics: Diagnostics) -> None:
             continue
         _check_start(joint, axis, diagnostics)
         _check_resistance(joint, axis, diagnostics)
+
+
+def _root(model: Model) -> Link | None:
+    children = {joint.child for joint in model.joints}
+    return next((link for link in model.links if link.name not in children), None)
 
 
 def _check_start(joint: Joint, axis: JointAxis, diagnostics: Diagnostics) -> None:

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.checks.fixed_joint_groups import fixed_heads
 from gazelle.description.checks.shape_volumes import Outline, Outlines
+from gazelle.description.forward_kinematics import fixed_heads
 from gazelle.description.model import Link, Model, Shape, Solid
 from gazelle.diagnostics import Diagnostics
 

@@ -88,6 +88,12 @@ def read_checked_source(
     return CheckedSource(_models(root, context), links_below(root), {str(path)})
 
 
+def links_below(root: Tag) -> dict[tuple[str, SourceSpan], Tag]:
+    """Return all ``<link>`` elements by name and place."""
+    links = (tag for tag in root.walk() if tag.name == "link")
+    return {(tag.attributes.get("name", "").strip(), tag.span): tag for tag in links}
+
+
 def _models(root: Tag, context: ReadContext) -> tuple[Model, ...]:
     if root.name == "robot":
         model = read_urdf(root, context=context)
@@ -109,9 +115,3 @@ def _is_pattern(tag: Tag) -> bool:
     """Tell whether xacro makes something else of an element, an ``<inertial>`` of a macro say."""
     values = (value for inner in tag.walk() for value in inner.attributes.values())
     return _has_xacro(tag) or any("${" in value or "$(" in value for value in values)
-
-
-def links_below(root: Tag) -> dict[tuple[str, SourceSpan], Tag]:
-    """Return all ``<link>`` elements by name and place."""
-    links = (tag for tag in root.walk() if tag.name == "link")
-    return {(tag.attributes.get("name", "").strip(), tag.span): tag for tag in links}

@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.checks.fixed_joint_groups import fixed_groups
 from gazelle.description.checks.shape_volumes import Outline, Outlines
 from gazelle.description.checks.wheels import Wheel, wheels_of
+from gazelle.description.forward_kinematics import fixed_groups
 from gazelle.description.model import JointType, Link, Model
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError

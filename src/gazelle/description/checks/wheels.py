@@ -10,20 +10,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.checks.fixed_joint_groups import fixed_groups
+from gazelle.description.forward_kinematics import fixed_groups
 from gazelle.description.model import Box, Cylinder, Joint, JointType, Link, Model, PluginTag
 from gazelle.diagnostics import Diagnostics, Severity
 
 __all__ = ["Wheel", "axis_in_model", "check_wheel_shapes", "check_wheels", "wheels_of"]
 
-
 _NAME = re.compile(r"wheel|tire|tyre", re.IGNORECASE)
-
 _CASTER = re.compile(r"cast[eo]r|swivel|support", re.IGNORECASE)
-
 _DRIVE = re.compile(r"drive|steer|skid|tricycle", re.IGNORECASE)
-
 _HORIZONTAL = 0.5
+_MAX_TILT_DEG = 10.0
+_LEFT = re.compile(r"left|(?<![a-z])l(?![a-z])", re.IGNORECASE)
+_OFF_AXLE_M = 0.002
 
 
 class Wheel(NamedTuple):
@@ -68,6 +67,36 @@ def axis_in_model(joint: Joint) -> NDArray[np.float64]:
     return axis / max(float(np.linalg.norm(axis)), 1e-12)
 
 
+def check_wheel_shapes(model: Model, diagnostics: Diagnostics) -> None:
+    """Report wheels whose collisions are boxes."""
+    for wheel in wheels_of(model):
+        shapes = [item.shape for item in wheel.link.collisions]
+        boxes = [shape for shape in shapes if isinstance(shape, Box)]
+        if not boxes or len(boxes) < len(shapes):
+            continue
+        across = sorted(boxes[0].size_m)[1:]
+        text = (
+            f"the collision of wheel '{wheel.link.name}' is a box: the robot stands on its sides "
+            "and bumps over its edges instead of rolling"
+        )
+        sizes = f'radius="{max(across) / 2:.4g}" length="{min(boxes[0].size_m):.4g}"'
+        place = wheel.link.collisions[0].span or wheel.link.span
+        diagnostics.report("robot.wheel-box", text, place, fix=f"use <cylinder {sizes}/>")
+
+
+def check_wheels(model: Model, diagnostics: Diagnostics) -> None:
+    """Report wheels that cannot roll, and pairs that turn against each other."""
+    wheels, groups = wheels_of(model), fixed_groups(model)
+    links = {link.name: link for link in model.links}
+    _check_upright_axes(model, links, diagnostics)
+    for wheel in wheels:
+        carried = [links[name] for name in groups[wheel.link.name]]
+        _check_touching(wheel, carried, diagnostics)
+        _check_shape(wheel.joint, wheel.link, diagnostics)
+    for left, right in _pairs(wheels):
+        _check_pair(left, right, model, diagnostics)
+
+
 def _turns_freely(joint: Joint) -> bool:
     if joint.type is JointType.CONTINUOUS:
         return True
@@ -89,43 +118,6 @@ def _driven(plugins: tuple[PluginTag, ...]) -> Iterator[str]:
             for tag in plugin.parameters.walk():
                 if "joint" in tag.name.lower():
                     yield tag.text.strip()
-
-
-def check_wheel_shapes(model: Model, diagnostics: Diagnostics) -> None:
-    """Report wheels whose collisions are boxes."""
-    for wheel in wheels_of(model):
-        shapes = [item.shape for item in wheel.link.collisions]
-        boxes = [shape for shape in shapes if isinstance(shape, Box)]
-        if not boxes or len(boxes) < len(shapes):
-            continue
-        across = sorted(boxes[0].size_m)[1:]
-        text = (
-            f"the collision of wheel '{wheel.link.name}' is a box: the robot stands on its sides "
-            "and bumps over its edges instead of rolling"
-        )
-        sizes = f'radius="{max(across) / 2:.4g}" length="{min(boxes[0].size_m):.4g}"'
-        place = wheel.link.collisions[0].span or wheel.link.span
-        diagnostics.report("robot.wheel-box", text, place, fix=f"use <cylinder {sizes}/>")
-
-
-_MAX_TILT_DEG = 10.0
-
-_LEFT = re.compile(r"left|(?<![a-z])l(?![a-z])", re.IGNORECASE)
-
-_OFF_AXLE_M = 0.002
-
-
-def check_wheels(model: Model, diagnostics: Diagnostics) -> None:
-    """Report wheels that cannot roll, and pairs that turn against each other."""
-    wheels, groups = wheels_of(model), fixed_groups(model)
-    links = {link.name: link for link in model.links}
-    _check_upright_axes(model, links, diagnostics)
-    for wheel in wheels:
-        carried = [links[name] for name in groups[wheel.link.name]]
-        _check_touching(wheel, carried, diagnostics)
-        _check_shape(wheel.joint, wheel.link, diagnostics)
-    for left, right in _pairs(wheels):
-        _check_pair(left, right, model, diagnostics)
 
 
 def _check_touching(wheel: Wheel, carried: Sequence[Link], diagnostics: Diagnostics) -> None:

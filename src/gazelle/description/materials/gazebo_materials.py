@@ -14,6 +14,45 @@ _DIM: Rgb = (0.1, 0.1, 0.1)
 _FAINT: Rgb = (0.01, 0.01, 0.01)
 _WHITE: Rgb = (1.0, 1.0, 1.0)
 _PREFIX = "Gazebo/"
+_ORANGE: Rgb = (1.0, 0.5088, 0.0468)
+_ZINC: Rgb = (0.9725, 0.9529, 0.2078)
+_RED_BRIGHT: Rgb = (0.87, 0.26, 0.07)
+_DARK_GREY: Rgb = (0.175, 0.175, 0.175)
+_ASPHALT: Rgb = (0.33, 0.33, 0.34)
+_PAVEMENT: Rgb = (0.62, 0.60, 0.57)
+
+
+def gazebo_material(name: str) -> Material | None:
+    """Return one of Gazebo's own materials, None when it has no such name.
+
+    Ambient, diffuse and specular colours are those of Gazebo's ``gazebo.material``. Materials
+    with a picture have the picture's mean colour instead (`picture_colour`), chosen by eye.
+
+    Args:
+        name: such as ``Gazebo/Red``; the case counts, as in Gazebo.
+    """
+    look = _LOOKS.get(name.removeprefix(_PREFIX)) if name.startswith(_PREFIX) else None
+    if look is None:
+        return None
+    mean = look.mean or _WHITE
+    return Material(
+        name=name,
+        ambient=_tinted(look.ambient, mean, look.alpha),
+        diffuse=_tinted(look.diffuse, mean, look.alpha),
+        specular=(*look.specular, 1.0),
+        emissive=(*look.emissive, 1.0),
+        shininess=look.shininess,
+        lighting=look.lighting,
+    )
+
+
+def picture_colour(name: str) -> Rgb | None:
+    """Return the mean colour of this material's picture in Gazebo, None when it has none.
+
+    It stands for the picture: other colours of the surface are multiplied with it.
+    """
+    look = _LOOKS.get(name.removeprefix(_PREFIX))
+    return look.mean if look is not None else None
 
 
 class _Look(NamedTuple):
@@ -57,13 +96,9 @@ def _street(mean: Rgb) -> _Look:
     return _Look(_DIM, (0.8, 0.8, 0.8), _FAINT, 2.0, mean=mean)
 
 
-_ORANGE: Rgb = (1.0, 0.5088, 0.0468)
-_ZINC: Rgb = (0.9725, 0.9529, 0.2078)
-_RED_BRIGHT: Rgb = (0.87, 0.26, 0.07)
-_DARK_GREY: Rgb = (0.175, 0.175, 0.175)
+def _tinted(colour: Rgb, mean: Rgb, alpha: float) -> Rgba:
+    return (colour[0] * mean[0], colour[1] * mean[1], colour[2] * mean[2], alpha)
 
-_ASPHALT: Rgb = (0.33, 0.33, 0.34)
-_PAVEMENT: Rgb = (0.62, 0.60, 0.57)
 
 _LOOKS: dict[str, _Look] = {
     "Grey": _Look((0.3, 0.3, 0.3), (0.7, 0.7, 0.7), _FAINT, 1.5),
@@ -145,40 +180,3 @@ _LOOKS: dict[str, _Look] = {
     "Steps": _street(_PAVEMENT),
 }
 GAZEBO_MATERIAL_NAMES = tuple(sorted(_PREFIX + name for name in _LOOKS))
-
-
-def gazebo_material(name: str) -> Material | None:
-    """Return one of Gazebo's own materials, None when it has no such name.
-
-    Ambient, diffuse and specular colours are those of Gazebo's ``gazebo.material``. Materials
-    with a picture have the picture's mean colour instead (`picture_colour`), chosen by eye.
-
-    Args:
-        name: such as ``Gazebo/Red``; the case counts, as in Gazebo.
-    """
-    look = _LOOKS.get(name.removeprefix(_PREFIX)) if name.startswith(_PREFIX) else None
-    if look is None:
-        return None
-    mean = look.mean or _WHITE
-    return Material(
-        name=name,
-        ambient=_tinted(look.ambient, mean, look.alpha),
-        diffuse=_tinted(look.diffuse, mean, look.alpha),
-        specular=(*look.specular, 1.0),
-        emissive=(*look.emissive, 1.0),
-        shininess=look.shininess,
-        lighting=look.lighting,
-    )
-
-
-def picture_colour(name: str) -> Rgb | None:
-    """Return the mean colour of this material's picture in Gazebo, None when it has none.
-
-    It stands for the picture: other colours of the surface are multiplied with it.
-    """
-    look = _LOOKS.get(name.removeprefix(_PREFIX))
-    return look.mean if look is not None else None
-
-
-def _tinted(colour: Rgb, mean: Rgb, alpha: float) -> Rgba:
-    return (colour[0] * mean[0], colour[1] * mean[1], colour[2] * mean[2], alpha)

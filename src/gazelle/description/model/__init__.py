@@ -50,16 +50,17 @@ from gazelle.description.model.shape import (
     Cylinder,
     Ellipsoid,
     Heightmap,
+    Length,
     Material,
     MeshShape,
     Plane,
     Polyline,
     Rgba,
     Shape,
+    Solid,
     Sphere,
     thickened,
 )
-from gazelle.description.model.solid import Length, Solid
 from gazelle.description.model.world import (
     Frame,
     Model,

@@ -1,4 +1,4 @@
-"""Plug-ins and other pass-through elements that higher layers interpret."""
+"""Plug-ins and other elements that higher layers interpret; reading ``<plugin>``."""
 
 from __future__ import annotations
 
@@ -7,7 +7,15 @@ from dataclasses import dataclass, field
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["ActuatorTag", "PluginTag", "Ros2ControlTag", "TransmissionJoint", "TransmissionTag"]
+__all__ = [
+    "ActuatorTag",
+    "PluginTag",
+    "Ros2ControlTag",
+    "TransmissionJoint",
+    "TransmissionTag",
+    "read_plugin",
+    "read_plugins",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,3 +84,24 @@ class Ros2ControlTag:
     def span(self) -> SourceSpan:
         """Place of the ``<ros2_control>`` tag."""
         return self.element.span
+
+
+def read_plugin(tag: Tag, *, reference: str = "") -> PluginTag:
+    """Return a plug-in's tag; what its parameters mean is for the plug-in.
+
+    Args:
+        tag: the ``<plugin>`` element.
+        reference: link or joint of an enclosing ``<gazebo reference>``, or the scope of a
+            nested model such as ``arm`` or ``arm::gripper``.
+    """
+    return PluginTag(
+        name=tag.attributes.get("name", ""),
+        filename=tag.attributes.get("filename", ""),
+        parameters=tag,
+        reference=reference,
+    )
+
+
+def read_plugins(tag: Tag, *, reference: str = "") -> tuple[PluginTag, ...]:
+    """Return the plug-ins among a tag's children, in document order."""
+    return tuple(read_plugin(child, reference=reference) for child in tag.find_all("plugin"))

@@ -1,14 +1,17 @@
-"""Shapes and materials, as collisions and visuals use them."""
+"""Shapes and materials, as collisions and visuals use them.
+
+What a solid that is given by lengths alone says of itself is said once, at its class.
+"""
 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar, NamedTuple
 
-from gazelle.description.model.solid import Solid
 from gazelle.diagnostics import SourceSpan
 from gazelle.geometry.mass_properties import MassProperties
 from gazelle.geometry.mesh import MeshPart
@@ -37,26 +40,63 @@ __all__ = [
     "Cylinder",
     "Ellipsoid",
     "Heightmap",
+    "Length",
     "Material",
     "MeshShape",
     "Plane",
     "Polyline",
     "Rgba",
     "Shape",
+    "Solid",
     "Sphere",
     "thickened",
 ]
 
-Rgba = tuple[float, float, float, float]
 Vector3 = tuple[float, float, float]
+Rgba = tuple[float, float, float, float]
 # Gazebo takes lengths up to the first one for 0, and the second one in their place.
 _NOTHING_M = 1e-6
 _THIN_M = 1e-4
 
 
-def thickened(lengths_m: Iterable[float]) -> tuple[float, ...]:
-    """Return lengths of a shape with those of 0 as thin as Gazebo makes them; others as given."""
-    return tuple(_THIN_M if abs(one) <= _NOTHING_M else one for one in lengths_m)
+class Solid(ABC):
+    """A solid; classes of solids are frozen dataclasses whose fields are lengths.
+
+    A length is a number or three of them; its field ends in ``_m``, and without that ending it is
+    the child's name in SDF.
+
+    Attributes:
+        word: of SDF's ``<geometry>``.
+        usual: SDF's defaults of the fields, in their order.
+        in_urdf: whether it is a word of URDF too; elsewhere it is written as a mesh there.
+        is_convex: whether it is the hull of its surface.
+    """
+
+    __slots__ = ()
+
+    word: ClassVar[str]
+    usual: ClassVar[tuple[float | Vector3, ...]]
+    in_urdf: ClassVar[bool] = False
+    is_convex: ClassVar[bool] = True
+
+    @classmethod
+    def lengths(cls) -> tuple[Length, ...]:
+        """Return the lengths in the order of the fields."""
+        names = (field.name for field in fields(cls))  # type: ignore[arg-type]
+        return tuple(Length(*row) for row in zip(names, cls.usual, strict=True))
+
+    @classmethod
+    def of_lengths(cls, lengths_m: tuple[Any, ...]) -> Solid:
+        """Return the solid of these values of its fields."""
+        return cls(*lengths_m)
+
+    @abstractmethod
+    def body(self, density_kg_m3: float) -> MassProperties:
+        """Return it filled evenly, in its own frame."""
+
+    @abstractmethod
+    def mesh(self) -> MeshPart:
+        """Return triangles of its surface, closed and facing outwards, for lengths above 0."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,47 +116,6 @@ class Box(Solid):
     def mesh(self) -> MeshPart:
         """Return its sides."""
         return box_mesh(self.size_m)
-
-
-@dataclass(frozen=True, slots=True)
-class Sphere(Solid):
-    """A sphere centred on its frame."""
-
-    word: ClassVar[str] = "sphere"
-    usual: ClassVar = (1.0,)
-    in_urdf: ClassVar[bool] = True
-
-    radius_m: float
-
-    def body(self, density_kg_m3: float) -> MassProperties:
-        """Return it filled evenly."""
-        r = self.radius_m
-        return sphere_mass_properties(density_kg_m3 * 4 / 3 * math.pi * r**3, r)
-
-    def mesh(self) -> MeshPart:
-        """Return its surface."""
-        return sphere_mesh(self.radius_m)
-
-
-@dataclass(frozen=True, slots=True)
-class Cylinder(Solid):
-    """A cylinder about z, centred on its frame."""
-
-    word: ClassVar[str] = "cylinder"
-    usual: ClassVar = (1.0, 1.0)
-    in_urdf: ClassVar[bool] = True
-
-    radius_m: float
-    length_m: float
-
-    def body(self, density_kg_m3: float) -> MassProperties:
-        """Return it filled evenly."""
-        r, length = self.radius_m, self.length_m
-        return cylinder_mass_properties(density_kg_m3 * math.pi * r**2 * length, r, length)
-
-    def mesh(self) -> MeshPart:
-        """Return its side and its ends."""
-        return cylinder_mesh(self.radius_m, self.length_m)
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +161,27 @@ class Cone(Solid):
 
 
 @dataclass(frozen=True, slots=True)
+class Cylinder(Solid):
+    """A cylinder about z, centred on its frame."""
+
+    word: ClassVar[str] = "cylinder"
+    usual: ClassVar = (1.0, 1.0)
+    in_urdf: ClassVar[bool] = True
+
+    radius_m: float
+    length_m: float
+
+    def body(self, density_kg_m3: float) -> MassProperties:
+        """Return it filled evenly."""
+        r, length = self.radius_m, self.length_m
+        return cylinder_mass_properties(density_kg_m3 * math.pi * r**2 * length, r, length)
+
+    def mesh(self) -> MeshPart:
+        """Return its side and its ends."""
+        return cylinder_mesh(self.radius_m, self.length_m)
+
+
+@dataclass(frozen=True, slots=True)
 class Ellipsoid(Solid):
     """An ellipsoid centred on its frame; semi-axes in metres."""
 
@@ -180,16 +200,39 @@ class Ellipsoid(Solid):
         return ellipsoid_mesh(self.radii_m)
 
 
+@dataclass(frozen=True, slots=True)
+class Sphere(Solid):
+    """A sphere centred on its frame."""
+
+    word: ClassVar[str] = "sphere"
+    usual: ClassVar = (1.0,)
+    in_urdf: ClassVar[bool] = True
+
+    radius_m: float
+
+    def body(self, density_kg_m3: float) -> MassProperties:
+        """Return it filled evenly."""
+        r = self.radius_m
+        return sphere_mass_properties(density_kg_m3 * 4 / 3 * math.pi * r**3, r)
+
+    def mesh(self) -> MeshPart:
+        """Return its surface."""
+        return sphere_mesh(self.radius_m)
+
+
 SOLIDS: tuple[type[Solid], ...] = (Box, Sphere, Cylinder, Capsule, Cone, Ellipsoid)
 """Every solid that descriptions can name; a new one is its class and its row here."""
 
 
 @dataclass(frozen=True, slots=True)
-class Plane:
-    """A plane through its frame's origin; infinite for contact, `size_m` for the eye."""
+class Heightmap:
+    """A greyscale image as terrain, `size_m` large in x, y and from black to white."""
 
-    normal: Vector3 = (0.0, 0.0, 1.0)
-    size_m: tuple[float, float] = (1.0, 1.0)
+    uri: str
+    path: Path | None
+    size_m: Vector3 = (1.0, 1.0, 1.0)
+    position_m: Vector3 = (0.0, 0.0, 0.0)
+    span: SourceSpan | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,14 +257,11 @@ class MeshShape:
 
 
 @dataclass(frozen=True, slots=True)
-class Heightmap:
-    """A greyscale image as terrain, `size_m` large in x, y and from black to white."""
+class Plane:
+    """A plane through its frame's origin; infinite for contact, `size_m` for the eye."""
 
-    uri: str
-    path: Path | None
-    size_m: Vector3 = (1.0, 1.0, 1.0)
-    position_m: Vector3 = (0.0, 0.0, 0.0)
-    span: SourceSpan | None = None
+    normal: Vector3 = (0.0, 0.0, 1.0)
+    size_m: tuple[float, float] = (1.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -233,6 +273,23 @@ class Polyline:
 
 
 Shape = Solid | Plane | MeshShape | Heightmap | Polyline
+
+
+class Length(NamedTuple):
+    """One of the lengths that make a solid.
+
+    Attributes:
+        field: of the class, in metres.
+        usual: what SDF takes where it is not written; one number, or three.
+    """
+
+    field: str
+    usual: float | Vector3
+
+    @property
+    def word(self) -> str:
+        """The child in SDF, and the attribute in URDF."""
+        return self.field.removesuffix("_m")
 
 
 @dataclass(frozen=True, slots=True)
@@ -260,3 +317,8 @@ class Material:
     texture: Path | None = None
     texture_scale: tuple[float, float] = (1.0, 1.0)
     lighting: bool = True
+
+
+def thickened(lengths_m: Iterable[float]) -> tuple[float, ...]:
+    """Return lengths of a shape with those of 0 as thin as Gazebo makes them; others as given."""
+    return tuple(_THIN_M if abs(one) <= _NOTHING_M else one for one in lengths_m)

@@ -1,23 +1,29 @@
-"""The files of a MoveIt config package, of ROS 1 and of ROS 2."""
+"""The files of a MoveIt config package, of ROS 1 and of ROS 2.
+
+Which there are, and YAML files as values with the place where each key stands.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.documents import read_text_limited
 from gazelle.documents.files import is_file, is_folder
+from gazelle.documents.yaml import YamlError, YamlNode, entries
+from gazelle.documents.yaml import read_yaml as read_document
 from gazelle.workspace import Workspace
 from gazelle.workspace.environment_paths import BUILTIN
 
-__all__ = ["DEFAULT_CONFIGS", "PackageFiles", "find_package_files"]
+__all__ = ["DEFAULT_CONFIGS", "PackageFiles", "find_package_files", "read_yaml"]
 
+_ARGUMENT = re.compile(r"\$\(arg\s+([^)\s]+)\s*\)")
 DEFAULT_CONFIGS = BUILTIN / "packages" / "moveit_configs_utils" / "default_configs"
 """Files that every package has unless it brings its own, by the names MoveIt gives them."""
-
 _SETUP = ".setup_assistant"
 _SRDF = (".srdf", ".srdf.xacro")
 _URDF = (".urdf.xacro", ".urdf", ".xacro")
@@ -48,6 +54,39 @@ class PackageFiles:
     controllers: Path | None = None
     sensors: Path | None = None
     pipelines: Mapping[str, Path] = field(default_factory=dict)
+
+
+def read_yaml(
+    file: Path, diagnostics: Diagnostics, arguments: Mapping[str, str] | None = None
+) -> tuple[dict[str, Any], dict[tuple[str, ...], SourceSpan]]:
+    """Return the mapping in a file and where its keys stand; both empty (reported) if unusable.
+
+    Args:
+        file: the file.
+        diagnostics: receives ``moveit.bad-yaml`` and what arguments are missing.
+        arguments: values of ROS 1's ``$(arg NAME)``, as ``rosparam subst_value`` puts them in.
+    """
+    try:
+        text = read_text_limited(file)
+    except (OSError, UnicodeDecodeError) as error:
+        message = f"'{file}' cannot be read: {error}"
+        diagnostics.report("moveit.bad-yaml", message, SourceSpan(str(file)))
+        return {}, {}
+    text = _substituted(text, file, arguments or {}, diagnostics)
+    document = read_document(text, str(file))
+    try:
+        value = document.value
+    except YamlError as error:
+        problem = error.problem
+        diagnostics.report("moveit.bad-yaml", f"not YAML: {problem.what}", problem.span)
+        return {}, {}
+    if document.root is None or value is None:
+        return {}, {}
+    if not isinstance(value, dict):
+        message = "the file holds no mapping of names to values"
+        diagnostics.report("moveit.bad-yaml", message, SourceSpan(str(file), 1, 1))
+        return {}, {}
+    return value, _places(document.root, diagnostics)
 
 
 def find_package_files(
@@ -82,6 +121,33 @@ def find_package_files(
         _existing(config / "sensors_3d.yaml"),
         _pipelines(config),
     )
+
+
+def _substituted(
+    text: str, file: Path, arguments: Mapping[str, str], diagnostics: Diagnostics
+) -> str:
+    def value(match: re.Match[str]) -> str:
+        name = match[1]
+        if name in arguments:
+            return arguments[name]
+        line = text.count("\n", 0, match.start()) + 1
+        column = match.start() - text.rfind("\n", 0, match.start())
+        message = f"$(arg {name}) has no value here; a launch file would give it one"
+        span = SourceSpan(str(file), line, column, len(match[0]))
+        diagnostics.report("moveit.no-argument", message, span)
+        return match[0]
+
+    return _ARGUMENT.sub(value, text)
+
+
+def _places(root: YamlNode, diagnostics: Diagnostics) -> dict[tuple[str, ...], SourceSpan]:
+    places: dict[tuple[str, ...], SourceSpan] = {}
+    for path, key, _, first in entries(root, lists=True):
+        if first is not None:
+            message = f"'{key.text}' is there twice; the last one counts"
+            diagnostics.report("moveit.double-key", message, key.span)
+        places[path] = key.span
+    return places
 
 
 def _existing(*files: Path) -> Path | None:

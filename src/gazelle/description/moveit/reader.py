@@ -15,9 +15,9 @@ from gazelle.description.moveit.package_files import (
     DEFAULT_CONFIGS,
     PackageFiles,
     find_package_files,
+    read_yaml,
 )
 from gazelle.description.moveit.parameter_reader import Settings
-from gazelle.description.moveit.yaml_positions import read_yaml
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan

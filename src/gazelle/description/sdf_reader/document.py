@@ -8,13 +8,11 @@ from pathlib import Path
 
 from gazelle.description.model import Light, Model, World
 from gazelle.description.read_context import ReadContext
-from gazelle.description.sdf_reader.checking import check_elements
+from gazelle.description.sdf_reader.known_elements import check_elements
 from gazelle.description.sdf_reader.lights import read_light
 from gazelle.description.sdf_reader.model_config import model_file_in
-from gazelle.description.sdf_reader.models import included_model, read_model
-from gazelle.description.sdf_reader.old_documents import upgraded
-from gazelle.description.sdf_reader.parts import ModelParts
-from gazelle.description.sdf_reader.versions import version_of
+from gazelle.description.sdf_reader.models import ModelParts, included_model, read_model
+from gazelle.description.sdf_reader.versions import upgraded, version_of
 from gazelle.description.sdf_reader.worlds import read_world, report_actor
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan

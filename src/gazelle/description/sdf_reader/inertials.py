@@ -32,8 +32,12 @@ from gazelle.geometry.mass_properties import (
 
 __all__ = ["computed_inertial", "read_inertial"]
 
-
 _WATER_KG_M3 = 1000.0
+Inertia6 = tuple[float, float, float, float, float, float]
+_WORDS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_DEFAULTS: Inertia6 = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+_TRUE = ("1", "true")
+_NOT_NUMBERS = frozenset({"inf", "+inf", "-inf", "nan", "-nan"})
 
 
 def computed_inertial(
@@ -72,6 +76,31 @@ def computed_inertial(
     return Inertial(
         whole.mass_kg, Pose(whole.center_m), whole.inertia_kg_m2, estimated=True, span=tag.span
     )
+
+
+def read_inertial(
+    link: Tag, collisions: Sequence[Collision], context: ReadContext, *, static: bool
+) -> Inertial:
+    """Return a link's mass properties; SDF's default is 1 kg with moments of 1 kg·m².
+
+    Args:
+        link: the ``<link>``.
+        collisions: its collisions, for ``auto="true"``.
+        context: where problems are reported.
+        static: the model never moves; impossible values do no harm then.
+    """
+    tag = link.find("inertial")
+    if tag is None:
+        return Inertial(1.0, span=link.span)
+    if tag.attributes.get("auto", "").strip().lower() in _TRUE:
+        return computed_inertial(link, tag, collisions, context)
+    inertial = Inertial(
+        mass_kg=child_float(tag, "mass", 1.0, context),
+        T_link_com=pose_of(tag, context),
+        inertia_kg_m2=_tensor(tag.find("inertia"), link, context),
+        span=tag.span,
+    )
+    return inertial if static else _checked(inertial, link, tag, context)
 
 
 def _density(tag: Tag, usual: float, context: ReadContext) -> float:
@@ -120,42 +149,6 @@ def _mesh_body(
         message = f"collision '{collision.name}' has no volume: {error}"
         context.diagnostics.report("sdf.auto-inertia", message, collision.span)
         return None
-
-
-Inertia6 = tuple[float, float, float, float, float, float]
-
-_WORDS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-
-_DEFAULTS: Inertia6 = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
-
-_TRUE = ("1", "true")
-
-_NOT_NUMBERS = frozenset({"inf", "+inf", "-inf", "nan", "-nan"})
-
-
-def read_inertial(
-    link: Tag, collisions: Sequence[Collision], context: ReadContext, *, static: bool
-) -> Inertial:
-    """Return a link's mass properties; SDF's default is 1 kg with moments of 1 kg·m².
-
-    Args:
-        link: the ``<link>``.
-        collisions: its collisions, for ``auto="true"``.
-        context: where problems are reported.
-        static: the model never moves; impossible values do no harm then.
-    """
-    tag = link.find("inertial")
-    if tag is None:
-        return Inertial(1.0, span=link.span)
-    if tag.attributes.get("auto", "").strip().lower() in _TRUE:
-        return computed_inertial(link, tag, collisions, context)
-    inertial = Inertial(
-        mass_kg=child_float(tag, "mass", 1.0, context),
-        T_link_com=pose_of(tag, context),
-        inertia_kg_m2=_tensor(tag.find("inertia"), link, context),
-        span=tag.span,
-    )
-    return inertial if static else _checked(inertial, link, tag, context)
 
 
 def _tensor(tag: Tag | None, link: Tag, context: ReadContext) -> Inertia6:

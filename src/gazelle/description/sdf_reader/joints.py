@@ -22,11 +22,8 @@ from gazelle.geometry import IDENTITY_POSE, Pose
 
 __all__ = ["JOINT_TYPES", "JointEnds", "joint_type_of", "read_joint"]
 
-
 Vector3 = tuple[float, float, float]
-
 _UNLIMITED = 1e16
-
 _TYPES = (
     JointType.REVOLUTE,
     JointType.CONTINUOUS,
@@ -38,18 +35,60 @@ _TYPES = (
     JointType.REVOLUTE2,
     JointType.GEARBOX,
 )
-
 JOINT_TYPES = {item.value: item for item in _TYPES}
-
 _WITHOUT_AXIS = (JointType.FIXED, JointType.BALL)
-
 _WITH_SECOND_AXIS = (JointType.UNIVERSAL, JointType.REVOLUTE2, JointType.GEARBOX)
-
 _X, _Y, _Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-
 # ODE gives its joints of two axes these where a file has none: the first is one of the parent's,
 # the second one of the child's. The others turn about z, as SDF says of an <axis> without <xyz>.
 _UNSAID_AXES = {JointType.UNIVERSAL: (_Y, _X), JointType.REVOLUTE2: (_X, _Y)}
+
+
+class JointEnds:
+    """Finds the links that joints of one scope connect."""
+
+    def __init__(self, resolver: PoseResolver, scope: str) -> None:
+        self._resolver = resolver
+        self._scope = scope
+
+    def joint(self, tag: Tag, point: FramePoint) -> Joint | None:
+        """Return a joint; None (reported) when its type or one of its ends is not usable."""
+        kind = joint_type_of(tag, self._resolver.context)
+        parent, child = self._end(tag, "parent"), self._end(tag, "child")
+        if kind is None or not parent or not child or self._is_loop(tag, parent, child):
+            return None
+        return read_joint(tag, kind, parent, child, point, self._resolver)
+
+    def _is_loop(self, tag: Tag, parent: str, child: str) -> bool:
+        if parent != child:
+            return False
+        name = tag.attributes.get("name", "")
+        message = f"joint '{name}' joins '{parent}' to itself; it is left out"
+        self._resolver.context.diagnostics.report("sdf.bad-joint", message, tag.span)
+        return True
+
+    def _end(self, tag: Tag, end: str) -> str:
+        """Return the link at one end, ``world`` for the world, empty when there is none."""
+        diagnostics, frames = self._resolver.context.diagnostics, self._resolver.frames
+        found, name = tag.find(end), tag.attributes.get("name", "")
+        wanted = found.text if found is not None else ""
+        if not wanted:
+            message = f"joint '{name}' names no <{end}>; it is left out"
+            diagnostics.report("xml.missing-tag", message, tag.span)
+            return ""
+        if wanted == WORLD_FRAME and end == "parent":
+            return WORLD_FRAME
+        link = frames.attached_link(wanted) if wanted in frames else ""
+        if not link or link == WORLD_FRAME:
+            message = (
+                f"{end} frame with name '{wanted}' specified by joint with name '{name}' not "
+                f"found in {self._scope}; the joint is left out"
+            )
+            place = found if found is not None else tag
+            fix = did_you_mean(wanted, frames.names)
+            diagnostics.report("sdf.bad-joint", message, place.span, fix=fix)
+            return ""
+        return link
 
 
 def joint_type_of(tag: Tag, context: ReadContext) -> JointType | None:
@@ -237,50 +276,3 @@ class _AxisReader:
         """Return a limit; SDF means none by a negative one."""
         value = self._limit(tag, name, math.inf)
         return value if value >= 0.0 else math.inf
-
-
-class JointEnds:
-    """Finds the links that joints of one scope connect."""
-
-    def __init__(self, resolver: PoseResolver, scope: str) -> None:
-        self._resolver = resolver
-        self._scope = scope
-
-    def joint(self, tag: Tag, point: FramePoint) -> Joint | None:
-        """Return a joint; None (reported) when its type or one of its ends is not usable."""
-        kind = joint_type_of(tag, self._resolver.context)
-        parent, child = self._end(tag, "parent"), self._end(tag, "child")
-        if kind is None or not parent or not child or self._is_loop(tag, parent, child):
-            return None
-        return read_joint(tag, kind, parent, child, point, self._resolver)
-
-    def _is_loop(self, tag: Tag, parent: str, child: str) -> bool:
-        if parent != child:
-            return False
-        name = tag.attributes.get("name", "")
-        message = f"joint '{name}' joins '{parent}' to itself; it is left out"
-        self._resolver.context.diagnostics.report("sdf.bad-joint", message, tag.span)
-        return True
-
-    def _end(self, tag: Tag, end: str) -> str:
-        """Return the link at one end, ``world`` for the world, empty when there is none."""
-        diagnostics, frames = self._resolver.context.diagnostics, self._resolver.frames
-        found, name = tag.find(end), tag.attributes.get("name", "")
-        wanted = found.text if found is not None else ""
-        if not wanted:
-            message = f"joint '{name}' names no <{end}>; it is left out"
-            diagnostics.report("xml.missing-tag", message, tag.span)
-            return ""
-        if wanted == WORLD_FRAME and end == "parent":
-            return WORLD_FRAME
-        link = frames.attached_link(wanted) if wanted in frames else ""
-        if not link or link == WORLD_FRAME:
-            message = (
-                f"{end} frame with name '{wanted}' specified by joint with name '{name}' not "
-                f"found in {self._scope}; the joint is left out"
-            )
-            place = found if found is not None else tag
-            fix = did_you_mean(wanted, frames.names)
-            diagnostics.report("sdf.bad-joint", message, place.span, fix=fix)
-            return ""
-        return link

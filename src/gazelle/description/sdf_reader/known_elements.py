@@ -1,21 +1,22 @@
 """Which elements and attributes SDF 1.4 to 1.12 know, per parent, as data.
 
-A row is ``kind: (attributes, children)``. A child is a word: ``name`` is of the kind of its own
-name if there is such a row, else a plain value; ``name=kind`` is of another kind; ``name!`` is
-legal and has no effect in Gazelle. A row of one ``*`` is free: its content is for somebody else.
+Unknown ones in a document are reported, and known ones without effect.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from gazelle.description.model import SOLIDS
+from gazelle.description.read_context import ReadContext
+from gazelle.description.xml import Tag
+from gazelle.diagnostics import did_you_mean
 
-__all__ = ["ELEMENTS", "SENSOR_ROWS", "WORLD_ROWS", "Element"]
-
+__all__ = ["ELEMENTS", "SENSOR_ROWS", "WORLD_ROWS", "Element", "check_elements", "report_plugin_of"]
 
 _XYZ = "x=axis_noise y=axis_noise z=axis_noise"
-
 SENSOR_ROWS: dict[str, tuple[str, str]] = {
     "sensor": (
         "name type",
@@ -73,7 +74,6 @@ SENSOR_ROWS: dict[str, tuple[str, str]] = {
     "sonar": ("", "geometry=value min max radius"),
     "logical_camera": ("", "near far horizontal_fov aspect_ratio"),
 }
-
 WORLD_ROWS: dict[str, tuple[str, str]] = {
     "sdf": ("version", "world model light actor include"),
     "world": (
@@ -124,32 +124,7 @@ WORLD_ROWS: dict[str, tuple[str, str]] = {
     # Read for poses; what else a saved state holds is told of where it is applied.
     "state": ("*", ""),
 }
-
 _Rows = dict[str, tuple[str, str]]
-
-
-@dataclass(frozen=True, slots=True)
-class Element:
-    """What one kind of element may hold.
-
-    Attributes:
-        attributes: names of its attributes.
-        children: kind of every child by name.
-        without_effect: names of children that are legal and do nothing here.
-        free: anything may stand in it.
-    """
-
-    attributes: frozenset[str] = frozenset()
-    children: dict[str, str] = field(default_factory=dict)
-    without_effect: frozenset[str] = frozenset()
-    free: bool = False
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Every child name that is legal."""
-        return (*self.children, *self.without_effect)
-
-
 _MODEL_ROWS: _Rows = {
     "model": (
         "name canonical_link placement_frame",
@@ -256,6 +231,61 @@ _MODEL_ROWS: _Rows = {
     "attenuation": ("", "range constant linear quadratic"),
     "spot": ("", "inner_angle outer_angle falloff"),
 }
+_ANY_ATTRIBUTE_PREFIXES = ("xmlns", "xsi:")
+# Where people write plug-ins that are not loaded, why not, and what to do.
+# What sdformat writes for a plug-in that has no file; Gazebo passes over it.
+_NO_PLUGIN = "__default__"
+_PLUGIN_PLACES = {
+    "link": (
+        "no Gazebo loads plug-ins of links",
+        "move the <plugin> into the <model>, or into a <sensor> when it reads one",
+    ),
+    "visual": ("it would change what Gazebo's window shows", "nothing to do"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """What one kind of element may hold.
+
+    Attributes:
+        attributes: names of its attributes.
+        children: kind of every child by name.
+        without_effect: names of children that are legal and do nothing here.
+        free: anything may stand in it.
+    """
+
+    attributes: frozenset[str] = frozenset()
+    children: dict[str, str] = field(default_factory=dict)
+    without_effect: frozenset[str] = frozenset()
+    free: bool = False
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Every child name that is legal."""
+        return (*self.children, *self.without_effect)
+
+
+def check_elements(root: Tag, context: ReadContext) -> None:
+    """Report what SDF does not know below `root`, each name and place once.
+
+    Args:
+        root: an element that the table knows, such as ``<sdf>``, ``<model>`` or ``<sensor>``.
+        context: receives ``xml.unknown-tag``, ``xml.unknown-attribute``, ``sdf.not-simulated``,
+            ``sdf.plugin-not-loaded`` and ``sdf.extension``.
+    """
+    checker = _Checker()
+    if root.name in ELEMENTS:
+        checker.visit(root, root.name)
+    checker.report(context)
+
+
+def report_plugin_of(plugin: Tag, kind: str, context: ReadContext, again: str = "") -> None:
+    """Report a plug-in of a link or visual, which no Gazebo loads or nobody here would see."""
+    why, fix = _PLUGIN_PLACES[kind]
+    name = plugin.attributes.get("filename", "")
+    message = f"plug-in '{name}' in <{kind}> is not loaded: {why}{again}"
+    context.diagnostics.report("sdf.plugin-not-loaded", message, plugin.span, fix=fix)
 
 
 def _element(attributes: str, children: str, rows: _Rows) -> Element:
@@ -275,6 +305,86 @@ def _element(attributes: str, children: str, rows: _Rows) -> Element:
 def _elements(rows: _Rows) -> dict[str, Element]:
     found = {kind: _element(*row, rows) for kind, row in rows.items()}
     return {"": Element(), **found}
+
+
+class _Key(NamedTuple):
+    """What is wrong, with which kind of parent, and the name that is not known."""
+
+    what: str
+    kind: str
+    parent: str
+    name: str
+
+
+class _Checker:
+    """Collects by kind, parent and name, so that a hundred equal mistakes give one message."""
+
+    def __init__(self) -> None:
+        self._first: dict[_Key, Tag] = {}
+        self._count: Counter[_Key] = Counter()
+
+    def visit(self, tag: Tag, kind: str) -> None:
+        """Look at an element of this kind and at everything below it."""
+        element = ELEMENTS[kind]
+        if element.free:
+            return
+        for name in tag.attributes:
+            if name not in element.attributes and not name.startswith(_ANY_ATTRIBUTE_PREFIXES):
+                what = "extension" if ":" in name else "unknown-attribute"
+                self._note(_Key(what, kind, tag.name, name), tag)
+        for child in tag.children:
+            self._child(tag, kind, child)
+
+    def _child(self, tag: Tag, kind: str, child: Tag) -> None:
+        element = ELEMENTS[kind]
+        if child.name in element.children:
+            self.visit(child, element.children[child.name])
+        elif child.name == "plugin" and _says_nothing(child, kind):
+            return
+        elif child.name == "plugin" and kind in _PLUGIN_PLACES:
+            self._note(_Key("plugin", kind, tag.name, child.attributes.get("filename", "")), child)
+        elif child.name in element.without_effect:
+            self._note(_Key("not-simulated", kind, tag.name, child.name), child)
+        else:
+            what = "extension" if ":" in child.name else "unknown-tag"
+            self._note(_Key(what, kind, tag.name, child.name), child)
+
+    def _note(self, key: _Key, place: Tag) -> None:
+        self._first.setdefault(key, place)
+        self._count[key] += 1
+
+    def report(self, context: ReadContext) -> None:
+        """Report each finding at its first place, with the number of the others."""
+        for key, place in self._first.items():
+            _report(key, self._count[key] - 1, place, context)
+
+
+def _says_nothing(plugin: Tag, kind: str) -> bool:
+    """Tell whether a plug-in is not to be loaded, or only has the camera that is read."""
+    if plugin.attributes.get("filename") == _NO_PLUGIN:
+        return True
+    return kind == "gui" and plugin.find("camera_pose") is not None
+
+
+def _report(key: _Key, more: int, place: Tag, context: ReadContext) -> None:
+    name, parent, element = key.name, key.parent, ELEMENTS[key.kind]
+    again = f" (and {more} more in this file)" if more else ""
+    if key.what == "unknown-tag":
+        message = f"<{name}> is not known inside <{parent}>; it has no effect{again}"
+        fix = did_you_mean(name, element.names)
+        context.diagnostics.report("xml.unknown-tag", message, place.span, fix=fix)
+    elif key.what == "unknown-attribute":
+        message = f"attribute '{name}' is not known on <{parent}>; it has no effect{again}"
+        fix = did_you_mean(name, element.attributes)
+        context.diagnostics.report("xml.unknown-attribute", message, place.span, fix=fix)
+    elif key.what == "extension":
+        message = f"'{name}' in <{parent}> belongs to a private extension; it has no effect{again}"
+        context.diagnostics.report("sdf.extension", message, place.span)
+    elif key.what == "plugin":
+        report_plugin_of(place, key.kind, context, again)
+    else:
+        message = f"<{name}> in <{parent}> is legal and not simulated{again}"
+        context.diagnostics.report("sdf.not-simulated", message, place.span)
 
 
 ELEMENTS = _elements({**_MODEL_ROWS, **SENSOR_ROWS, **WORLD_ROWS})

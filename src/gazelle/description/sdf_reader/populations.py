@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.read_context import ReadContext
 from gazelle.description.sdf_reader.child_values import child_float, child_int, child_vector3
-from gazelle.description.sdf_reader.models import included_model, read_model
-from gazelle.description.sdf_reader.parts import ModelParts
+from gazelle.description.sdf_reader.models import ModelParts, included_model, read_model
 from gazelle.description.sdf_reader.poses import pose_of
 from gazelle.description.xml import Tag
 from gazelle.geometry import Pose

@@ -16,8 +16,31 @@ from gazelle.geometry import IDENTITY_POSE, Pose
 
 __all__ = ["PoseResolver", "named_children", "pose_of", "read_pose", "relative_to_of"]
 
-
 _FORMATS = ("euler_rpy", "quat_xyzw")
+_SHAPES = frozenset({"collision", "visual"})
+
+
+@dataclass(frozen=True, slots=True)
+class PoseResolver:
+    """A model's frames together with where problems are reported."""
+
+    context: ReadContext
+    frames: FrameGraph
+
+    def in_link(self, tag: Tag, link: str) -> Pose:
+        """Return the pose of a link's child (collision, visual, sensor, light) in the link."""
+        written, relative_to = pose_of(tag, self.context), relative_to_of(tag)
+        if relative_to in ("", link):
+            return written
+        user = FramePoint(
+            tag.name, tag.attributes.get("name", ""), relative_to, written, "", tag.span
+        )
+        T_model_thing = self.frames.placed(written, relative_to, default=link, user=user)
+        return self.frames.pose(link).inverse() @ T_model_thing
+
+    def named(self, tag: Tag, kind: str) -> tuple[Tag, ...]:
+        """Return the children of this kind that have a name of their own; report the others."""
+        return named_children(tag, kind, self.context)
 
 
 def read_pose(tag: Tag | None, context: ReadContext) -> Pose:
@@ -59,58 +82,6 @@ def relative_to_of(tag: Tag) -> str:
     return pose.attributes.get("relative_to", pose.attributes.get("frame", "")).strip()
 
 
-def _quaternion_pose(tag: Tag, context: ReadContext) -> Pose:
-    px, py, pz, x, y, z, w = _numbers(tag, 7, context)
-    norm = math.sqrt(x * x + y * y + z * z + w * w)
-    if norm < 1e-9:
-        message = "the quaternion of <pose> has length 0; no rotation is used"
-        context.diagnostics.report("sdf.bad-value", message, tag.span, fix="write 0 0 0 1")
-        return Pose((px, py, pz))
-    return Pose((px, py, pz), cast(tuple[float, float, float, float], _scaled((x, y, z, w), norm)))
-
-
-def _scaled(values: tuple[float, ...], norm: float) -> tuple[float, ...]:
-    return tuple(value / norm for value in values)
-
-
-def _numbers(tag: Tag, count: int, context: ReadContext) -> tuple[float, ...]:
-    identity = (0.0,) * count if count == 6 else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
-    return floats_from(
-        tag.text,
-        count,
-        identity,
-        what="<pose>",
-        span=tag.span,
-        diagnostics=context.diagnostics,
-    )
-
-
-_SHAPES = frozenset({"collision", "visual"})
-
-
-@dataclass(frozen=True, slots=True)
-class PoseResolver:
-    """A model's frames together with where problems are reported."""
-
-    context: ReadContext
-    frames: FrameGraph
-
-    def in_link(self, tag: Tag, link: str) -> Pose:
-        """Return the pose of a link's child (collision, visual, sensor, light) in the link."""
-        written, relative_to = pose_of(tag, self.context), relative_to_of(tag)
-        if relative_to in ("", link):
-            return written
-        user = FramePoint(
-            tag.name, tag.attributes.get("name", ""), relative_to, written, "", tag.span
-        )
-        T_model_thing = self.frames.placed(written, relative_to, default=link, user=user)
-        return self.frames.pose(link).inverse() @ T_model_thing
-
-    def named(self, tag: Tag, kind: str) -> tuple[Tag, ...]:
-        """Return the children of this kind that have a name of their own; report the others."""
-        return named_children(tag, kind, self.context)
-
-
 def named_children(tag: Tag, kind: str, context: ReadContext) -> tuple[Tag, ...]:
     """Return the children of a kind by unique name; nameless and repeated ones are reported.
 
@@ -136,6 +107,32 @@ def named_children(tag: Tag, kind: str, context: ReadContext) -> tuple[Tag, ...]
             continue
         found[name] = child
     return tuple(found.values())
+
+
+def _quaternion_pose(tag: Tag, context: ReadContext) -> Pose:
+    px, py, pz, x, y, z, w = _numbers(tag, 7, context)
+    norm = math.sqrt(x * x + y * y + z * z + w * w)
+    if norm < 1e-9:
+        message = "the quaternion of <pose> has length 0; no rotation is used"
+        context.diagnostics.report("sdf.bad-value", message, tag.span, fix="write 0 0 0 1")
+        return Pose((px, py, pz))
+    return Pose((px, py, pz), cast(tuple[float, float, float, float], _scaled((x, y, z, w), norm)))
+
+
+def _scaled(values: tuple[float, ...], norm: float) -> tuple[float, ...]:
+    return tuple(value / norm for value in values)
+
+
+def _numbers(tag: Tag, count: int, context: ReadContext) -> tuple[float, ...]:
+    identity = (0.0,) * count if count == 6 else (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+    return floats_from(
+        tag.text,
+        count,
+        identity,
+        what="<pose>",
+        span=tag.span,
+        diagnostics=context.diagnostics,
+    )
 
 
 def _free_name(name: str, taken: Collection[str]) -> str:

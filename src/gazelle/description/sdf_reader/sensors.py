@@ -1,43 +1,170 @@
-"""SDF ``<sensor>``: every kind of 1.4 to 1.12."""
+"""SDF ``<sensor>``: every kind of 1.4 to 1.12, with their ``<noise>``."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from dataclasses import replace
 
 from gazelle.description.model import (
     AltimeterSpec,
+    CameraSpec,
     ContactSpec,
     ForceTorqueSpec,
     GpsSpec,
     ImuSpec,
+    LensDistortion,
+    LidarSpec,
     LogicalCameraSpec,
     MagnetometerSpec,
-    Noise,
     OtherSensorSpec,
     PressureSpec,
     Sensor,
     SensorSpec,
     SonarSpec,
 )
+from gazelle.description.model.plugin import read_plugins
 from gazelle.description.read_context import ReadContext
-from gazelle.description.sdf_reader.cameras import read_camera, read_multicamera
 from gazelle.description.sdf_reader.child_values import (
     child_bool,
     child_float,
+    child_int,
     child_vector3,
     name_of,
+    optional_float,
+    optional_int,
 )
-from gazelle.description.sdf_reader.lidars import read_lidar
-from gazelle.description.sdf_reader.noise import read_axis_noises, read_noise, read_noise_of
-from gazelle.description.sdf_reader.plugins import read_plugins
 from gazelle.description.sdf_reader.poses import pose_of
-from gazelle.description.xml import Tag
+from gazelle.description.xml import Tag, floats_from
 from gazelle.diagnostics import did_you_mean
 from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.noise import NOISE_TYPES, Noise
 
-__all__ = ["SENSOR_TYPES", "read_sensor"]
+__all__ = [
+    "SENSOR_TYPES",
+    "read_axis_noises",
+    "read_camera",
+    "read_lidar",
+    "read_multicamera",
+    "read_noise",
+    "read_noise_of",
+    "read_sensor",
+]
 
+Noise3 = tuple[Noise, Noise, Noise]
+_AXES = ("x", "y", "z")
+_DEFAULTS = CameraSpec()
+_MIN_FOV_RAD = 0.01
+_DEFAULT_SAMPLES = 640
 _ReadSpec = Callable[[Tag, ReadContext], SensorSpec]
+
+
+def read_noise(tag: Tag | None, context: ReadContext) -> Noise:
+    """Return the noise of a ``<noise>`` element; none when it is absent.
+
+    The type stands in an attribute (1.5 and later) or in a child (cameras, lidars and 1.4).
+    """
+    if tag is None:
+        return Noise()
+    kind = (tag.attributes.get("type") or tag.text_of("type", default="none")).strip()
+    if kind not in NOISE_TYPES:
+        message = f"noise type '{kind}' is not known; there is no noise here"
+        fix = did_you_mean(kind, NOISE_TYPES) or "write one of: " + ", ".join(NOISE_TYPES)
+        context.diagnostics.report("sdf.bad-value", message, tag.span, fix=fix)
+        return Noise(span=tag.span)
+    return Noise(
+        type=kind,
+        mean=child_float(tag, "mean", 0.0, context),
+        stddev=_not_negative(tag, "stddev", context),
+        bias_mean=child_float(tag, "bias_mean", 0.0, context),
+        bias_stddev=_not_negative(tag, "bias_stddev", context),
+        dynamic_bias_stddev=_not_negative(tag, "dynamic_bias_stddev", context),
+        dynamic_bias_correlation_time_s=_not_negative(
+            tag, "dynamic_bias_correlation_time", context
+        ),
+        precision=child_float(tag, "precision", 0.0, context),
+        span=tag.span,
+    )
+
+
+def read_noise_of(tag: Tag | None, *path: str, context: ReadContext) -> Noise:
+    """Return the noise of the ``<noise>`` reached by these child names."""
+    return read_noise(tag.find(*path, "noise") if tag is not None else None, context)
+
+
+def read_axis_noises(tag: Tag | None, context: ReadContext) -> Noise3:
+    """Return the noises of the x, y and z children, such as those of ``<angular_velocity>``."""
+    x, y, z = (read_noise_of(tag, axis, context=context) for axis in _AXES)
+    return x, y, z
+
+
+def read_camera(tag: Tag | None, kind: str, context: ReadContext) -> CameraSpec:
+    """Return the camera of a ``<camera>`` element; SDF's defaults when it is None.
+
+    Args:
+        tag: the ``<camera>`` element.
+        kind: ``rgb``, ``depth``, ``rgbd`` or ``wideangle``.
+        context: where problems are reported.
+    """
+    if tag is None:
+        return replace(_DEFAULTS, kind=kind)
+    image, clip = tag.find("image") or tag, tag.find("clip") or tag
+    depth_clip = tag.find("depth_camera", "clip")
+    return CameraSpec(
+        name=tag.attributes.get("name", _DEFAULTS.name),
+        kind=kind,
+        T_sensor_camera=pose_of(tag, context),
+        horizontal_fov_rad=_horizontal_fov(tag, kind, context),
+        width_px=_pixels(image, "width", _DEFAULTS.width_px, context),
+        height_px=_pixels(image, "height", _DEFAULTS.height_px, context),
+        pixel_format=image.text_of("format", default=_DEFAULTS.pixel_format),
+        near_m=child_float(clip, "near", _DEFAULTS.near_m, context),
+        far_m=child_float(clip, "far", _DEFAULTS.far_m, context),
+        depth_near_m=optional_float(depth_clip, "near", context),
+        depth_far_m=optional_float(depth_clip, "far", context),
+        noise=read_noise(tag.find("noise"), context),
+        distortion=_distortion(tag.find("distortion"), context),
+        intrinsics=_intrinsics(tag.find("lens", "intrinsics"), context),
+        optical_frame_id=tag.text_of("optical_frame_id"),
+        camera_info_topic=tag.text_of("camera_info_topic"),
+        visibility_mask=_mask(tag, context),
+    )
+
+
+def read_multicamera(tag: Tag, context: ReadContext) -> CameraSpec:
+    """Return a multicamera: the first camera with all of them as its members."""
+    members = tuple(read_camera(child, "rgb", context) for child in tag.find_all("camera"))
+    first = members[0] if members else _DEFAULTS
+    return replace(first, members=members)
+
+
+def read_lidar(tag: Tag | None, context: ReadContext, *, on_collisions: bool) -> LidarSpec:
+    """Return the lidar of a ``<ray>`` or ``<lidar>`` element.
+
+    Args:
+        tag: the element; None means SDF's defaults.
+        context: where problems are reported.
+        on_collisions: True for ``ray``, which hits collisions; False for kinds that see visuals.
+    """
+    if tag is None:
+        return LidarSpec(on_collisions=on_collisions)
+    horizontal = tag.find("scan", "horizontal") or tag
+    vertical, reach = tag.find("scan", "vertical"), tag.find("range") or tag
+    return LidarSpec(
+        samples=_samples(horizontal, _DEFAULT_SAMPLES, context),
+        min_angle_rad=child_float(horizontal, "min_angle", 0.0, context),
+        max_angle_rad=child_float(horizontal, "max_angle", 0.0, context),
+        resolution=child_float(horizontal, "resolution", 1.0, context),
+        vertical_samples=_samples(vertical, 1, context) if vertical else 1,
+        vertical_min_angle_rad=child_float(vertical, "min_angle", 0.0, context) if vertical else 0,
+        vertical_max_angle_rad=child_float(vertical, "max_angle", 0.0, context) if vertical else 0,
+        vertical_resolution=child_float(vertical, "resolution", 1.0, context) if vertical else 1,
+        range_min_m=child_float(reach, "min", 0.0, context),
+        range_max_m=_range_max(reach, context),
+        range_resolution_m=child_float(reach, "resolution", 0.0, context),
+        noise=read_noise(tag.find("noise"), context),
+        on_collisions=on_collisions,
+    )
 
 
 def read_sensor(
@@ -73,6 +200,96 @@ def read_sensor(
         plugins=read_plugins(tag, reference=name),
         span=tag.span,
     )
+
+
+def _not_negative(tag: Tag, name: str, context: ReadContext) -> float:
+    value = child_float(tag, name, 0.0, context)
+    if value < 0.0:
+        found = tag.find(name) or tag
+        message = f"<{name}> is negative ({value:g}); {-value:g} is used"
+        context.diagnostics.report("sdf.bad-value", message, found.span, fix="write it without -")
+        return -value
+    return value
+
+
+def _mask(tag: Tag, context: ReadContext) -> int:
+    mask = optional_int(tag, "visibility_mask", context)
+    return _DEFAULTS.visibility_mask if mask is None else mask & _DEFAULTS.visibility_mask
+
+
+def _pixels(image: Tag, name: str, default: int, context: ReadContext) -> int:
+    value = child_int(image, name, default, context)
+    if value >= 1:
+        return value
+    found = image.find(name) or image
+    message = f"<{name}> is {value}; an image needs at least 1 pixel, {default} are used"
+    context.diagnostics.report("sdf.bad-value", message, found.span)
+    return default
+
+
+def _horizontal_fov(tag: Tag, kind: str, context: ReadContext) -> float:
+    """Return the angle, which is at most π (2π for wide-angle lenses)."""
+    value = child_float(tag, "horizontal_fov", _DEFAULTS.horizontal_fov_rad, context)
+    most = 2 * math.pi if kind == "wideangle" else math.radians(179.9)
+    kept = min(max(value, _MIN_FOV_RAD), most)
+    if kept != value:
+        found = tag.find("horizontal_fov") or tag
+        message = f"<horizontal_fov> is {value:g} rad; {kept:g} rad is used"
+        context.diagnostics.report(
+            "sdf.bad-value", message, found.span, fix="write an angle in radians, such as 1.047"
+        )
+    return kept
+
+
+def _distortion(tag: Tag | None, context: ReadContext) -> LensDistortion | None:
+    if tag is None:
+        return None
+    values = {name: child_float(tag, name, 0.0, context) for name in ("k1", "k2", "k3", "p1", "p2")}
+    return LensDistortion(**values, center=_center(tag.find("center"), context))
+
+
+def _center(tag: Tag | None, context: ReadContext) -> tuple[float, float]:
+    middle = (0.5, 0.5)
+    if tag is None or not tag.text:
+        return middle
+    x, y = floats_from(
+        tag.text, 2, middle, what="<center>", span=tag.span, diagnostics=context.diagnostics
+    )
+    return x, y
+
+
+def _intrinsics(
+    tag: Tag | None, context: ReadContext
+) -> tuple[float, float, float, float, float] | None:
+    """Return fx, fy, cx, cy, s with the defaults of SDF 1.6 and later."""
+    if tag is None:
+        return None
+    return (
+        child_float(tag, "fx", 277.0, context),
+        child_float(tag, "fy", 277.0, context),
+        child_float(tag, "cx", 160.0, context),
+        child_float(tag, "cy", 120.0, context),
+        child_float(tag, "s", 0.0, context),
+    )
+
+
+def _samples(tag: Tag, default: int, context: ReadContext) -> int:
+    value = child_int(tag, "samples", default, context)
+    if value >= 1:
+        return value
+    found = tag.find("samples") or tag
+    context.diagnostics.report(
+        "sdf.bad-value", f"<samples> is {value}; a scan needs at least 1, 1 is used", found.span
+    )
+    return 1
+
+
+def _range_max(tag: Tag, context: ReadContext) -> float:
+    """Return the range; ``inf``, which SDF 1.6 and later allow, is no mistake."""
+    found = tag.find("max")
+    if found is not None and found.text.strip().lower() in ("inf", "+inf"):
+        return float("inf")
+    return child_float(tag, "max", 0.0, context)
 
 
 def _report_type(tag: Tag, kind: str, context: ReadContext) -> None:

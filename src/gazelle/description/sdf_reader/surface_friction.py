@@ -18,6 +18,7 @@ from gazelle.description.xml import Tag, bool_from
 __all__ = ["read_surface"]
 
 Vector3 = tuple[float, float, float]
+_USUAL_DEPTH_M = 0.001
 
 
 def read_surface(tag: Tag | None, context: ReadContext) -> Surface:
@@ -99,6 +100,3 @@ def _torsional(friction: Tag | None, context: ReadContext) -> tuple[float | None
             max(0.0, child_float(torsional, "surface_radius", 0.0, context)) * _USUAL_DEPTH_M
         )
     return coefficient, radius_m
-
-
-_USUAL_DEPTH_M = 0.001

@@ -1,18 +1,28 @@
-"""SDF versions: what the ``<sdf version>`` attribute says."""
+"""Versions of SDF: what the ``<sdf version>`` attribute says.
+
+Documents of 1.0 to 1.3 are brought to 1.4 by sdformat's own rules before they are read.
+"""
 
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from gazelle.description.read_context import ReadContext
 from gazelle.description.xml import Tag
+from gazelle.diagnostics import SourceSpan
 
-__all__ = ["NEWEST_VERSION", "OLDEST_VERSION", "version_from", "version_of"]
+if TYPE_CHECKING:
+    from gazelle.description.sdformat_emulation.element import SdfElement
+
+__all__ = ["NEWEST_VERSION", "OLDEST_VERSION", "OLD_ROOT", "upgraded", "version_from", "version_of"]
 
 Version = tuple[int, int]
 OLDEST_VERSION: Version = (1, 4)
 NEWEST_VERSION: Version = (1, 12)
 _FORM = re.compile(r"(\d+)\.(\d+)")
+# The outermost element up to SDF 1.2.
+OLD_ROOT = "gazebo"
 
 
 def version_from(text: str | None) -> Version | None:
@@ -38,3 +48,38 @@ def version_of(root: Tag, context: ReadContext) -> Version:
         message = f"SDF {written} is newer than 1.12; what it adds to 1.12 is not understood"
         context.diagnostics.report("sdf.version", message, root.span)
     return version
+
+
+def upgraded(root: Tag, context: ReadContext) -> Tag:
+    """Return a document as SDF 1.4 or later, told once when it is older.
+
+    Args:
+        root: ``<sdf>`` or ``<gazebo>``; others are returned as they are.
+        context: hears of the version.
+    """
+    written = root.attributes.get("version")
+    version = version_from(written)
+    is_old = version is not None and version < OLDEST_VERSION
+    if root.name not in ("sdf", OLD_ROOT) or not (is_old or root.name == OLD_ROOT):
+        return root
+    # Hardly anybody needs it, and it takes a third of a state publisher's start to import.
+    from gazelle.description.sdformat_emulation.element import raw_element
+    from gazelle.description.sdformat_emulation.gz_sdf.console import Console
+    from gazelle.description.sdformat_emulation.gz_sdf.version_upgrades import upgrade
+    from gazelle.description.sdformat_emulation.release import Release
+
+    shown = f"SDF {written} is older than 1.4" if is_old else "the root element is <gazebo>"
+    message = f"{shown}; it is read as sdformat brings it to 1.4"
+    context.diagnostics.report("sdf.version", message, root.span)
+    element = raw_element(root)
+    element.name = "sdf"
+    if is_old:
+        target: tuple[int, int] = OLDEST_VERSION
+        upgrade(element, target, Console(Release.V9))
+    return _tag(element, root.span)
+
+
+def _tag(element: SdfElement, whole: SourceSpan) -> Tag:
+    span = SourceSpan(whole.file, element.line or whole.line, via=whole.via)
+    children = tuple(_tag(child, whole) for child in element.children)
+    return Tag(element.name, span, dict(element.attributes), children, element.text, element.text)

@@ -1,4 +1,4 @@
-"""SDF ``<world>``."""
+"""SDF ``<world>``: its models, lights, physics, scene and saved ``<state>``."""
 
 from __future__ import annotations
 
@@ -6,33 +6,167 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from gazelle.description.model import Frame, Joint, Light, Model, World
+from gazelle.description.model import (
+    Frame,
+    Joint,
+    Light,
+    Link,
+    Model,
+    Physics,
+    Scene,
+    SphericalCoordinates,
+    World,
+)
+from gazelle.description.model.plugin import read_plugins
 from gazelle.description.read_context import ReadContext
-from gazelle.description.sdf_reader.child_values import child_vector3, name_of, vector3_from
+from gazelle.description.sdf_reader.child_values import (
+    child_bool,
+    child_float,
+    child_int,
+    child_rgba,
+    child_vector3,
+    name_of,
+    vector3_from,
+)
 from gazelle.description.sdf_reader.frame_graph import WORLD_FRAME, FrameGraph, FramePoint
 from gazelle.description.sdf_reader.includes import included_file, share_findings
 from gazelle.description.sdf_reader.joints import JointEnds
 from gazelle.description.sdf_reader.lights import read_light
-from gazelle.description.sdf_reader.models import included_model, read_model
-from gazelle.description.sdf_reader.parts import ModelParts
-from gazelle.description.sdf_reader.physics import read_gravity, read_physics
-from gazelle.description.sdf_reader.plugins import read_plugins
+from gazelle.description.sdf_reader.models import ModelParts, included_model, read_model
 from gazelle.description.sdf_reader.populations import populated
 from gazelle.description.sdf_reader.poses import (
     PoseResolver,
     named_children,
     pose_of,
+    read_pose,
     relative_to_of,
 )
-from gazelle.description.sdf_reader.scenes import read_scene, read_spherical_coordinates
-from gazelle.description.sdf_reader.states import with_state
 from gazelle.description.xml import Tag, read_xml
-from gazelle.diagnostics import Diagnostics, Severity
+from gazelle.diagnostics import Diagnostics, Severity, did_you_mean
 from gazelle.geometry import IDENTITY_POSE, Pose
 
-__all__ = ["read_world", "report_actor"]
+__all__ = [
+    "read_gravity",
+    "read_physics",
+    "read_scene",
+    "read_spherical_coordinates",
+    "read_world",
+    "report_actor",
+    "with_state",
+]
 
+Vector3 = tuple[float, float, float]
+_ENGINES = ("ode", "bullet", "simbody", "dart", "tpe", "ignored")
+_TRUE = ("1", "true")
+_PHYSICS_DEFAULTS = Physics()
+_GRAVITY: Vector3 = (0.0, 0.0, -9.8)
+_SCENE_DEFAULTS = Scene()
+_MAX_SHIFT_M = 1e-4
 _DEFAULTS = World()
+
+
+def chosen_physics(world: Tag) -> Tag | None:
+    """Return the ``<physics>`` with ``default="true"``, the first one when none says so."""
+    profiles = world.find_all("physics")
+    marked = (tag for tag in profiles if tag.attributes.get("default", "").lower() in _TRUE)
+    return next(marked, profiles[0] if profiles else None)
+
+
+def read_gravity(world: Tag, context: ReadContext) -> Vector3:
+    """Return gravity: a child of ``<world>`` since SDF 1.6, of ``<physics>`` before."""
+    physics = chosen_physics(world)
+    inner = physics.find("gravity") if physics is not None else None
+    return vector3_from(world.find("gravity") or inner, _GRAVITY, context)
+
+
+def read_physics(world: Tag, context: ReadContext) -> Physics:
+    """Return a world's physics profile; the engine's name is kept as a word."""
+    tag = chosen_physics(world)
+    if tag is None:
+        return _PHYSICS_DEFAULTS
+    engine = _engine(tag, context)
+    settings = tag.find(engine) or tag
+    solver, constraints = settings.find("solver") or tag, settings.find("constraints") or tag
+    return Physics(
+        name=tag.attributes.get("name", _PHYSICS_DEFAULTS.name),
+        engine=engine,
+        max_step_size_s=_step_size(tag, context),
+        real_time_factor=child_float(tag, "real_time_factor", 1.0, context),
+        real_time_update_rate_hz=child_float(tag, "real_time_update_rate", 1000.0, context),
+        max_contacts=child_int(tag, "max_contacts", _PHYSICS_DEFAULTS.max_contacts, context),
+        solver_type=solver.text_of("type", default=_PHYSICS_DEFAULTS.solver_type),
+        solver_iters=child_int(solver, "iters", _PHYSICS_DEFAULTS.solver_iters, context),
+        solver_precon_iters=child_int(solver, "precon_iters", 0, context),
+        solver_sor=child_float(solver, "sor", _PHYSICS_DEFAULTS.solver_sor, context),
+        cfm=child_float(constraints, "cfm", _PHYSICS_DEFAULTS.cfm, context),
+        erp=child_float(constraints, "erp", _PHYSICS_DEFAULTS.erp, context),
+        contact_max_correcting_vel_m_s=child_float(
+            constraints, "contact_max_correcting_vel", 100.0, context
+        ),
+        contact_surface_layer_m=child_float(constraints, "contact_surface_layer", 0.001, context),
+        span=tag.span,
+    )
+
+
+def read_scene(world: Tag, context: ReadContext) -> Scene:
+    """Return how the world looks where nothing stands in the way."""
+    view = _view(world, context)
+    tag = world.find("scene")
+    if tag is None:
+        return replace(_SCENE_DEFAULTS, T_world_view=view)
+    return Scene(
+        ambient=child_rgba(tag, "ambient", _SCENE_DEFAULTS.ambient, context),
+        background=child_rgba(tag, "background", _SCENE_DEFAULTS.background, context),
+        sky=tag.find("sky") is not None,
+        shadows=child_bool(tag, "shadows", True, context),
+        grid=child_bool(tag, "grid", True, context),
+        T_world_view=view,
+        span=tag.span,
+    )
+
+
+def read_spherical_coordinates(world: Tag, context: ReadContext) -> SphericalCoordinates | None:
+    """Return where the world lies on Earth; its axes are east, north and up."""
+    tag = world.find("spherical_coordinates")
+    if tag is None:
+        return None
+    orientation = tag.find("world_frame_orientation")
+    if orientation is not None and orientation.text.upper() not in ("", "ENU"):
+        message = f"world_frame_orientation '{orientation.text}' is not supported; ENU is used"
+        context.diagnostics.report("sdf.bad-value", message, orientation.span, fix="write ENU")
+    return SphericalCoordinates(
+        latitude_deg=child_float(tag, "latitude_deg", 0.0, context),
+        longitude_deg=child_float(tag, "longitude_deg", 0.0, context),
+        elevation_m=child_float(tag, "elevation", 0.0, context),
+        heading_deg=child_float(tag, "heading_deg", 0.0, context),
+    )
+
+
+def with_state(world: World, tag: Tag, context: ReadContext) -> World:
+    """Return the world with the poses that a ``<state>`` holds.
+
+    As Gazebo Classic's World::Load, the first state counts. Poses of models and lights are taken
+    over, those of links in models without joints too. Links held by joints keep their place: a
+    saved joint position cannot be told from a changed description. Models that the state deletes
+    are gone; those it inserts have been read already.
+    """
+    deleted = {item.text for item in tag.children if item.name == "deletions"}
+    deleted |= {name.text for item in tag.find_all("deletions") for name in item.find_all("name")}
+    models = {item.attributes.get("name", ""): item for item in tag.find_all("model")}
+    lights = {item.attributes.get("name", ""): item for item in tag.find_all("light")}
+    return replace(
+        world,
+        models=tuple(
+            _pose_of_state(model, models[model.name], context) if model.name in models else model
+            for model in world.models
+            if model.name not in deleted
+        ),
+        lights=tuple(
+            _light_of_state(light, lights[light.name], context) if light.name in lights else light
+            for light in world.lights
+            if light.name not in deleted
+        ),
+    )
 
 
 def read_world(tag: Tag, context: ReadContext) -> World:
@@ -59,6 +193,82 @@ def read_world(tag: Tag, context: ReadContext) -> World:
     )
     state = tag.find("state")
     return with_state(world, state, context) if state is not None else world
+
+
+def report_actor(tag: Tag, context: ReadContext) -> None:
+    """Say that an ``<actor>`` is left out."""
+    name = tag.attributes.get("name", "")
+    message = f"actor '{name}' is an animation; it is left out"
+    context.diagnostics.report("sdf.actor", message, tag.span)
+
+
+def _engine(tag: Tag, context: ReadContext) -> str:
+    word = tag.attributes.get("type", _PHYSICS_DEFAULTS.engine).strip().lower()
+    if word in _ENGINES:
+        return word
+    message = f"physics type '{word}' is not known; 'ode' is used"
+    fix = did_you_mean(word, _ENGINES) or "write one of: " + ", ".join(_ENGINES)
+    context.diagnostics.report("sdf.bad-value", message, tag.span, fix=fix)
+    return _PHYSICS_DEFAULTS.engine
+
+
+def _step_size(tag: Tag, context: ReadContext) -> float:
+    value = child_float(tag, "max_step_size", _PHYSICS_DEFAULTS.max_step_size_s, context)
+    if value > 0.0:
+        return value
+    place = tag.find("max_step_size") or tag
+    message = f"<max_step_size> is {value:g} s; it must be positive, 0.001 is used"
+    context.diagnostics.report("sdf.bad-value", message, place.span)
+    return _PHYSICS_DEFAULTS.max_step_size_s
+
+
+def _view(world: Tag, context: ReadContext) -> Pose | None:
+    """Return where a window's camera is: Gazebo Classic's, or that of a gz window's 3D view."""
+    gui = world.find("gui")
+    if gui is None:
+        return None
+    camera = gui.find("camera")
+    if camera is not None and camera.find("pose") is not None:
+        return pose_of(camera, context)
+    for plugin in gui.find_all("plugin"):
+        pose = plugin.find("camera_pose")
+        if pose is not None:
+            return read_pose(pose, context)
+    return None
+
+
+def _light_of_state(light: Light, tag: Tag, context: ReadContext) -> Light:
+    return replace(light, T_parent_light=pose_of(tag, context)) if tag.find("pose") else light
+
+
+def _pose_of_state(model: Model, tag: Tag, context: ReadContext) -> Model:
+    if tag.find("pose") is not None:
+        model = replace(model, T_world_model=pose_of(tag, context))
+    states = {item.attributes.get("name", ""): item for item in tag.find_all("link")}
+    moved = tuple(
+        _link_of_state(link, model, states.get(link.name), context) for link in model.links
+    )
+    if moved == model.links:
+        return model
+    if not model.joints:
+        return replace(model, links=moved)
+    message = (
+        f"the saved state of model '{model.name}' moves links that joints hold; "
+        "they start where the description puts them"
+    )
+    context.diagnostics.report("sdf.state", message, tag.span)
+    return model
+
+
+def _link_of_state(link: Link, model: Model, tag: Tag | None, context: ReadContext) -> Link:
+    """Return the link at its saved pose, which is given in the world."""
+    if tag is None or tag.find("pose") is None:
+        return link
+    T_model_link = model.T_world_model.inverse() @ pose_of(tag, context)
+    shift = link.T_model_link.matrix() - T_model_link.matrix()
+    if float(abs(shift).max()) < _MAX_SHIFT_M:
+        return link
+    return replace(link, T_model_link=T_model_link)
 
 
 class _WorldReader:
@@ -177,13 +387,6 @@ def _unique_names(parts: Iterable[ModelParts], context: ReadContext) -> tuple[Mo
             )
         found[name] = replace(item, model=replace(item.model, name=name))
     return tuple(found.values())
-
-
-def report_actor(tag: Tag, context: ReadContext) -> None:
-    """Say that an ``<actor>`` is left out."""
-    name = tag.attributes.get("name", "")
-    message = f"actor '{name}' is an animation; it is left out"
-    context.diagnostics.report("sdf.actor", message, tag.span)
 
 
 def _lights_of_file(file: Path, tag: Tag, context: ReadContext) -> Sequence[Light]:

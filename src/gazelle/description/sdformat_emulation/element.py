@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-__all__ = ["SdfElement"]
+from gazelle.description.xml import Tag
+
+__all__ = ["SdfElement", "raw_element"]
 
 
 @dataclass(slots=True)
@@ -45,3 +47,10 @@ class SdfElement:
         yield self
         for child in self.children:
             yield from child.walk()
+
+
+def raw_element(tag: Tag) -> SdfElement:
+    """Return a tag and all below it; white space in texts is collapsed as TinyXML does."""
+    text = " ".join(tag.text.split())
+    children = [raw_element(child) for child in tag.children]
+    return SdfElement(tag.name, dict(tag.attributes), text, children, tag.span.line or 0)

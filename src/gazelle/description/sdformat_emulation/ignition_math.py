@@ -1,25 +1,59 @@
-"""Poses as the library chains them: same operations in the same order, so same last digits."""
+"""Ignition Math's poses and rotations: same operations in the same order, so same last digits."""
 
 from __future__ import annotations
 
 import math
 
-from gazelle.description.urdfdom_emulation.poses import Origin
+from gazelle.description.urdfdom_emulation.values import Origin
 
 __all__ = [
     "chained",
     "composed",
     "composed_by_inverse",
+    "euler_from_quat_wxyz",
     "euler_of",
+    "quat_wxyz_from_euler",
 ]
 
-Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
-
+# Nearer to a pitch of 90 degrees than this, only the sum of roll and yaw is known.
+_POLE = 1e-15
+Vector3 = tuple[float, float, float]
 # ignition-math takes a norm up to this for zero.
 _NO_NORM = 1e-6
 # Nearer to a pitch of 90 degrees than this, only the sum of roll and yaw is known.
 _POLE = 1e-15
+
+
+def quat_wxyz_from_euler(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Quaternion:
+    """Return (w, x, y, z) of a rotation about fixed axes x, then y, then z."""
+    cr, sr = math.cos(roll_rad / 2), math.sin(roll_rad / 2)
+    cp, sp = math.cos(pitch_rad / 2), math.sin(pitch_rad / 2)
+    cy, sy = math.cos(yaw_rad / 2), math.sin(yaw_rad / 2)
+    return _unit_wxyz(
+        (
+            cr * cp * cy + sr * sp * sy,
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+        )
+    )
+
+
+def euler_from_quat_wxyz(quaternion: Quaternion) -> tuple[float, float, float]:
+    """Return roll, pitch, yaw; at a pitch of 90 degrees yaw is 0.
+
+    A rotation without pitch gives −0, which old releases print.
+    """
+    w, x, y, z = _unit_wxyz(quaternion)
+    ww, xx, yy, zz = w * w, x * x, y * y, z * z
+    sine = -2 * (x * z - w * y) / (ww + xx + yy + zz)
+    pitch = math.copysign(math.pi / 2, sine) if abs(sine) >= 1 else math.asin(sine)
+    if abs(abs(sine) - 1) < _POLE:
+        roll = math.atan2(math.copysign(2, sine) * (x * y - z * w), ww - xx + yy - zz)
+        return roll, pitch, 0.0
+    roll = math.atan2(2 * (y * z + w * x), ww - xx - yy + zz)
+    return roll, pitch, math.atan2(2 * (x * y + w * z), ww + xx - yy - zz)
 
 
 def chained(T_parent_joint: Origin, T_joint_part: Origin) -> Origin:
@@ -68,6 +102,14 @@ def euler_of(quat_xyzw: Quaternion) -> Vector3:
     roll = math.atan2(2.0 * (y * z + w * x), ww - xx - yy + zz)
     yaw = math.atan2(2.0 * (x * y + w * z), ww + xx - yy - zz)
     return roll, pitch, yaw
+
+
+def _unit_wxyz(quaternion: Quaternion) -> Quaternion:
+    w, x, y, z = quaternion
+    length = math.sqrt(w * w + x * x + y * y + z * z)
+    if length <= 1e-6:
+        return 1.0, 0.0, 0.0, 0.0
+    return w / length, x / length, y / length, z / length
 
 
 def _product(p: Quaternion, q: Quaternion) -> Quaternion:

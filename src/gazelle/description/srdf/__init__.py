@@ -12,8 +12,7 @@ from gazelle.description.srdf.model import (
     Srdf,
     VirtualJoint,
 )
-from gazelle.description.srdf.names import link_names
-from gazelle.description.srdf.reader import load_srdf, read_srdf
+from gazelle.description.srdf.reader import link_names, load_srdf, read_srdf
 
 __all__ = [
     "Chain",

@@ -1,26 +1,59 @@
-"""SRDF to `Srdf`, all mistakes reported at once and what srdfdom leaves out left out."""
+"""SRDF to `Srdf`, all mistakes reported at once and what srdfdom leaves out left out.
+
+Names of links, joints and groups that are not known are told where they stand.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from gazelle.description.model import Model
+from gazelle.description.model import Joint, JointType, Model
 from gazelle.description.robot_description import read_text
 from gazelle.description.source_maps import placed
-from gazelle.description.srdf.collisions import read_default_collisions, read_pairs, read_spheres
-from gazelle.description.srdf.groups import read_groups, read_states
-from gazelle.description.srdf.model import EndEffector, Srdf, VirtualJoint, VirtualJointType
-from gazelle.description.srdf.names import Names
-from gazelle.description.urdf_reader.attributes import check_vocabulary
-from gazelle.description.xml import Tag, attribute_span, read_xml
+from gazelle.description.srdf.model import (
+    Chain,
+    CollisionPair,
+    EndEffector,
+    Group,
+    GroupState,
+    LinkSpheres,
+    Srdf,
+    VirtualJoint,
+    VirtualJointType,
+)
+from gazelle.description.urdf_reader.attributes import (
+    check_vocabulary,
+    number_attribute,
+    vector_attribute,
+)
+from gazelle.description.xml import Tag, attribute_span, floats_from, read_xml
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.workspace import Workspace
 
-__all__ = ["load_srdf", "read_srdf"]
+__all__ = [
+    "Names",
+    "link_names",
+    "load_srdf",
+    "read_default_collisions",
+    "read_groups",
+    "read_pairs",
+    "read_spheres",
+    "read_srdf",
+    "read_states",
+]
 
+_WORLD = "world"
+_PHRASES = {
+    "link": "Link '{}' is not known to URDF",
+    "joint": "Joint '{}' is not known to the URDF",
+    "group": "Group '{}' is not known",
+}
+_COUNTS = {JointType.PLANAR: 3, JointType.FLOATING: 7, JointType.FIXED: 0}
+_VIRTUAL_COUNTS = {"planar": 3, "floating": 7, "fixed": 0}
+_TOLERANCE = 1e-9
 _CHILDREN = (
     "disable_collisions",
     "disable_default_collisions",
@@ -34,6 +67,150 @@ _CHILDREN = (
     "virtual_joint",
 )
 _VIRTUAL_TYPES: tuple[VirtualJointType, ...] = ("fixed", "floating", "planar")
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """Links and joints of the robot; without a robot every name is taken as it is.
+
+    Attributes:
+        robot: the robot, None when only the SRDF is at hand.
+        virtual: names of the virtual joints.
+        groups: names of the groups.
+        diagnostics: receives what is wrong.
+    """
+
+    robot: Model | None
+    virtual: frozenset[str]
+    groups: frozenset[str]
+    diagnostics: Diagnostics
+
+    @property
+    def joints(self) -> dict[str, Joint]:
+        """The robot's joints by name."""
+        return {joint.name: joint for joint in self.robot.joints} if self.robot else {}
+
+    def required(self, tag: Tag, attribute: str) -> str:
+        """Return an attribute's text, trimmed; empty (reported) when it is missing."""
+        text = tag.attributes.get(attribute, "").strip()
+        if not text:
+            message = f"<{tag.name}> has no '{attribute}' and is left out"
+            fix = did_you_mean(attribute, tag.attributes)
+            self.diagnostics.report("srdf.missing-attribute", message, tag.span, fix=fix)
+        return text
+
+    def link(self, tag: Tag, attribute: str) -> str:
+        """Return the link that an attribute names; empty (reported) when there is none."""
+        known = link_names(self.robot) if self.robot else None
+        return self._known(tag, attribute, "link", known)
+
+    def joint(self, tag: Tag, attribute: str) -> str:
+        """Return the joint, virtual ones included; empty (reported) when there is none."""
+        known = [*self.joints, *sorted(self.virtual)] if self.robot else None
+        return self._known(tag, attribute, "joint", known)
+
+    def group(self, tag: Tag, attribute: str) -> str:
+        """Return the group that an attribute names; empty (reported) when there is none."""
+        return self._known(tag, attribute, "group", sorted(self.groups))
+
+    def _known(self, tag: Tag, attribute: str, kind: str, known: Collection[str] | None) -> str:
+        name = self.required(tag, attribute)
+        if not name or known is None or name in known:
+            return name
+        owner = "the SRDF" if kind == "group" else "the robot"
+        text = f"<{tag.name} {attribute}=\"{name}\">: {owner} has no {kind} '{name}'"
+        text += f" ({_PHRASES[kind].format(name)}); it is left out, as MoveIt does"
+        fix = did_you_mean(name, known) or f"there are: {', '.join(known) or 'none'}"
+        span = attribute_span(tag.span, attribute)
+        self.diagnostics.report("parameters.srdf-name", text, span, fix=fix)
+        return ""
+
+
+def link_names(robot: Model) -> list[str]:
+    """Return a robot's links; a root link ``world``, which models have not, is one in MoveIt."""
+    names = [link.name for link in robot.links]
+    is_root = _WORLD not in names and any(joint.parent == _WORLD for joint in robot.joints)
+    return [_WORLD, *names] if is_root else names
+
+
+def read_pairs(root: Tag, element: str, names: Names) -> tuple[CollisionPair, ...]:
+    """Return the pairs of ``<disable_collisions>`` or ``<enable_collisions>``."""
+    found: list[CollisionPair] = []
+    for tag in root.find_all(element):
+        check_vocabulary(tag, names.diagnostics, attributes=("link1", "link2", "reason"))
+        pair = names.link(tag, "link1"), names.link(tag, "link2")
+        if all(pair):
+            found.append(CollisionPair(*pair, tag.attributes.get("reason", "").strip()))
+    return tuple(found)
+
+
+def read_default_collisions(root: Tag, names: Names) -> tuple[str, ...]:
+    """Return the links of ``<disable_default_collisions>``."""
+    tags = root.find_all("disable_default_collisions")
+    for tag in tags:
+        check_vocabulary(tag, names.diagnostics, attributes=("link", "reason"))
+    return tuple(name for tag in tags if (name := names.link(tag, "link")))
+
+
+def read_spheres(root: Tag, names: Names) -> tuple[LinkSpheres, ...]:
+    """Return ``<link_sphere_approximation>``; they are reported, for the shapes collide here."""
+    tags = root.find_all("link_sphere_approximation")
+    found: list[LinkSpheres] = []
+    for tag in tags:
+        check_vocabulary(tag, names.diagnostics, attributes=("link",), children=("sphere",))
+        link = names.link(tag, "link")
+        if link:
+            spheres = [_read_sphere(child, names) for child in tag.find_all("sphere")]
+            found.append(LinkSpheres(link, tuple(one for one in spheres if one is not None)))
+    if found:
+        links = ", ".join(f"'{one.link}'" for one in found)
+        message = f"the spheres of {links} have no effect: collisions are checked with the links'"
+        message += " own shapes, as MoveIt's FCL and Bullet do (only CHOMP uses spheres)"
+        names.diagnostics.report("srdf.spheres", message, tags[0].span)
+    return tuple(found)
+
+
+def read_states(
+    root: Tag, names: Names, virtual_joints: tuple[VirtualJoint, ...]
+) -> tuple[GroupState, ...]:
+    """Return the group states; values that no joint can have are reported.
+
+    Args:
+        root: the ``<robot>``.
+        names: what there is.
+        virtual_joints: joints besides those of the robot.
+    """
+    counts = {joint.name: _VIRTUAL_COUNTS[joint.type] for joint in virtual_joints}
+    counts |= {name: _COUNTS.get(joint.type, 1) for name, joint in names.joints.items()}
+    states: dict[tuple[str, str], GroupState] = {}
+    for tag in root.find_all("group_state"):
+        check_vocabulary(tag, names.diagnostics, attributes=("name", "group"), children=("joint",))
+        name, group = names.required(tag, "name"), names.group(tag, "group")
+        if not name or not group:
+            continue
+        if (group, name) in states:
+            message = f"group '{group}' has a second state '{name}'; the last one counts"
+            names.diagnostics.report("srdf.double-name", message, tag.span)
+        values: dict[str, tuple[float, ...]] = {}
+        for child in tag.find_all("joint"):
+            joint, value = _read_value(child, names, counts)
+            if joint:
+                values[joint] = value
+        states[group, name] = GroupState(name, group, values, tag.span)
+    return tuple(states.values())
+
+
+def read_groups(root: Tag, names: Names) -> tuple[Group, ...]:
+    """Return the groups that stand directly below the root, without those that cannot be."""
+    found: dict[str, Group] = {}
+    for tag in root.find_all("group"):
+        name = names.required(tag, "name")
+        if name in found:
+            message = f"a second <group> is named '{name}'; the first one counts, as in MoveIt"
+            names.diagnostics.report("srdf.double-name", message, tag.span)
+        elif name:
+            found[name] = _read_group(tag, name, names)
+    return _satisfied(found, names.diagnostics)
 
 
 def load_srdf(
@@ -95,6 +272,122 @@ def read_srdf(root: Tag, *, robot: Model | None, diagnostics: Diagnostics) -> Sr
         spheres=read_spheres(root, names),
         joint_properties=_read_joint_properties(root, names),
     )
+
+
+def _read_sphere(tag: Tag, names: Names) -> tuple[float, float, float, float] | None:
+    check_vocabulary(tag, names.diagnostics, attributes=("center", "radius"))
+    if not names.required(tag, "center") or not names.required(tag, "radius"):
+        return None
+    center = vector_attribute(tag, "center", names.diagnostics)
+    radius = number_attribute(tag, "radius", names.diagnostics)
+    return None if center is None or radius is None else (*center, radius)
+
+
+def _read_value(tag: Tag, names: Names, counts: dict[str, int]) -> tuple[str, tuple[float, ...]]:
+    check_vocabulary(tag, names.diagnostics, attributes=("name", "value"))
+    joint = names.joint(tag, "name")
+    text = names.required(tag, "value") if joint else ""
+    if text and counts.get(joint) == 0:
+        message = f"joint '{joint}' is fixed and has no position; its value has no effect"
+        names.diagnostics.report("srdf.fixed-state", message, tag.span)
+        return "", ()
+    if not text:
+        return "", ()
+    value = floats_from(
+        text,
+        counts.get(joint, len(text.split())),
+        (),
+        what="<joint value>",
+        span=tag.span,
+        diagnostics=names.diagnostics,
+        attribute="value",
+    )
+    if not value:
+        return "", ()
+    robot_joint = names.joints.get(joint)
+    if robot_joint is not None:
+        _check_limits(tag, robot_joint, value, names)
+    return joint, value
+
+
+def _check_limits(tag: Tag, joint: Joint, value: tuple[float, ...], names: Names) -> None:
+    axis = joint.axis
+    if axis is None or joint.type not in (JointType.REVOLUTE, JointType.PRISMATIC):
+        return
+    if axis.lower - _TOLERANCE <= value[0] <= axis.upper + _TOLERANCE:
+        return
+    state = f"joint '{joint.name}' is at {value[0]:g}, its limits are {axis.lower:g} and"
+    message = f"{state} {axis.upper:g}; no plan can reach this state"
+    span = attribute_span(tag.span, "value")
+    names.diagnostics.report("srdf.state-outside-limits", message, span)
+
+
+def _read_group(tag: Tag, name: str, names: Names) -> Group:
+    check_vocabulary(
+        tag,
+        names.diagnostics,
+        attributes=("name",),
+        children=("link", "joint", "chain", "group"),
+    )
+    chains = (_read_chain(child, name, names) for child in tag.find_all("chain"))
+    group = Group(
+        name,
+        _filled(names.link(child, "name") for child in tag.find_all("link")),
+        _filled(names.joint(child, "name") for child in tag.find_all("joint")),
+        tuple(chain for chain in chains if chain is not None),
+        _filled(names.group(child, "name") for child in tag.find_all("group")),
+        tag.span,
+    )
+    if not (group.links or group.joints or group.chains or group.subgroups):
+        message = f"group '{name}' has no link, joint, chain or group in it; nothing can be"
+        message += " planned for it"
+        names.diagnostics.report("srdf.empty-group", message, tag.span)
+    return group
+
+
+def _read_chain(tag: Tag, group: str, names: Names) -> Chain | None:
+    check_vocabulary(tag, names.diagnostics, attributes=("base_link", "tip_link"))
+    base, tip = names.link(tag, "base_link"), names.link(tag, "tip_link")
+    if not base or not tip:
+        return None
+    if names.robot is not None and not _are_connected(base, tip, names.robot):
+        message = f"no joints lead from '{base}' to '{tip}'; the chain is left out of group"
+        message += f" '{group}' (Links '{base}' and '{tip}' do not form a chain)"
+        names.diagnostics.report("srdf.no-chain", message, tag.span)
+        return None
+    return Chain(base, tip)
+
+
+def _are_connected(base: str, tip: str, robot: Model) -> bool:
+    parents = {joint.child: joint.parent for joint in robot.joints}
+
+    def above(link: str) -> list[str]:
+        found: list[str] = []
+        while link and link not in found:
+            found.append(link)
+            link = parents.get(link, "")
+        return found
+
+    return bool(set(above(base)) & set(above(tip)))
+
+
+def _satisfied(groups: dict[str, Group], diagnostics: Diagnostics) -> tuple[Group, ...]:
+    """Leave out groups that hold themselves, by way of their subgroups."""
+    known: set[str] = set()
+    size = -1
+    while len(known) > size:
+        size = len(known)
+        known |= {group.name for group in groups.values() if known.issuperset(group.subgroups)}
+    for group in groups.values():
+        if group.name not in known:
+            message = f"group '{group.name}' holds itself by way of {', '.join(group.subgroups)};"
+            message += f" it is left out (Group '{group.name}' has unsatisfied subgroups)"
+            diagnostics.report("srdf.group-ring", message, group.span)
+    return tuple(group for group in groups.values() if group.name in known)
+
+
+def _filled(names: Iterable[str]) -> tuple[str, ...]:
+    return tuple(name for name in names if name)
 
 
 def _read_file(

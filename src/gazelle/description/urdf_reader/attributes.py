@@ -1,22 +1,34 @@
-"""Attributes of URDF elements: numbers and words, with every mistake reported."""
+"""Attributes of URDF elements: numbers, words and files, with every mistake reported."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 from typing import cast
 
+from gazelle.description.read_context import ReadContext
 from gazelle.description.xml import Tag, floats_from
-from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.workspace import Resolved
 
-__all__ = [
-    "check_vocabulary",
-    "number_attribute",
-    "origin_of",
-    "vector_attribute",
-]
+__all__ = ["check_vocabulary", "find_file", "number_attribute", "origin_of", "vector_attribute"]
 
 Vector3 = tuple[float, float, float]
+
+
+def find_file(uri: str, span: SourceSpan, context: ReadContext) -> Resolved:
+    """Resolve ``package://``, ``model://``, ``file://`` and plain paths.
+
+    A note of the workspace about a file that was found, such as that only upper and lower case
+    differ, is reported.
+    """
+    found = context.resolve(uri)
+    if found.path is not None and found.is_off_path:
+        context.report_note(uri, found, span, "urdf.file-note")
+    elif found.path is not None and found.note:
+        message = f"'{uri}' was found as '{found.path}': {found.note}"
+        context.diagnostics.report("urdf.file-note", message, span)
+    return found
 
 
 def number_attribute(tag: Tag, name: str, diagnostics: Diagnostics) -> float | None:

@@ -11,9 +11,8 @@ from dataclasses import replace
 
 from gazelle.description.model import Model
 from gazelle.description.read_context import ReadContext
-from gazelle.description.sdf_reader.checking import check_elements
-from gazelle.description.sdf_reader.models import model_around
-from gazelle.description.sdf_reader.parts import ModelParts
+from gazelle.description.sdf_reader.known_elements import check_elements
+from gazelle.description.sdf_reader.models import ModelParts, model_around
 from gazelle.description.urdf_reader.fixed_joint_lumping import lumped_links
 from gazelle.description.xml import Tag
 

@@ -37,8 +37,10 @@ from gazelle.geometry import (
 
 __all__ = ["body_of", "with_inertia"]
 
-
 _DENSITY_KG_M3 = 1000.0
+_WORLD = "world"
+# A link without any shape has nothing to estimate from: a gram in a ball of a few centimetres.
+_NOTHING = MassProperties(1e-3, (0.0, 0.0, 0.0), (1e-6, 0.0, 0.0, 1e-6, 0.0, 1e-6))
 
 
 def body_of(link: Link, context: ReadContext) -> MassProperties | None:
@@ -54,6 +56,26 @@ def body_of(link: Link, context: ReadContext) -> MassProperties | None:
     collisions = [(item.shape, item.T_link_collision, item.span) for item in link.collisions]
     visuals = [(item.shape, item.T_link_visual, item.span) for item in link.visuals]
     return _whole(collisions, context) or _whole(visuals, context)
+
+
+def with_inertia(model: Model, broken: Collection[str], context: ReadContext) -> Model:
+    """Return the model with every moving body given mass and a possible tensor.
+
+    A massless link fixed to others that have mass stays massless.
+
+    Args:
+        model: the robot, its ``<gazebo>`` blocks applied.
+        broken: links whose ``<inertial>`` was reported as unusable already.
+        context: where to report, and look-up of meshes.
+    """
+    links = {link.name: _checked(link, context) for link in model.links}
+    broken = {*broken, *(link.name for link in model.links if _is_negative(link))}
+    if not model.static:
+        for group in _moving_groups(model):
+            members = [links[name] for name in group]
+            for link in _completed(members, broken, context):
+                links[link.name] = link
+    return replace(model, links=tuple(links.values()))
 
 
 def _whole(
@@ -99,32 +121,6 @@ def _mesh_body(
             return mesh_mass_properties(hull, density_kg_m3=_DENSITY_KG_M3)
         except (GazelleError, ValueError):
             return None  # flat: no volume, and the caller says that there is nothing to go by
-
-
-_WORLD = "world"
-
-# A link without any shape has nothing to estimate from: a gram in a ball of a few centimetres.
-_NOTHING = MassProperties(1e-3, (0.0, 0.0, 0.0), (1e-6, 0.0, 0.0, 1e-6, 0.0, 1e-6))
-
-
-def with_inertia(model: Model, broken: Collection[str], context: ReadContext) -> Model:
-    """Return the model with every moving body given mass and a possible tensor.
-
-    A massless link fixed to others that have mass stays massless.
-
-    Args:
-        model: the robot, its ``<gazebo>`` blocks applied.
-        broken: links whose ``<inertial>`` was reported as unusable already.
-        context: where to report, and look-up of meshes.
-    """
-    links = {link.name: _checked(link, context) for link in model.links}
-    broken = {*broken, *(link.name for link in model.links if _is_negative(link))}
-    if not model.static:
-        for group in _moving_groups(model):
-            members = [links[name] for name in group]
-            for link in _completed(members, broken, context):
-                links[link.name] = link
-    return replace(model, links=tuple(links.values()))
 
 
 def _checked(link: Link, context: ReadContext) -> Link:

@@ -19,8 +19,27 @@ from gazelle.geometry import Pose
 
 __all__ = ["Limits", "ReadJoint", "read_joint", "read_limits"]
 
-
 _RANGED = (JointType.REVOLUTE, JointType.PRISMATIC)
+_TYPES = {
+    "continuous": JointType.CONTINUOUS,
+    "fixed": JointType.FIXED,
+    "floating": JointType.FLOATING,
+    "planar": JointType.PLANAR,
+    "prismatic": JointType.PRISMATIC,
+    "revolute": JointType.REVOLUTE,
+}
+_ONCE = (
+    "axis",
+    "calibration",
+    "child",
+    "dynamics",
+    "limit",
+    "mimic",
+    "origin",
+    "parent",
+    "safety_controller",
+)
+_WITHOUT_AXIS = (JointType.FIXED, JointType.FLOATING)
 
 
 class Limits(NamedTuple):
@@ -30,6 +49,14 @@ class Limits(NamedTuple):
     upper: float = math.inf
     effort: float = math.inf
     velocity: float = math.inf
+
+
+class ReadJoint(NamedTuple):
+    """A joint whose pose in the model is not known yet."""
+
+    joint: Joint
+    T_parent_joint: Pose
+    tag: Tag
 
 
 def read_limits(joint: Tag, name: str, kind: JointType, context: ReadContext) -> Limits:
@@ -64,70 +91,6 @@ def read_limits(joint: Tag, name: str, kind: JointType, context: ReadContext) ->
         return Limits(effort=effort, velocity=velocity)
     lower, upper = _ordered(tag, name, context)
     return Limits(lower, upper, effort, velocity)
-
-
-def _bound(tag: Tag, word: str, context: ReadContext) -> float:
-    value = number_attribute(tag, word, context.diagnostics)
-    return math.inf if value is None or value < 0.0 else value
-
-
-def _read_range(tag: Tag, context: ReadContext) -> tuple[float, float]:
-    lower = number_attribute(tag, "lower", context.diagnostics)
-    upper = number_attribute(tag, "upper", context.diagnostics)
-    return lower or 0.0, upper or 0.0
-
-
-def _ordered(tag: Tag, name: str, context: ReadContext) -> tuple[float, float]:
-    lower, upper = _read_range(tag, context)
-    if lower > upper:
-        message = f"<limit> of joint '{name}': lower {lower:g} is above upper {upper:g}; exchanged"
-        context.diagnostics.report("urdf.limit-order", message, tag.span)
-        return upper, lower
-    if lower == upper:
-        message = f"<limit> of joint '{name}' leaves no range ({lower:g} to {upper:g}): it is stuck"
-        context.diagnostics.report("urdf.limit-no-range", message, tag.span)
-    return lower, upper
-
-
-def _report_zero(tag: Tag, name: str, effort: float, velocity: float, context: ReadContext) -> None:
-    if effort == 0.0:
-        message = f"joint '{name}' has effort=\"0\": no motor and no controller can move it"
-        context.diagnostics.report("urdf.effort-zero", message, tag.span)
-    if velocity == 0.0:
-        message = f"joint '{name}' has velocity=\"0\": controllers that obey limits hold it still"
-        context.diagnostics.report("urdf.velocity-zero", message, tag.span)
-
-
-_TYPES = {
-    "continuous": JointType.CONTINUOUS,
-    "fixed": JointType.FIXED,
-    "floating": JointType.FLOATING,
-    "planar": JointType.PLANAR,
-    "prismatic": JointType.PRISMATIC,
-    "revolute": JointType.REVOLUTE,
-}
-
-_ONCE = (
-    "axis",
-    "calibration",
-    "child",
-    "dynamics",
-    "limit",
-    "mimic",
-    "origin",
-    "parent",
-    "safety_controller",
-)
-
-_WITHOUT_AXIS = (JointType.FIXED, JointType.FLOATING)
-
-
-class ReadJoint(NamedTuple):
-    """A joint whose pose in the model is not known yet."""
-
-    joint: Joint
-    T_parent_joint: Pose
-    tag: Tag
 
 
 def read_joint(tag: Tag, name: str, context: ReadContext) -> ReadJoint | None:
@@ -167,6 +130,38 @@ def read_joint(tag: Tag, name: str, context: ReadContext) -> ReadJoint | None:
         span=tag.span,
     )
     return ReadJoint(joint, origin, tag) if parent and child else None
+
+
+def _bound(tag: Tag, word: str, context: ReadContext) -> float:
+    value = number_attribute(tag, word, context.diagnostics)
+    return math.inf if value is None or value < 0.0 else value
+
+
+def _read_range(tag: Tag, context: ReadContext) -> tuple[float, float]:
+    lower = number_attribute(tag, "lower", context.diagnostics)
+    upper = number_attribute(tag, "upper", context.diagnostics)
+    return lower or 0.0, upper or 0.0
+
+
+def _ordered(tag: Tag, name: str, context: ReadContext) -> tuple[float, float]:
+    lower, upper = _read_range(tag, context)
+    if lower > upper:
+        message = f"<limit> of joint '{name}': lower {lower:g} is above upper {upper:g}; exchanged"
+        context.diagnostics.report("urdf.limit-order", message, tag.span)
+        return upper, lower
+    if lower == upper:
+        message = f"<limit> of joint '{name}' leaves no range ({lower:g} to {upper:g}): it is stuck"
+        context.diagnostics.report("urdf.limit-no-range", message, tag.span)
+    return lower, upper
+
+
+def _report_zero(tag: Tag, name: str, effort: float, velocity: float, context: ReadContext) -> None:
+    if effort == 0.0:
+        message = f"joint '{name}' has effort=\"0\": no motor and no controller can move it"
+        context.diagnostics.report("urdf.effort-zero", message, tag.span)
+    if velocity == 0.0:
+        message = f"joint '{name}' has velocity=\"0\": controllers that obey limits hold it still"
+        context.diagnostics.report("urdf.velocity-zero", message, tag.span)
 
 
 def _read_type(tag: Tag, name: str, context: ReadContext) -> JointType | None:

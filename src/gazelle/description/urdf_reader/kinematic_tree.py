@@ -55,6 +55,34 @@ def poses_of(root: str, joints: Sequence[ReadJoint]) -> dict[str, Pose]:
     return poses
 
 
+def without_second_parents(
+    joints: Mapping[str, ReadJoint], context: ReadContext
+) -> dict[str, ReadJoint]:
+    """Return the joints with one above each link: the last by name, as urdfdom keeps it.
+
+    Args:
+        joints: joints by name.
+        context: hears of the joints that are left out.
+    """
+    above: dict[str, list[str]] = {}
+    for name, item in joints.items():
+        above.setdefault(item.joint.child, []).append(name)
+    dropped: set[str] = set()
+    for child, names in above.items():
+        if len(names) == 1:
+            continue
+        kept = max(names)
+        others = [name for name in names if name != kept]
+        dropped.update(others)
+        message = (
+            f"link '{child}' has two parents: it is the child of joint '{names[0]}' and of joint "
+            f"'{names[1]}'; '{kept}' counts, the last by name, and "
+            f"{' and '.join(map(repr, others))} {'are' if len(others) > 1 else 'is'} left out"
+        )
+        context.diagnostics.report("urdf.two-parents", message, joints[names[1]].tag.span)
+    return {name: item for name, item in joints.items() if name not in dropped}
+
+
 def _below(root: str, joints: Sequence[ReadJoint]) -> list[str]:
     children: dict[str, list[str]] = {}
     for item in joints:
@@ -84,34 +112,6 @@ def _ends_exist(
             message = f"{which} link '{name}' of joint '{joint.name}' not found"
             context.diagnostics.report(_MISSING[which], message, end.span, fix=hint)
     return good
-
-
-def without_second_parents(
-    joints: Mapping[str, ReadJoint], context: ReadContext
-) -> dict[str, ReadJoint]:
-    """Return the joints with one above each link: the last by name, as urdfdom keeps it.
-
-    Args:
-        joints: joints by name.
-        context: hears of the joints that are left out.
-    """
-    above: dict[str, list[str]] = {}
-    for name, item in joints.items():
-        above.setdefault(item.joint.child, []).append(name)
-    dropped: set[str] = set()
-    for child, names in above.items():
-        if len(names) == 1:
-            continue
-        kept = max(names)
-        others = [name for name in names if name != kept]
-        dropped.update(others)
-        message = (
-            f"link '{child}' has two parents: it is the child of joint '{names[0]}' and of joint "
-            f"'{names[1]}'; '{kept}' counts, the last by name, and "
-            f"{' and '.join(map(repr, others))} {'are' if len(others) > 1 else 'is'} left out"
-        )
-        context.diagnostics.report("urdf.two-parents", message, joints[names[1]].tag.span)
-    return {name: item for name, item in joints.items() if name not in dropped}
 
 
 def _report_roots(

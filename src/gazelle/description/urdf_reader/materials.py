@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from gazelle.description.model import Material
 from gazelle.description.read_context import ReadContext
-from gazelle.description.urdf_reader.attributes import check_vocabulary
-from gazelle.description.urdf_reader.files import find_file
+from gazelle.description.urdf_reader.attributes import check_vocabulary, find_file
 from gazelle.description.xml import Tag, floats_from
 from gazelle.diagnostics import did_you_mean
 

@@ -10,8 +10,7 @@ from gazelle.description.model import Joint, Link, Model, Ros2ControlTag, Transm
 from gazelle.description.read_context import ReadContext
 from gazelle.description.urdf_reader.attributes import check_vocabulary, origin_of
 from gazelle.description.urdf_reader.gazebo_insertions import inserted_joints, with_insertions
-from gazelle.description.urdf_reader.gazebo_tags import apply_gazebo
-from gazelle.description.urdf_reader.gazebo_values import blocks_by_reference
+from gazelle.description.urdf_reader.gazebo_tags import apply_gazebo, blocks_by_reference
 from gazelle.description.urdf_reader.inertia import with_inertia
 from gazelle.description.urdf_reader.joints import ReadJoint, read_joint
 from gazelle.description.urdf_reader.kinematic_tree import (

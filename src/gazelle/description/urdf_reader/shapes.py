@@ -15,10 +15,10 @@ from gazelle.description.model import (
 from gazelle.description.read_context import ReadContext
 from gazelle.description.urdf_reader.attributes import (
     check_vocabulary,
+    find_file,
     number_attribute,
     vector_attribute,
 )
-from gazelle.description.urdf_reader.files import find_file
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import did_you_mean
 

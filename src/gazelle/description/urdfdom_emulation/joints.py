@@ -6,9 +6,14 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from gazelle.description.urdfdom_emulation.console import Console, Rejected
-from gazelle.description.urdfdom_emulation.poses import Origin, origin_of
 from gazelle.description.urdfdom_emulation.tinyxml import Element
-from gazelle.description.urdfdom_emulation.values import BadValueError, number_of, vector_of
+from gazelle.description.urdfdom_emulation.values import (
+    BadValueError,
+    Origin,
+    number_of,
+    origin_of,
+    vector_of,
+)
 
 __all__ = ["ReadJoint", "read_joint"]
 

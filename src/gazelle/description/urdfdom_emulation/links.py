@@ -8,12 +8,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gazelle.description.urdfdom_emulation.console import Console, Rejected
-from gazelle.description.urdfdom_emulation.poses import origin_of
 from gazelle.description.urdfdom_emulation.tinyxml import Element
 from gazelle.description.urdfdom_emulation.values import (
     BadValueError,
     check_colour,
     number_of,
+    origin_of,
     vector_of,
 )
 

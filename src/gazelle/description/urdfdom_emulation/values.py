@@ -1,14 +1,20 @@
-"""Numbers as urdfdom_headers 1.0 reads them, and its rotations."""
+"""Numbers, rotations and ``<origin>`` as urdfdom_headers 1.0 and urdfdom read them."""
 
 from __future__ import annotations
 
 import math
 import re
+from typing import NamedTuple
+
+from gazelle.description.urdfdom_emulation.console import Console
+from gazelle.description.urdfdom_emulation.tinyxml import Element
 
 __all__ = [
     "BadValueError",
+    "Origin",
     "check_colour",
     "number_of",
+    "origin_of",
     "quaternion_from_rpy",
     "rpy_from_quaternion",
     "vector_of",
@@ -16,7 +22,6 @@ __all__ = [
 
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
-
 # A C++ stream skips white space before a number and refuses everything behind it.
 _NUMBER = re.compile(r"[ \t\n\v\f\r]*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 # Beyond this sine of the pitch, roll and yaw turn about the same axis.
@@ -25,6 +30,13 @@ _POLE = 0.99999
 
 class BadValueError(ValueError):
     """A text is no number or vector; the message is urdfdom's own."""
+
+
+class Origin(NamedTuple):
+    """A place in metres and a turn."""
+
+    xyz_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    quat_xyzw: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
 
 
 def number_of(text: str) -> float:
@@ -98,3 +110,28 @@ def rpy_from_quaternion(quat_xyzw: Quaternion) -> Vector3:
     roll = math.atan2(2.0 * (y * z + w * x), ww - xx - yy + zz)
     yaw = math.atan2(2.0 * (x * y + w * z), ww + xx - yy - zz)
     return roll, math.asin(sine), yaw
+
+
+def origin_of(owner: Element, console: Console) -> Origin:
+    """Return the pose in an element's first ``<origin>``.
+
+    Raises:
+        Rejected: a vector in it is broken.
+    """
+    tag = owner.first("origin")
+    if tag is None:
+        return Origin()
+    origin = Origin()
+    if (xyz := tag.attributes.get("xyz")) is not None:
+        origin = origin._replace(xyz_m=_vector(xyz, 102, console))
+    if (rpy := tag.attributes.get("rpy")) is not None:
+        turn = quaternion_from_rpy(_vector(rpy, 114, console))
+        origin = origin._replace(quat_xyzw=turn)
+    return origin
+
+
+def _vector(text: str, line: int, console: Console) -> tuple[float, float, float]:
+    try:
+        return vector_of(text)
+    except BadValueError as mistake:
+        raise console.reject(("pose", line), str(mistake)) from None

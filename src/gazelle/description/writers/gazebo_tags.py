@@ -11,10 +11,10 @@ from gazelle.description.writers.output_files import Beside
 from gazelle.description.writers.sdf_elements import (
     add_light,
     add_material,
+    add_sensor,
     add_surface,
     is_script,
 )
-from gazelle.description.writers.sensor_text import add_sensor
 from gazelle.description.writers.unscoped_names import part_names
 from gazelle.description.writers.urdf_elements import is_plain
 from gazelle.description.writers.xml_markup import Markup, from_tag, number, numbers
@@ -63,6 +63,69 @@ def link_block(
     for light in link.lights:
         add_light(block, light, T_new_link @ light.T_parent_light)
     return block if block.children else None
+
+
+def joint_block(joint: Joint, diagnostics: Diagnostics) -> Markup | None:
+    """Return the block of a joint; None when URDF's own words say everything."""
+    block = Markup("gazebo", {"reference": joint.name})
+    axis = joint.axis
+    if axis is not None and (axis.spring_stiffness or axis.spring_reference):
+        block.add("springStiffness", number(axis.spring_stiffness))
+        block.add("springReference", number(axis.spring_reference))
+    for name, value in (("stopCfm", joint.limit_cfm), ("stopErp", joint.limit_erp)):
+        if value is not None:
+            block.add(name, number(value))
+    for name, flag in (
+        ("implicitSpringDamper", joint.implicit_spring_damper),
+        ("provideFeedback", joint.provide_feedback),
+        ("disableFixedJointLumping", joint.disable_fixed_joint_lumping),
+    ):
+        if flag:
+            block.add(name, "true")
+    soft = {"cfm": joint.cfm, "erp": joint.erp}
+    if any(value is not None for value in soft.values()):
+        ode = block.add("physics").add("ode")
+        for name, value in soft.items():
+            if value is not None:
+                ode.add(name, number(value))
+    for sensor in joint.sensors:
+        add_sensor(block, sensor, sensor.T_link_sensor, diagnostics)
+    return block if block.children else None
+
+
+def model_blocks(model: Model, diagnostics: Diagnostics) -> list[Markup]:
+    """Return the blocks about the whole robot, and its plug-ins."""
+    words = Markup("gazebo")
+    if model.static:
+        words.add("static", "true")
+    if model.self_collide:
+        words.add("self_collide", "true")
+    if not model.allow_auto_disable:
+        words.add("allow_auto_disable", "false")
+    blocks = [words] if words.children else []
+    parts = part_names(model)
+    for plugin in model.plugins:
+        block = Markup("gazebo")
+        if plugin.reference in parts:
+            block.attributes["reference"] = plugin.reference
+        elif plugin.reference:
+            message = (
+                f"plug-in '{plugin.name}' of the nested model '{plugin.reference}' becomes one of "
+                "the whole robot"
+            )
+            diagnostics.report("convert.approximated", message, plugin.span)
+        block.children.append(plugin_markup(plugin))
+        blocks.append(block)
+    return blocks
+
+
+def plugin_markup(plugin: PluginTag) -> Markup:
+    """Return the ``<plugin>`` as it was; one of before 2012 under today's name."""
+    markup = from_tag(plugin.parameters)
+    if markup.name != "plugin":
+        markup.name = "plugin"
+        markup.attributes = {"name": plugin.name, "filename": plugin.filename}
+    return markup
 
 
 def _add_looks(block: Markup, link: Link, beside: Beside, diagnostics: Diagnostics) -> None:
@@ -131,66 +194,3 @@ def _add_contact(block: Markup, link: Link) -> None:
         block.add("maxContacts", number(surface.max_contacts))
     if link.collisions[0].laser_retro:
         block.add("laserRetro", number(link.collisions[0].laser_retro))
-
-
-def joint_block(joint: Joint, diagnostics: Diagnostics) -> Markup | None:
-    """Return the block of a joint; None when URDF's own words say everything."""
-    block = Markup("gazebo", {"reference": joint.name})
-    axis = joint.axis
-    if axis is not None and (axis.spring_stiffness or axis.spring_reference):
-        block.add("springStiffness", number(axis.spring_stiffness))
-        block.add("springReference", number(axis.spring_reference))
-    for name, value in (("stopCfm", joint.limit_cfm), ("stopErp", joint.limit_erp)):
-        if value is not None:
-            block.add(name, number(value))
-    for name, flag in (
-        ("implicitSpringDamper", joint.implicit_spring_damper),
-        ("provideFeedback", joint.provide_feedback),
-        ("disableFixedJointLumping", joint.disable_fixed_joint_lumping),
-    ):
-        if flag:
-            block.add(name, "true")
-    soft = {"cfm": joint.cfm, "erp": joint.erp}
-    if any(value is not None for value in soft.values()):
-        ode = block.add("physics").add("ode")
-        for name, value in soft.items():
-            if value is not None:
-                ode.add(name, number(value))
-    for sensor in joint.sensors:
-        add_sensor(block, sensor, sensor.T_link_sensor, diagnostics)
-    return block if block.children else None
-
-
-def model_blocks(model: Model, diagnostics: Diagnostics) -> list[Markup]:
-    """Return the blocks about the whole robot, and its plug-ins."""
-    words = Markup("gazebo")
-    if model.static:
-        words.add("static", "true")
-    if model.self_collide:
-        words.add("self_collide", "true")
-    if not model.allow_auto_disable:
-        words.add("allow_auto_disable", "false")
-    blocks = [words] if words.children else []
-    parts = part_names(model)
-    for plugin in model.plugins:
-        block = Markup("gazebo")
-        if plugin.reference in parts:
-            block.attributes["reference"] = plugin.reference
-        elif plugin.reference:
-            message = (
-                f"plug-in '{plugin.name}' of the nested model '{plugin.reference}' becomes one of "
-                "the whole robot"
-            )
-            diagnostics.report("convert.approximated", message, plugin.span)
-        block.children.append(plugin_markup(plugin))
-        blocks.append(block)
-    return blocks
-
-
-def plugin_markup(plugin: PluginTag) -> Markup:
-    """Return the ``<plugin>`` as it was; one of before 2012 under today's name."""
-    markup = from_tag(plugin.parameters)
-    if markup.name != "plugin":
-        markup.name = "plugin"
-        markup.attributes = {"name": plugin.name, "filename": plugin.filename}
-    return markup

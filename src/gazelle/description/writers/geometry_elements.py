@@ -55,6 +55,8 @@ __all__ = [
     "with_surfaces_apart",
 ]
 
+_ONES = (1.0, 1.0, 1.0)
+
 
 def with_surfaces_apart(model: Model, diagnostics: Diagnostics) -> Model:
     """Return the model with links whose collisions all have the same surface.
@@ -83,28 +85,6 @@ def with_surfaces_apart(model: Model, diagnostics: Diagnostics) -> Model:
             )
             _report(link, name, group, diagnostics)
     return replace(model, links=tuple(links), joints=tuple(joints))
-
-
-def _shell(link: Link, name: str, collisions: list[Collision]) -> Link:
-    return Link(
-        name,
-        link.T_model_link,
-        collisions=tuple(collisions),
-        self_collide=link.self_collide,
-        span=link.span,
-    )
-
-
-def _report(link: Link, name: str, group: list[Collision], diagnostics: Diagnostics) -> None:
-    shown = ", ".join(f"'{item.name}'" for item in group)
-    message = (
-        f"collision {shown} of link '{link.name}' touches in another way than the link's first "
-        f"one; it is on a link of its own, '{name}', for URDF says this for whole links"
-    )
-    diagnostics.report("convert.approximated", message, group[0].span)
-
-
-_ONES = (1.0, 1.0, 1.0)
 
 
 def add_urdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
@@ -144,16 +124,6 @@ def urdf_pieces(shape: Shape, *, has_capsules: bool) -> tuple[tuple[str, Shape, 
             return ()
         case _:
             assert_never(shape)
-
-
-def _capsule_pieces(shape: Capsule) -> tuple[tuple[str, Shape, Pose], ...]:
-    if shape.length_m <= 0:
-        return (("", Sphere(shape.radius_m), Pose()),)
-    ends = (
-        (word, Sphere(shape.radius_m), Pose((0.0, 0.0, side * shape.length_m / 2)))
-        for word, side in (("_top", 1.0), ("_bottom", -1.0))
-    )
-    return (("", Cylinder(shape.radius_m, shape.length_m), Pose()), *ends)
 
 
 def as_mesh(shape: Shape) -> tuple[str, bytes] | None:
@@ -228,6 +198,35 @@ def add_sdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
                 line.add("height", number(height))
         case _:
             assert_never(shape)
+
+
+def _shell(link: Link, name: str, collisions: list[Collision]) -> Link:
+    return Link(
+        name,
+        link.T_model_link,
+        collisions=tuple(collisions),
+        self_collide=link.self_collide,
+        span=link.span,
+    )
+
+
+def _report(link: Link, name: str, group: list[Collision], diagnostics: Diagnostics) -> None:
+    shown = ", ".join(f"'{item.name}'" for item in group)
+    message = (
+        f"collision {shown} of link '{link.name}' touches in another way than the link's first "
+        f"one; it is on a link of its own, '{name}', for URDF says this for whole links"
+    )
+    diagnostics.report("convert.approximated", message, group[0].span)
+
+
+def _capsule_pieces(shape: Capsule) -> tuple[tuple[str, Shape, Pose], ...]:
+    if shape.length_m <= 0:
+        return (("", Sphere(shape.radius_m), Pose()),)
+    ends = (
+        (word, Sphere(shape.radius_m), Pose((0.0, 0.0, side * shape.length_m / 2)))
+        for word, side in (("_top", 1.0), ("_bottom", -1.0))
+    )
+    return (("", Cylinder(shape.radius_m, shape.length_m), Pose()), *ends)
 
 
 def _lengths(shape: Solid) -> Iterator[tuple[str, str]]:

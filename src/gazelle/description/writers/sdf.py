@@ -20,8 +20,13 @@ from gazelle.description.sdformat_emulation import Release
 from gazelle.description.writers.gazebo_tags import plugin_markup
 from gazelle.description.writers.geometry_elements import add_sdf_geometry
 from gazelle.description.writers.output_files import Beside, Converted
-from gazelle.description.writers.sdf_elements import add_light, add_material, add_surface
-from gazelle.description.writers.sensor_text import add_pose, add_sensor
+from gazelle.description.writers.sdf_elements import (
+    add_light,
+    add_material,
+    add_pose,
+    add_sensor,
+    add_surface,
+)
 from gazelle.description.writers.unscoped_names import free_name, with_plain_names
 from gazelle.description.writers.xml_markup import (
     Markup,

@@ -15,8 +15,12 @@ from gazelle.description.writers.unscoped_names import (
     part_names,
     with_plain_names,
 )
-from gazelle.description.writers.urdf_elements import LinkWriter, add_origin
-from gazelle.description.writers.urdf_joints import add_joint, add_transmission
+from gazelle.description.writers.urdf_elements import (
+    LinkWriter,
+    add_joint,
+    add_origin,
+    add_transmission,
+)
 from gazelle.description.writers.xml_markup import Markup, from_tag, head_comments, report_addresses
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import IDENTITY_POSE, Pose

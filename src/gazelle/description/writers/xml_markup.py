@@ -25,38 +25,8 @@ __all__ = [
     "xyz_rpy",
 ]
 
-
 _MAX = 40
-
-
-def head_comments(source: str, found: Diagnostics) -> list[str]:
-    """Return comments: where the file comes from, and what was lost or said differently.
-
-    Args:
-        source: name of the file converted, or of its format.
-        found: the conversion's findings.
-    """
-    comments = [f"Converted by gazelle convert from {source}."]
-    lost = [item.message for item in found if item.severity >= Severity.WARNING]
-    changed = [item.message for item in found if item.severity < Severity.WARNING]
-    for title, messages in (("Not in this file:", lost), ("Said differently:", changed)):
-        shown = [f"- {message}" for message in messages[:_MAX]]
-        if len(messages) > _MAX:
-            shown.append(f"- and {len(messages) - _MAX} more")
-        if shown:
-            comments.append("\n".join([title, *shown]))
-    return comments
-
-
-def report_addresses(beside: Beside, diagnostics: Diagnostics) -> None:
-    """Report files that must be copied to where their new address leads."""
-    for address, path in beside.to_copy.items():
-        message = f"'{path}' is named {address} and is not there yet"
-        diagnostics.report("convert.file-address", message)
-
-
 _WIDTH = 96
-
 _DECIMALS = 12
 
 
@@ -84,6 +54,32 @@ class Markup:
         lines = ['<?xml version="1.0"?>']
         lines += [line for text in head for line in _comment_lines(text, "")]
         return "\n".join([*lines, *_lines(self, ""), ""])
+
+
+def head_comments(source: str, found: Diagnostics) -> list[str]:
+    """Return comments: where the file comes from, and what was lost or said differently.
+
+    Args:
+        source: name of the file converted, or of its format.
+        found: the conversion's findings.
+    """
+    comments = [f"Converted by gazelle convert from {source}."]
+    lost = [item.message for item in found if item.severity >= Severity.WARNING]
+    changed = [item.message for item in found if item.severity < Severity.WARNING]
+    for title, messages in (("Not in this file:", lost), ("Said differently:", changed)):
+        shown = [f"- {message}" for message in messages[:_MAX]]
+        if len(messages) > _MAX:
+            shown.append(f"- and {len(messages) - _MAX} more")
+        if shown:
+            comments.append("\n".join([title, *shown]))
+    return comments
+
+
+def report_addresses(beside: Beside, diagnostics: Diagnostics) -> None:
+    """Report files that must be copied to where their new address leads."""
+    for address, path in beside.to_copy.items():
+        message = f"'{path}' is named {address} and is not there yet"
+        diagnostics.report("convert.file-address", message)
 
 
 def number(value: float) -> str:
@@ -124,6 +120,13 @@ def xyz_rpy(pose: Pose) -> tuple[str, str]:
     return numbers(map(tidy, pose.position_m)), numbers(_short_rpy(pose))
 
 
+def from_tag(tag: Tag) -> Markup:
+    """Return an element of a file as it was, text in several lines with its indentation."""
+    lines = tag.raw_text.strip("\n").rstrip() if not tag.children else ""
+    text = tag.raw_text.rstrip(" ") if "\n" in lines else tag.text
+    return Markup(tag.name, dict(tag.attributes), text, [from_tag(child) for child in tag.children])
+
+
 def _short_rpy(pose: Pose) -> tuple[float, float, float]:
     """Return the shortest angles whose rotation is the same; at the poles noise is large."""
     roll, pitch, yaw = exact_rpy(pose)
@@ -135,13 +138,6 @@ def _short_rpy(pose: Pose) -> tuple[float, float, float]:
         if away < 1e-13:
             return short
     return tidy(roll), tidy(pitch), tidy(yaw)
-
-
-def from_tag(tag: Tag) -> Markup:
-    """Return an element of a file as it was, text in several lines with its indentation."""
-    lines = tag.raw_text.strip("\n").rstrip() if not tag.children else ""
-    text = tag.raw_text.rstrip(" ") if "\n" in lines else tag.text
-    return Markup(tag.name, dict(tag.attributes), text, [from_tag(child) for child in tag.children])
 
 
 def _lines(markup: Markup, indent: str) -> list[str]:

@@ -28,17 +28,6 @@ class EntityRefusedError(Exception):
         super().__init__(f"entity '{name}' is refused")
 
 
-class _Stamp(NamedTuple):
-    """What is stored with an element: the start tag's place, and the calls that copied it."""
-
-    base: SourceSpan
-    via: tuple[SourceSpan, ...]
-
-
-def _ignored() -> None:
-    """Hear of a copy."""
-
-
 class Tracker:
     """Parses files into DOM documents and stamps every element with its place.
 
@@ -121,6 +110,17 @@ def node_in(frame: FrameType) -> Any:
         if isinstance(found, minidom.Node):
             return found
     return None
+
+
+class _Stamp(NamedTuple):
+    """What is stored with an element: the start tag's place, and the calls that copied it."""
+
+    base: SourceSpan
+    via: tuple[SourceSpan, ...]
+
+
+def _ignored() -> None:
+    """Hear of a copy."""
 
 
 class _Builder(expatbuilder.ExpatBuilderNS):

@@ -1,20 +1,54 @@
-"""What was being worked on when the library failed, read from the error's frames."""
+"""What was being worked on when the library failed, read from the error's frames.
+
+`Finding` is what is made of it, with the words that explanations share.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from types import FrameType, ModuleType, TracebackType
-from typing import Any
+from typing import Any, NamedTuple
 
 from gazelle.description.xacro.dom import node_in, place_of
 from gazelle.description.xacro.library_run import Session, causes_of
+from gazelle.description.xacro.rerun_patches import UNKNOWN
 from gazelle.description.xml import attribute_holding, attribute_span, text_span
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["Failure", "failure_of"]
+__all__ = [
+    "Failure",
+    "Finding",
+    "failure_of",
+    "include_line",
+    "is_below",
+    "known_keys",
+    "listed",
+    "one_line",
+    "short_place",
+]
 
+_MAX = 12
 _MAX_DEPTH = 12
+
+
+class Finding(NamedTuple):
+    """A failure in words.
+
+    Attributes:
+        code: of the catalogue.
+        message: what is wrong.
+        span: where.
+        fix: what to do, the catalogue's remedy when empty.
+        subject: the name, macro, argument or file it is about.
+    """
+
+    code: str
+    message: str
+    span: SourceSpan
+    fix: str = ""
+    subject: str = ""
 
 
 @dataclass
@@ -79,6 +113,43 @@ class Failure:
     def cause(self, *types: type[BaseException]) -> Any:
         """Return the first cause of these types, None when there is none."""
         return next((item for item in self.causes if isinstance(item, types)), None)
+
+
+def one_line(text: str) -> str:
+    """Return a text with all white space as single spaces."""
+    return " ".join(text.split())
+
+
+def listed(names: Iterable[str], nothing: str = "none") -> str:
+    """Return names with commas; a long list ends with how many more there are."""
+    found = list(dict.fromkeys(names))
+    more = f" and {len(found) - _MAX} more" if len(found) > _MAX else ""
+    return ", ".join(found[:_MAX]) + more if found else nothing
+
+
+def short_place(span: SourceSpan) -> str:
+    """Return ``file:line`` with the file's name alone."""
+    return f"{os.path.basename(span.file)}:{span.line}"  # noqa: PTH119
+
+
+def is_below(span: SourceSpan, other: SourceSpan) -> bool:
+    """Tell whether a place comes after another one of the same file."""
+    return span.file == other.file and (span.line, span.column) > (other.line, other.column)
+
+
+def include_line(file: str, reader: str) -> str:
+    """Return the element by which one file includes another."""
+    folder = os.path.dirname(os.path.abspath(reader))  # noqa: PTH100, PTH120
+    return f'<xacro:include filename="{os.path.relpath(file, folder)}"/>'
+
+
+def known_keys(table: object) -> tuple[str, ...]:
+    """Return the names in one of the library's tables and those around it, nearest first."""
+    names: list[str] = []
+    while isinstance(table, dict):
+        names += [str(name) for name, value in dict.items(table) if value is not UNKNOWN]
+        table = getattr(table, "parent", None)
+    return tuple(dict.fromkeys(names))
 
 
 def failure_of(error: Exception, library: ModuleType, session: Session, file: str) -> Failure:

@@ -36,7 +36,6 @@ from gazelle.workspace.installed_files import installed_source
 __all__ = ["Console", "Session", "causes_of", "run_session"]
 
 _LOCK = threading.RLock()
-
 Console = Callable[[str], None]
 """Takes what the official program prints to standard error, piece by piece."""
 
@@ -128,6 +127,18 @@ def run_session(
         naming = _swapped_items(symbols, unknown)
         with _swapped(changes), finding, naming, _deeper_recursion():
             yield xacro, session
+
+
+def causes_of(error: BaseException) -> Iterator[BaseException]:
+    """Yield an error and what it wraps, outermost first."""
+    seen: set[int] = set()
+    queue: list[Any] = [error]
+    while queue:
+        item = queue.pop(0)
+        if isinstance(item, BaseException) and id(item) not in seen:
+            seen.add(id(item))
+            yield item
+            queue += [getattr(item, "exc", None), item.__cause__, item.__context__]
 
 
 def _replacements(
@@ -342,18 +353,6 @@ def _lenient(function: Callable[..., Any], session: Session) -> Callable[..., An
             return []
 
     return files
-
-
-def causes_of(error: BaseException) -> Iterator[BaseException]:
-    """Yield an error and what it wraps, outermost first."""
-    seen: set[int] = set()
-    queue: list[Any] = [error]
-    while queue:
-        item = queue.pop(0)
-        if isinstance(item, BaseException) and id(item) not in seen:
-            seen.add(id(item))
-            yield item
-            queue += [getattr(item, "exc", None), item.__cause__, item.__context__]
 
 
 def _printer(session: Session, console: Console | None) -> Callable[..., None]:

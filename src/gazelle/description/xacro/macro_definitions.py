@@ -41,20 +41,6 @@ def definitions_in(files: Iterable[str]) -> tuple[Definition, ...]:
     return tuple(found)
 
 
-def _definitions(tag: Tag, macro: str) -> Iterator[Definition]:
-    for child in tag.children:
-        kind = child.name.removeprefix(_PREFIX)
-        name = child.attributes.get("name", "")
-        if child.name.startswith(_PREFIX) and kind in {"property", "arg", "macro"}:
-            yield Definition(kind, name, child.span, macro)
-        inside = macro
-        if child.name == f"{_PREFIX}macro":
-            inside = name
-            for parameter in parameters_of(child.attributes.get("params", "")):
-                yield Definition("parameter", parameter, child.span, name)
-        yield from _definitions(child, inside)
-
-
 def parameters_of(text: str) -> list[str]:
     """Return the names in ``params="a b:=1 *block"``, without the stars."""
     from xacro import parse_macro_arg
@@ -72,3 +58,17 @@ def files_beside(file: str, known: Iterable[str]) -> list[str]:
     folder = Path(file).resolve().parent
     near = sorted(folder.glob("*.xacro")) + sorted(folder.glob("*/*.xacro"))
     return [str(path) for path in near[:_MAX_FILES] if path not in seen]
+
+
+def _definitions(tag: Tag, macro: str) -> Iterator[Definition]:
+    for child in tag.children:
+        kind = child.name.removeprefix(_PREFIX)
+        name = child.attributes.get("name", "")
+        if child.name.startswith(_PREFIX) and kind in {"property", "arg", "macro"}:
+            yield Definition(kind, name, child.span, macro)
+        inside = macro
+        if child.name == f"{_PREFIX}macro":
+            inside = name
+            for parameter in parameters_of(child.attributes.get("params", "")):
+                yield Definition("parameter", parameter, child.span, name)
+        yield from _definitions(child, inside)

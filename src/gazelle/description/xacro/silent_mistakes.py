@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from gazelle.description.xacro.error_explanations.documents import NAMESPACE
+from gazelle.description.xacro.error_explanations.files import NAMESPACE
 from gazelle.description.xacro.library_run import Session
 from gazelle.description.xacro.macro_definitions import definitions_in
 from gazelle.description.xacro.unprefixed_tags import NEEDED_ATTRIBUTES, OF_ROBOTS

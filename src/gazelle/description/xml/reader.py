@@ -17,7 +17,6 @@ _MAX_ELEMENTS = 500_000
 _MAX_ATTRIBUTES = 1000
 # Readers go down element by element; Python itself allows a thousand calls.
 _MAX_DEPTH = 100
-
 _FORGIVEN = "this is no XML: '--' in a comment, a bare '&' or something before <?xml …?>"
 _COMMENT = re.compile(rb"<!--(.*?)-->", re.DOTALL)
 _LATE_DECLARATION = re.compile(rb"(?<=\S)\s*<\?xml\s[^>]{0,200}\?>")
@@ -82,21 +81,6 @@ def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | N
     return None
 
 
-def _parsed_or_repaired(
-    data: bytes, encoding: str | None, file: str, diagnostics: Diagnostics
-) -> Tag | None:
-    try:
-        return _parsed(data, encoding, file)
-    except expat.ExpatError as error:
-        repaired = _repaired(data)
-        if repaired == data:
-            raise
-        root = _parsed(repaired, encoding, file)
-        span = SourceSpan(file, error.lineno, error.offset + 1)
-        diagnostics.report("xml.lenient", _FORGIVEN, span)
-        return root
-
-
 def too_much_in(data: bytes) -> str:
     """Return why a document is too large to be read, empty when it is not.
 
@@ -111,6 +95,21 @@ def too_much_in(data: bytes) -> str:
         if count > most:
             return f"the document has {count} elements, the limit is {most}"
     return ""
+
+
+def _parsed_or_repaired(
+    data: bytes, encoding: str | None, file: str, diagnostics: Diagnostics
+) -> Tag | None:
+    try:
+        return _parsed(data, encoding, file)
+    except expat.ExpatError as error:
+        repaired = _repaired(data)
+        if repaired == data:
+            raise
+        root = _parsed(repaired, encoding, file)
+        span = SourceSpan(file, error.lineno, error.offset + 1)
+        diagnostics.report("xml.lenient", _FORGIVEN, span)
+        return root
 
 
 def _parsed(data: bytes, encoding: str | None, file: str) -> Tag | None:

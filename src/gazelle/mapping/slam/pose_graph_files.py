@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.documents.files import refused_version
 from gazelle.documents.npz_files import read_arrays
-from gazelle.documents.versions import refused_version
 from gazelle.errors import GazelleError
 from gazelle.mapping.laser_scan import Scan
 from gazelle.mapping.pose_graph.constraints import Edges, doubtful

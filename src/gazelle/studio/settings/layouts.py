@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote, unquote
 
-from gazelle.documents.versions import refused_version
+from gazelle.documents.files import refused_version
 from gazelle.folders import config_folder
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.request_params import Params

@@ -8,8 +8,8 @@ from gazelle.description.sdformat_emulation.gz_sdf.document_reader import (
     read_document,
     read_document_file,
 )
+from gazelle.description.sdformat_emulation.gz_sdf.element_reader import Document
 from gazelle.description.sdformat_emulation.gz_sdf.printer import to_text
-from gazelle.description.sdformat_emulation.gz_sdf.records import Document
 
 __all__ = [
     "Console",

@@ -9,86 +9,6 @@ from gazelle.description.sdformat_emulation.release import Release
 
 __all__ = ["Code", "Console", "SdfError", "error_line"]
 
-
-class Code:
-    """Numbers of errors, as printed behind ``Error Code``."""
-
-    FILE_READ = 1
-    DUPLICATE_NAME = 2
-    RESERVED_NAME = 3
-    ATTRIBUTE_MISSING = 4
-    ATTRIBUTE_INVALID = 5
-    ATTRIBUTE_INCORRECT_TYPE = 7
-    ELEMENT_MISSING = 8
-    ELEMENT_INVALID = 9
-    ELEMENT_DEPRECATED = 10
-    ELEMENT_INCORRECT_TYPE = 11
-    URI_INVALID = 12
-    URI_LOOKUP = 13
-    DIRECTORY_NONEXISTENT = 14
-    MODEL_CANONICAL_LINK_INVALID = 15
-    MODEL_WITHOUT_LINK = 16
-    LINK_INERTIA_INVALID = 18
-    JOINT_CHILD_LINK_INVALID = 19
-    JOINT_PARENT_LINK_INVALID = 20
-    JOINT_PARENT_SAME_AS_CHILD = 21
-    FRAME_ATTACHED_TO_INVALID = 22
-    FRAME_ATTACHED_TO_CYCLE = 23
-    FRAME_ATTACHED_TO_GRAPH_ERROR = 24
-    POSE_RELATIVE_TO_INVALID = 25
-    POSE_RELATIVE_TO_CYCLE = 26
-    POSE_RELATIVE_TO_GRAPH_ERROR = 27
-    MODEL_PLACEMENT_FRAME_INVALID = 29
-    MERGE_INCLUDE_UNSUPPORTED = 31
-
-
-class SdfError(NamedTuple):
-    """An error with its number and, where sdformat knows it, its place.
-
-    Attributes:
-        code: one of `Code`.
-        message: may end with a line break, as some of sdformat's do.
-        xml_path: such as ``/sdf/model[@name="m"]``.
-        file: path of the file.
-        line: counted from 1; 0 when it is not known.
-    """
-
-    code: int
-    message: str
-    xml_path: str = ""
-    file: str = ""
-    line: int = 0
-
-    def __str__(self) -> str:
-        place = self.xml_path
-        place += f":{self.file}" if self.file else ""
-        place += f":L{self.line}" if self.line else ""
-        return (
-            f"Error Code {self.code}: "
-            + (f"[{place}]: " if place else "")
-            + (f"Msg: {self.message}")
-        )
-
-
-# Codes of release 12 whose number sdformat 14 gives to an error of its own.
-_NEW_IN_14 = (Code.URI_INVALID, 28)
-
-
-def error_line(error: SdfError, release: Release) -> str:
-    """Return the line that a release prints for an error.
-
-    Release 9 prints no places, and its numbers have no `Code.ATTRIBUTE_INCORRECT_TYPE`; 14 has two
-    more in between.
-    """
-    if release is Release.V14:
-        more = sum(error.code >= first for first in _NEW_IN_14)
-        return str(error._replace(code=error.code + more))
-    if release.is_new:
-        return str(error)
-    number = error.code - (error.code > Code.ATTRIBUTE_INCORRECT_TYPE)
-    return f"Error Code {number} Msg: {error.message}"
-
-
 # Lines of sdformat 9.3 and 12.3 that a message comes from: both print them.
 _PLACES: dict[str, tuple[str, int, int]] = {
     "find-file": ("parser.cc", 386, 701),
@@ -141,6 +61,70 @@ _PLACES: dict[str, tuple[str, int, int]] = {
 _UTILS_MOVED = 3
 
 
+class Code:
+    """Numbers of errors, as printed behind ``Error Code``."""
+
+    FILE_READ = 1
+    DUPLICATE_NAME = 2
+    RESERVED_NAME = 3
+    ATTRIBUTE_MISSING = 4
+    ATTRIBUTE_INVALID = 5
+    ATTRIBUTE_INCORRECT_TYPE = 7
+    ELEMENT_MISSING = 8
+    ELEMENT_INVALID = 9
+    ELEMENT_DEPRECATED = 10
+    ELEMENT_INCORRECT_TYPE = 11
+    URI_INVALID = 12
+    URI_LOOKUP = 13
+    DIRECTORY_NONEXISTENT = 14
+    MODEL_CANONICAL_LINK_INVALID = 15
+    MODEL_WITHOUT_LINK = 16
+    LINK_INERTIA_INVALID = 18
+    JOINT_CHILD_LINK_INVALID = 19
+    JOINT_PARENT_LINK_INVALID = 20
+    JOINT_PARENT_SAME_AS_CHILD = 21
+    FRAME_ATTACHED_TO_INVALID = 22
+    FRAME_ATTACHED_TO_CYCLE = 23
+    FRAME_ATTACHED_TO_GRAPH_ERROR = 24
+    POSE_RELATIVE_TO_INVALID = 25
+    POSE_RELATIVE_TO_CYCLE = 26
+    POSE_RELATIVE_TO_GRAPH_ERROR = 27
+    MODEL_PLACEMENT_FRAME_INVALID = 29
+    MERGE_INCLUDE_UNSUPPORTED = 31
+
+
+# Codes of release 12 whose number sdformat 14 gives to an error of its own.
+_NEW_IN_14 = (Code.URI_INVALID, 28)
+
+
+class SdfError(NamedTuple):
+    """An error with its number and, where sdformat knows it, its place.
+
+    Attributes:
+        code: one of `Code`.
+        message: may end with a line break, as some of sdformat's do.
+        xml_path: such as ``/sdf/model[@name="m"]``.
+        file: path of the file.
+        line: counted from 1; 0 when it is not known.
+    """
+
+    code: int
+    message: str
+    xml_path: str = ""
+    file: str = ""
+    line: int = 0
+
+    def __str__(self) -> str:
+        place = self.xml_path
+        place += f":{self.file}" if self.file else ""
+        place += f":L{self.line}" if self.line else ""
+        return (
+            f"Error Code {self.code}: "
+            + (f"[{place}]: " if place else "")
+            + (f"Msg: {self.message}")
+        )
+
+
 @dataclass(slots=True)
 class Console:
     """The terminal of one run.
@@ -171,3 +155,18 @@ class Console:
         if self.release is Release.V14 and file == "Utils.cc":
             line += _UTILS_MOVED
         self.lines.append(f"\033[1;{label} [{file}:{line}]\033[0m {text}")
+
+
+def error_line(error: SdfError, release: Release) -> str:
+    """Return the line that a release prints for an error.
+
+    Release 9 prints no places, and its numbers have no `Code.ATTRIBUTE_INCORRECT_TYPE`; 14 has two
+    more in between.
+    """
+    if release is Release.V14:
+        more = sum(error.code >= first for first in _NEW_IN_14)
+        return str(error._replace(code=error.code + more))
+    if release.is_new:
+        return str(error)
+    number = error.code - (error.code > Code.ATTRIBUTE_INCORRECT_TYPE)
+    return f"Error Code {number} Msg: {error.message}"

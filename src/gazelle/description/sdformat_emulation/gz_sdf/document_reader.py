@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from gazelle.description.sdformat_emulation.element import SdfElement
+from gazelle.description.sdformat_emulation.element import SdfElement, raw_element
 from gazelle.description.sdformat_emulation.gz_sdf.console import (
     Code,
     Console,
     SdfError,
     error_line,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.declarations import declaration_problem
 from gazelle.description.sdformat_emulation.gz_sdf.element_reader import (
+    Document,
     Include,
     Place,
     Reading,
@@ -23,8 +24,6 @@ from gazelle.description.sdformat_emulation.gz_sdf.element_reader import (
 from gazelle.description.sdformat_emulation.gz_sdf.includes import read_include
 from gazelle.description.sdformat_emulation.gz_sdf.model_config import model_file, version_numbers
 from gazelle.description.sdformat_emulation.gz_sdf.printer import to_text
-from gazelle.description.sdformat_emulation.gz_sdf.raw import raw_element
-from gazelle.description.sdformat_emulation.gz_sdf.records import Document
 from gazelle.description.sdformat_emulation.gz_sdf.specification import specification
 from gazelle.description.sdformat_emulation.gz_sdf.version_upgrades import upgrade
 from gazelle.description.sdformat_emulation.parser_urdf import urdf_to_sdf
@@ -34,15 +33,37 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.documents import TEXT_BYTES, read_limited
 from gazelle.documents.files import exists, is_folder
 
-__all__ = ["normalised", "read_document", "read_document_file"]
+__all__ = ["declaration_problem", "normalised", "read_document", "read_document_file"]
 
+# What may hold "<?" without being one, and what is one; the longest first.
+_PIECES = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?(?P<value>.*?)\?>|<", re.DOTALL)
 _COLONS_FORBIDDEN = (1, 8)
 _NO_ROBOT = (
     "Error:   Could not find the 'robot' element in the xml file\n"
     "         at line 109 in ./urdf_parser/src/model.cpp"
 )
-
 Find = Callable[[str], Path | None]
+
+
+def declaration_problem(data: str | bytes) -> str:
+    """Return what sdformat 12 prints of a declaration that stands too late, empty for none.
+
+    TinyXML-2 (``XMLNode::ParseDeep``) takes declarations before anything else, comments included;
+    TinyXML 1, which sdformat 9 uses, takes them anywhere.
+    """
+    text = data if isinstance(data, str) else data.decode("utf-8", "replace")
+    is_start = True
+    for piece in _PIECES.finditer(text):
+        value = piece["value"]
+        if value is None:
+            is_start = False
+        elif not is_start:
+            line = text.count("\n", 0, piece.start()) + 1
+            return (
+                f"Error=XML_ERROR_PARSING_DECLARATION ErrorID=11 (0xb) Line number={line}: "
+                f"XMLDeclaration value={value}"
+            )
+    return ""
 
 
 def read_document_file(word: str, *, release: Release, find: Find) -> Document:

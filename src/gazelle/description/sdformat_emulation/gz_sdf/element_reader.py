@@ -16,6 +16,7 @@ from gazelle.description.sdformat_emulation.gz_sdf.values import (
 from gazelle.description.sdformat_emulation.release import Release
 
 __all__ = [
+    "Document",
     "Include",
     "Place",
     "Reading",
@@ -34,6 +35,28 @@ _FRAME_REFERENCES = frozenset(
         ("custom_rpy", "parent_frame"),
     }
 )
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """What a release makes of a document.
+
+    Attributes:
+        root: ``<sdf>`` of the release's version, every value checked, everything required there;
+            None when sdformat refuses the document.
+        original_version: version that the document says; empty when it says none.
+        errors: with numbers, as ``readFile`` returns them.
+        console: lines that the library writes meanwhile.
+        included_from: the ``<include>`` that an element came from, by identity of the element.
+        versions: version of the file that an included element came from, by identity.
+    """
+
+    root: SdfElement | None
+    original_version: str
+    errors: tuple[SdfError, ...]
+    console: Console
+    included_from: dict[int, SdfElement] = field(default_factory=dict)
+    versions: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,8 +9,11 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from gazelle.description.sdformat_emulation.gz_sdf.console import Console
-from gazelle.description.sdformat_emulation.gz_sdf.rotations import euler_of, quaternion_of
 from gazelle.description.sdformat_emulation.gz_sdf.specification import Parameter
+from gazelle.description.sdformat_emulation.ignition_math import (
+    euler_from_quat_wxyz,
+    quat_wxyz_from_euler,
+)
 from gazelle.description.sdformat_emulation.release import Release
 from gazelle.geometry import Pose
 
@@ -112,7 +115,7 @@ def pose_of(text: str, notation: PoseNotation = _RADIANS) -> Pose:
         qx, qy, qz, qw = numbers[3:]
     else:
         angles = [math.radians(value) if notation.degrees else value for value in numbers[3:]]
-        qw, qx, qy, qz = quaternion_of(*angles)
+        qw, qx, qy, qz = quat_wxyz_from_euler(*angles)
     return Pose((x, y, z), (qx, qy, qz, qw))
 
 
@@ -139,7 +142,7 @@ def printed_pose(pose: Pose, *, signed_zero: bool = False, degrees: bool = False
         degrees: angles in degrees instead of radians, three spaces before them.
     """
     x, y, z, w = pose.quat_xyzw
-    angles = euler_of((w, x, y, z))
+    angles = euler_from_quat_wxyz((w, x, y, z))
     numbers = [*map(_rounded, pose.position_m)]
     if degrees:
         turned = [_short(math.degrees(value)) for value in angles]

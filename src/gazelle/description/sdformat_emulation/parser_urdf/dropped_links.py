@@ -6,7 +6,12 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from gazelle.description.sdformat_emulation.parser_urdf.console import Console
-from gazelle.description.sdformat_emulation.parser_urdf.conversion import accepted_robot
+from gazelle.description.sdformat_emulation.parser_urdf.conversion import (
+    Fate,
+    Visit,
+    accepted_robot,
+    visits,
+)
 from gazelle.description.sdformat_emulation.parser_urdf.cpp_numbers import NumberCrashError
 from gazelle.description.sdformat_emulation.parser_urdf.extensions import (
     Extensions,
@@ -16,7 +21,6 @@ from gazelle.description.sdformat_emulation.parser_urdf.lumping import (
     EndlessRobotError,
     lump_fixed_joints,
 )
-from gazelle.description.sdformat_emulation.parser_urdf.model import Fate, Visit, visits
 from gazelle.description.sdformat_emulation.parser_urdf.robot import Link, Robot
 from gazelle.description.sdformat_emulation.release import Release
 from gazelle.description.xml import Tag

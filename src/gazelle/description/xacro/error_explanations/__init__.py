@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from gazelle.description.xacro.error_explanations.calls import explain_call
-from gazelle.description.xacro.error_explanations.documents import explain_document
-from gazelle.description.xacro.error_explanations.elements import explain_element
-from gazelle.description.xacro.error_explanations.expressions import explain_expression
-from gazelle.description.xacro.error_explanations.files import explain_file
-from gazelle.description.xacro.error_explanations.finding import Finding, one_line
-from gazelle.description.xacro.error_explanations.limits import explain_limit
-from gazelle.description.xacro.error_explanations.names import explain_name
-from gazelle.description.xacro.error_explanations.substitutions import explain_substitution
-from gazelle.description.xacro.failure import Failure
+from gazelle.description.xacro.error_explanations.elements import (
+    explain_element,
+    explain_substitution,
+)
+from gazelle.description.xacro.error_explanations.expressions import (
+    explain_expression,
+    explain_name,
+)
+from gazelle.description.xacro.error_explanations.files import (
+    explain_document,
+    explain_file,
+    explain_limit,
+)
+from gazelle.description.xacro.failure import Failure, Finding, one_line
 
 __all__ = ["Finding", "explain"]
 

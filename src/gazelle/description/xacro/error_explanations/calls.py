@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from gazelle.description.xacro.dom import place_of
-from gazelle.description.xacro.error_explanations.finding import (
+from gazelle.description.xacro.failure import (
+    Failure,
     Finding,
     include_line,
     known_keys,
@@ -15,7 +16,6 @@ from gazelle.description.xacro.error_explanations.finding import (
     one_line,
     short_place,
 )
-from gazelle.description.xacro.failure import Failure
 from gazelle.description.xacro.macro_definitions import definitions_in, files_beside
 from gazelle.diagnostics import SourceSpan, did_you_mean
 

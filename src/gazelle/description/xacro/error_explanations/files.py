@@ -1,19 +1,54 @@
-"""Files and packages that cannot be found, and YAML that cannot be read."""
+"""Files that cannot be found, documents that are no XML or YAML, and runs without end."""
 
 from __future__ import annotations
 
 import os
 from dataclasses import replace
 from pathlib import Path
+from xml.parsers.expat import ErrorString, ExpatError, errors
 
-from gazelle.description.xacro.error_explanations.finding import Finding, one_line
-from gazelle.description.xacro.failure import Failure
-from gazelle.diagnostics import did_you_mean
+from gazelle.description.xacro.dom import EntityRefusedError
+from gazelle.description.xacro.expansion_limits import ExpansionLimitError
+from gazelle.description.xacro.failure import Failure, Finding, one_line
+from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.documents import TEXT_BYTES, LimitError, read_limited
 from gazelle.documents.files import exists, is_folder
 from gazelle.documents.yaml import ProblemKind, PyYamlError, problem_of
 from gazelle.errors import NotFoundError
 
-__all__ = ["explain_file"]
+__all__ = ["NAMESPACE", "explain_document", "explain_file", "explain_limit"]
+
+NAMESPACE = "http://www.ros.org/wiki/xacro"
+_UNBOUND = errors.codes[errors.XML_ERROR_UNBOUND_PREFIX]
+_MAX_LENGTH = 80
+
+
+def explain_document(failure: Failure) -> Finding | None:
+    """Explain what the XML parser says; None for other failures."""
+    error, via = failure.error, failure.session.tracker.via()
+    if isinstance(error, EntityRefusedError):
+        span = SourceSpan(failure.files[-1], error.line, error.column, 0, via)
+        return Finding("xml.entity", str(error), span)
+    if not isinstance(error, ExpatError):
+        return None
+    span = SourceSpan(failure.files[-1], error.lineno, error.offset + 1, 0, via)
+    if error.code == _UNBOUND:
+        return _unbound(span)
+    return Finding("xml.malformed", f"not well-formed XML: {ErrorString(error.code)}", span)
+
+
+def explain_limit(failure: Failure) -> Finding | None:
+    """Explain that a limit was reached; None for other failures."""
+    error = failure.cause(LimitError)
+    if error is None:
+        return None
+    if isinstance(error, ExpansionLimitError):
+        message = f"the file expands to too much: {error}"
+        return Finding("limits.expansion", message, failure.span)
+    shown = one_line(failure.expression or failure.part)
+    shown = shown if len(shown) <= _MAX_LENGTH else f"{shown[:_MAX_LENGTH]}…"
+    message = f"{error}, when evaluating expression '{shown}'"
+    return Finding("limits.expression", message, failure.span)
 
 
 def explain_file(failure: Failure) -> Finding | None:
@@ -29,6 +64,28 @@ def explain_file(failure: Failure) -> Finding | None:
         return _broken_yaml(broken, failure)
     error = failure.cause(OSError)
     return None if error is None else _unreadable(error, failure)
+
+
+def _unbound(span: SourceSpan) -> Finding:
+    prefix = _prefix_at(span)
+    if prefix in {"", "xacro"}:
+        message = "<xacro:…> is used here, and no element around it declares xmlns:xacro"
+        fix = f'write xmlns:xacro="{NAMESPACE}" into the outermost element'
+        return Finding("xacro.no-namespace", message, span, fix)
+    message = f"not well-formed XML: unbound prefix '{prefix}:'"
+    fix = f'declare it in the outermost element: xmlns:{prefix}="…"'
+    return Finding("xml.malformed", message, span, fix)
+
+
+def _prefix_at(span: SourceSpan) -> str:
+    try:
+        data = read_limited(span.file, TEXT_BYTES)
+        lines = data.decode("utf-8", errors="replace").split("\n")
+        tag = lines[span.line - 1][span.column :]
+    except (OSError, IndexError):
+        return ""
+    name, colon, _ = tag.partition(":")
+    return name if colon and name.isidentifier() else ""
 
 
 def _unreadable(error: OSError, failure: Failure) -> Finding:

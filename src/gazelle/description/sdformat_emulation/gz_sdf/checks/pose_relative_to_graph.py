@@ -51,6 +51,12 @@ def check_places(scope: Scope, vertices: Iterable[int], errors: list[SdfError]) 
         placed.update(edge.head for edge in path or ())
 
 
+def placed_pose(model: ModelScope, errors: list[SdfError]) -> Pose:
+    """Return a model's pose, its placement frame taken into account."""
+    inner = _add_model(Scope(Graph()), model, [])
+    return _placed(inner, model, errors)
+
+
 def _path(scope: Scope, vertex: int, errors: list[SdfError], placed: Set[int]) -> list[Edge] | None:
     """Return the edges from a vertex to the scope, or to one of `placed`, which have a way."""
     graph = scope.graph
@@ -83,12 +89,6 @@ def _path(scope: Scope, vertex: int, errors: list[SdfError], placed: Set[int]) -
             return None
         visited.add(current)
     return path
-
-
-def placed_pose(model: ModelScope, errors: list[SdfError]) -> Pose:
-    """Return a model's pose, its placement frame taken into account."""
-    inner = _add_model(Scope(Graph()), model, [])
-    return _placed(inner, model, errors)
 
 
 def _add_world(scope: Scope, world: WorldScope, errors: list[SdfError]) -> Scope:

@@ -2,8 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.description.sdf_reader.checking import check_elements
-from gazelle.description.sdf_reader.known_elements import ELEMENTS
+from gazelle.description.sdf_reader.known_elements import ELEMENTS, check_elements
 from gazelle.diagnostics import Severity
 
 

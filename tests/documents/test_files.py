@@ -1,4 +1,4 @@
-"""Names of files that no file can have."""
+"""Files with names that cannot be, limits of size, and versions of saved files."""
 
 from __future__ import annotations
 
@@ -8,12 +8,49 @@ import pytest
 
 from gazelle.description.loader import load_models, load_world
 from gazelle.diagnostics import Diagnostics
-from gazelle.documents.files import exists, is_file, is_folder, names_matching
-from gazelle.errors import UserFileError
+from gazelle.documents import scaled
+from gazelle.documents.files import exists, is_file, is_folder, names_matching, refused_version
+from gazelle.errors import GazelleError, UserFileError
 from gazelle.launch.ros1.loader import load_launch_text
 from gazelle.workspace import Workspace
 
+
+def test_limits_are_as_they_are_without_the_variable(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("GAZELLE_LIMITS", raising=False)
+    assert scaled(7) == 7
+
+
+def test_the_variable_is_a_factor(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GAZELLE_LIMITS", "2.5")
+    assert scaled(10) == 25
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "many", "nan", "inf"])
+def test_other_values_are_told(monkeypatch: pytest.MonkeyPatch, text: str) -> None:
+    monkeypatch.setenv("GAZELLE_LIMITS", text)
+    with pytest.raises(GazelleError, match=f"GAZELLE_LIMITS='{text}' is not a number above 0"):
+        scaled(1)
+
+
+def test_known_versions_are_read() -> None:
+    assert refused_version("the map", 1, 2) == ""
+    assert refused_version("the map", 2, 2) == ""
+
+
+def test_a_newer_version_says_what_would_read_it() -> None:
+    assert refused_version("the map", 3, 2) == (
+        "the map is of version 3, saved by a newer Gazelle; this one reads versions up to 2 "
+        "(pip install --upgrade gazelle-sim)"
+    )
+
+
+@pytest.mark.parametrize("version", [0, -1, "1", None, True, 1.0])
+def test_what_is_no_version_is_told(version: object) -> None:
+    assert "which is none: versions are 1, 2, 3 …" in refused_version("the map", version, 2)
+
+
 _LONG = "a" * 5000
+
 _ADDRESSES = [
     f"{start}{_LONG}" for start in ("", "/", "file://", "package://p/", "package://", "model://")
 ]

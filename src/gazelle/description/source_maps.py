@@ -1,4 +1,10 @@
-"""Source maps as files in the user's cache folder: few, small, whole or not there at all."""
+"""From an expanded text, whatever process expanded it, back to the lines of the xacro files.
+
+Every run of xacro keeps where its elements come from in the user's cache folder: files that are
+few, small, whole or not there at all. Whoever gets the text later, as a parameter or from a file,
+finds the places again by the text's elements, so comments, white space and the order of attributes
+do not matter.
+"""
 
 from __future__ import annotations
 
@@ -31,6 +37,11 @@ __all__ = [
     "source_map_of",
 ]
 
+_VERSION = 2
+_MAX_FILES = 64
+_MAX_BYTES = 32_000_000
+_MAX_ELEMENTS = 200_000
+
 
 @dataclass(frozen=True, slots=True)
 class SourceMap:
@@ -58,19 +69,6 @@ def digest_of(keys: Iterable[int]) -> str:
     return hashlib.sha256(",".join(map(str, keys)).encode()).hexdigest()[:32]
 
 
-def _key(tag: Tag) -> int:
-    attributes = sorted(item for item in tag.attributes.items() if item[0][:5] != "xmlns")
-    said = repr((attributes, tag.text.split())).encode()
-    return crc32(tag.name.encode()) << 32 | crc32(said)
-
-
-_VERSION = 2
-
-_MAX_FILES = 64
-
-_MAX_BYTES = 32_000_000
-
-
 def save_map(source_map: SourceMap) -> None:
     """Keep a map; without a word when the folder cannot be written, since it is a help only."""
     head = json.dumps({"version": _VERSION})
@@ -96,6 +94,49 @@ def load_map(name: str) -> SourceMap | None:
         return _unpacked(json.loads(lines[1])) if known else None
     except (OSError, ValueError, LookupError, TypeError):
         return None
+
+
+def source_map_of(text: str | Tag) -> SourceMap | None:
+    """Return where the elements of a text come from.
+
+    Args:
+        text: a document, also one without comments or in other white space. A text that was
+            changed otherwise may be another robot's and is no one's.
+
+    Returns:
+        The places, one for each element; None when no run of xacro is known to have made the text.
+    """
+    root = parse_xml(text, "", Diagnostics()) if isinstance(text, str) else text
+    if root is None:
+        return None
+    keys = keys_of(root)
+    found = load_map(digest_of(keys))
+    return found if found is not None and found.keys == keys else None
+
+
+def placed(root: Tag) -> Tag:
+    """Return a tree with the places of the xacro files, where they are known."""
+    found = source_map_of(root)
+    return root if found is None else with_places(root, found.places)
+
+
+def remember(expanded: Expanded) -> None:
+    """Keep the places of a text that leaves this process, in the user's cache folder.
+
+    Args:
+        expanded: what xacro made.
+    """
+    if len(expanded.places) > _MAX_ELEMENTS:
+        return
+    root = parse_xml(expanded.text, expanded.file, Diagnostics())
+    if root is not None:
+        save_map(SourceMap(keys_of(root), expanded.places))
+
+
+def _key(tag: Tag) -> int:
+    attributes = sorted(item for item in tag.attributes.items() if item[0][:5] != "xmlns")
+    said = repr((attributes, tag.text.split())).encode()
+    return crc32(tag.name.encode()) << 32 | crc32(said)
 
 
 def _folder() -> Path:
@@ -165,43 +206,3 @@ def _drop_oldest(folder: Path) -> None:
         total += size
         if index >= _MAX_FILES or (total > _MAX_BYTES and index):
             path.unlink(missing_ok=True)
-
-
-def source_map_of(text: str | Tag) -> SourceMap | None:
-    """Return where the elements of a text come from.
-
-    Args:
-        text: a document, also one without comments or in other white space. A text that was
-            changed otherwise may be another robot's and is no one's.
-
-    Returns:
-        The places, one for each element; None when no run of xacro is known to have made the text.
-    """
-    root = parse_xml(text, "", Diagnostics()) if isinstance(text, str) else text
-    if root is None:
-        return None
-    keys = keys_of(root)
-    found = load_map(digest_of(keys))
-    return found if found is not None and found.keys == keys else None
-
-
-def placed(root: Tag) -> Tag:
-    """Return a tree with the places of the xacro files, where they are known."""
-    found = source_map_of(root)
-    return root if found is None else with_places(root, found.places)
-
-
-_MAX_ELEMENTS = 200_000
-
-
-def remember(expanded: Expanded) -> None:
-    """Keep the places of a text that leaves this process, in the user's cache folder.
-
-    Args:
-        expanded: what xacro made.
-    """
-    if len(expanded.places) > _MAX_ELEMENTS:
-        return
-    root = parse_xml(expanded.text, expanded.file, Diagnostics())
-    if root is not None:
-        save_map(SourceMap(keys_of(root), expanded.places))
