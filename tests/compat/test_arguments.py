@@ -30,13 +30,12 @@ UNREAD: dict[str, tuple[str, str]] = {
         "it tells itself when it was of another graph",
     ),
     "diagnostic_updater/tasks.py DiagnosticTaskVector.addedTaskCallback": ("task", _HOOK),
-    "dynamic_reconfigure/config_finder.py ConfigFinder.find_spec": ("path target", _FINDER),
     "dynamic_reconfigure/parameter_generator.py ParameterGenerator.generate": (
         "pkgname nodename",
         "the module is found in the package that the file is in",
     ),
     "genpy_message.py strify_message": ("current_time", _SAME),
-    "importlib_abc.py Loader.create_module": ("spec", _FINDER),
+    "import_hooks.py Loader.create_module": ("spec", _FINDER),
     "import_hooks.py TranslatingLoader.source_to_code": ("_optimize", _FINDER),
     "moveit/commander/move_group.py MoveGroupCommander.retime_trajectory": (
         "ref_state_in",

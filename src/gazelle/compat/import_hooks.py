@@ -1,4 +1,4 @@
-"""Imports that only exist here: message packages, and packages of the workspace.
+"""Imports that only exist here: message packages, packages of the workspace, their ``.cfg`` files.
 
 Message classes take the form of ROS 1 or ROS 2, see `gazelle.compat.ros_version`.
 They stand last in ``sys.meta_path``, so whatever is installed wins; before them only Gazelle's own
@@ -14,12 +14,22 @@ from importlib.machinery import ModuleSpec, SourceFileLoader
 from importlib.util import spec_from_file_location, spec_from_loader
 from pathlib import Path
 from types import CodeType, ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from gazelle.compat.importlib_abc import Loader, MetaPathFinder
 from gazelle.compat.ros_version import message_ros_version
 from gazelle.compat.unsupported.modules import UnsupportedModuleFinder
 from gazelle.compat.unsupported.placeholders import PlaceholderFinder
+
+if TYPE_CHECKING:
+    from importlib.abc import Loader
+else:
+
+    class Loader:
+        """What `importlib.abc` has, which no node needs at its start, nor what that imports."""
+
+        def create_module(self, spec: object) -> None:
+            """Let Python make the module itself."""
+
 
 __all__ = ["install"]
 
@@ -31,16 +41,14 @@ _BESIDES = {"sensor_msgs.point_cloud2": "gazelle.compat.clouds.point_cloud2_ros1
 def install() -> None:
     """Put the finders behind Python's own, once."""
     if not any(isinstance(item, _WorkspaceFinder) for item in sys.meta_path):
-        from gazelle.compat.dynamic_reconfigure.config_finder import ConfigFinder
-
         workspace = _WorkspaceFinder()
-        configs = ConfigFinder(workspace.folder)
+        configs = _ConfigFinder(workspace)
         last = UnsupportedModuleFinder()
         sys.meta_path += [workspace, _InterfaceFinder(workspace), configs, last]
         sys.meta_path.insert(0, PlaceholderFinder())
 
 
-class _WorkspaceFinder(MetaPathFinder):
+class _WorkspaceFinder:
     """Finds the Python module of a catkin or ament package: ``src/NAME`` or ``NAME`` in it."""
 
     def __init__(self) -> None:
@@ -88,7 +96,7 @@ class TranslatingLoader(SourceFileLoader):
         return compile_source(bytes(data), path)
 
 
-class _InterfaceFinder(MetaPathFinder):
+class _InterfaceFinder:
     """Makes ``PKG``, ``PKG.msg``, ``PKG.srv`` and ``PKG.action`` out of definitions."""
 
     def __init__(self, workspace: _WorkspaceFinder) -> None:
@@ -212,3 +220,81 @@ class _PartLoader(Loader):
                 service = ros1_service_type(f"{self._package}/{name.removesuffix(half)}")
                 return getattr(service, f"_{half.lower()}_class")
         raise AttributeError(name)
+
+
+class _ConfigFinder:
+    """Finds ``PKG`` (if nobody else does), ``PKG.cfg`` and ``PKG.cfg.NAMEConfig``."""
+
+    def __init__(self, workspace: _WorkspaceFinder) -> None:
+        self._workspace = workspace
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None,
+        target: ModuleType | None = None,
+    ) -> ModuleSpec | None:
+        package, _, rest = fullname.partition(".")
+        part, _, name = rest.partition(".")
+        if part not in {"", "cfg"} or fullname.startswith("_"):
+            return None
+        folder = self._workspace.folder(package)
+        files = {} if folder is None else _cfg_files(folder)
+        if not files:
+            return None
+        if not name:
+            return spec_from_loader(fullname, _PackageLoader(), is_package=True)
+        file = files.get(name.removesuffix("Config")) if name.endswith("Config") else None
+        return None if file is None else spec_from_loader(fullname, _ConfigLoader(file))
+
+
+class _ConfigLoader(Loader):
+    """Runs a ``.cfg`` file, which is a Python program, as its package's build does."""
+
+    def __init__(self, file: Path) -> None:
+        self._file = file
+
+    def exec_module(self, module: ModuleType) -> None:
+        from gazelle.compat.dynamic_reconfigure.encoding import extract_params
+
+        generator, name = self._run()
+        description = generator.group.to_dict()
+        rows = extract_params(description)
+        module.__file__ = str(self._file)
+        found: dict[str, Any] = {"config_description": description, "all_level": 0}
+        for key, field in (("min", "min"), ("max", "max"), ("defaults", "default")):
+            found[key] = {row["name"]: row[field] for row in rows}
+        found["level"] = {row["name"]: row["level"] for row in rows}
+        found["type"] = {row["name"]: row["type"] for row in rows}
+        for row in rows:
+            found["all_level"] |= row["level"]
+        found |= {f"{name}_{row['name']}": row["value"] for row in generator.constants}
+        vars(module).update(found)
+
+    def _run(self) -> tuple[Any, str]:
+        from gazelle.compat.dynamic_reconfigure import parameter_generator
+        from gazelle.compat.python2 import compile_source
+
+        file = self._file
+        finished = parameter_generator.FINISHED
+        before = len(finished)
+        code = compile_source(file.read_bytes(), str(file))
+        names = {"__name__": "__main__", "__file__": str(file), "__builtins__": __builtins__}
+        argv, sys.argv = sys.argv, [str(file)]
+        try:
+            exec(code, names)  # noqa: S102 - a .cfg file is a program of the user's package
+        except SystemExit as stop:
+            if stop.code not in (None, 0):
+                raise ImportError(f"'{file}' ended with {stop.code!r}") from stop
+        finally:
+            sys.argv = argv
+        made = finished[before:]
+        del finished[before:]
+        if not made:
+            raise ImportError(f"'{file}' does not call generate() of its ParameterGenerator")
+        return made[-1]
+
+
+def _cfg_files(folder: Path) -> dict[str, Path]:
+    """Return the ``.cfg`` programs of a package by name; a folder ``cfg`` may be a Python one."""
+    return {file.stem: file for file in sorted((folder / "cfg").rglob("*.cfg"))}

@@ -7,8 +7,6 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import NamedTuple
 
-from gazelle.compat.importlib_abc import MetaPathFinder
-
 __all__ = ["UNSUPPORTED_MODULES", "UnsupportedModule", "UnsupportedModuleFinder", "why_unsupported"]
 
 
@@ -183,7 +181,7 @@ def why_unsupported(name: str) -> str | None:
     return None
 
 
-class UnsupportedModuleFinder(MetaPathFinder):
+class UnsupportedModuleFinder:
     """Tells why a module is not here; it stands behind every other finder."""
 
     def find_spec(

@@ -18,7 +18,6 @@ from pathlib import Path
 from types import FrameType, ModuleType
 from typing import Any, NoReturn
 
-from gazelle.compat.importlib_abc import MetaPathFinder
 from gazelle.compat.unsupported.attributes import UNSUPPORTED_ATTRIBUTES, UnsupportedAttribute
 from gazelle.compat.unsupported.modules import UNSUPPORTED_MODULES, why_unsupported
 
@@ -166,7 +165,7 @@ class _Loader(SourceFileLoader):
         attach_placeholders(module.__name__)
 
 
-class PlaceholderFinder(MetaPathFinder):
+class PlaceholderFinder:
     """Loads Gazelle's drop-in modules; it stands before Python's own finders."""
 
     def __init__(self) -> None:
