@@ -35,7 +35,7 @@ __all__ = ["install"]
 
 _PARTS = ("msg", "srv", "action")
 # What message packages hold besides messages.
-_BESIDES = {"sensor_msgs.point_cloud2": "gazelle.compat.clouds.point_cloud2_ros1"}
+_EXTRA_MODULES = {"sensor_msgs.point_cloud2": "gazelle.compat.clouds.point_cloud2_ros1"}
 
 
 def install() -> None:
@@ -108,8 +108,8 @@ class _InterfaceFinder:
         path: Sequence[str] | None,
         target: ModuleType | None = None,
     ) -> ModuleSpec | None:
-        if fullname in _BESIDES:
-            return spec_from_loader(fullname, _ReexportLoader(_BESIDES[fullname]))
+        if fullname in _EXTRA_MODULES:
+            return spec_from_loader(fullname, _ReexportLoader(_EXTRA_MODULES[fullname]))
         package, _, rest = fullname.partition(".")
         part, _, name = rest.partition(".")
         if (part and part not in _PARTS) or not self._defines(package):

@@ -48,7 +48,7 @@ __all__ = [
     "get_registered_writers",
 ]
 
-_OLD = ("dashing", "eloquent", "foxy", "galactic", "humble")
+_SQLITE_DISTROS = ("dashing", "eloquent", "foxy", "galactic", "humble")
 
 
 @dataclass
@@ -375,7 +375,7 @@ class Reindexer:
 
 def get_default_storage_id() -> str:
     """Return the storage of bags that name none: ``sqlite3`` up to Humble, ``mcap`` since."""
-    return (SQLITE if os.environ.get("ROS_DISTRO", "") in _OLD else MCAP).name
+    return (SQLITE if os.environ.get("ROS_DISTRO", "") in _SQLITE_DISTROS else MCAP).name
 
 
 def _storages() -> tuple[str, ...]:

@@ -175,14 +175,14 @@ class ActionClient:
             if self._client.wait_for_server(_SLICE_S):
                 return True
             if next(slices) * _SLICE_S == _PATIENCE_S:
-                self._say_what_is_missing()
+                self._log_missing_connections()
             if limit > Duration() and get_rostime() - start >= limit:
                 return False
         return False
 
     wait_for_action_server_to_start = wait_for_server
 
-    def _say_what_is_missing(self) -> None:
+    def _log_missing_connections(self) -> None:
         try:
             self._client.require_server()
         except GazelleError as error:

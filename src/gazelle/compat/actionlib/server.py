@@ -39,27 +39,27 @@ class ServerGoalHandle:
 
     def set_accepted(self, text: str = "") -> None:
         """Take the goal: it is ACTIVE, or PREEMPTING when a cancel request came before."""
-        self._do(lambda goal: goal.accept(text or ""))
+        self._apply(lambda goal: goal.accept(text or ""))
 
     def set_canceled(self, result: Any = None, text: str = "") -> None:
         """End the goal as RECALLED or PREEMPTED."""
-        self._do(lambda goal: goal.cancel(result, text or ""))
+        self._apply(lambda goal: goal.cancel(result, text or ""))
 
     def set_rejected(self, result: Any = None, text: str = "") -> None:
         """Do not take the goal."""
-        self._do(lambda goal: goal.reject(result, text or ""))
+        self._apply(lambda goal: goal.reject(result, text or ""))
 
     def set_aborted(self, result: Any = None, text: str = "") -> None:
         """End the goal as ABORTED."""
-        self._do(lambda goal: goal.abort(result, text or ""))
+        self._apply(lambda goal: goal.abort(result, text or ""))
 
     def set_succeeded(self, result: Any = None, text: str = "") -> None:
         """End the goal as SUCCEEDED."""
-        self._do(lambda goal: goal.succeed(result, text or ""))
+        self._apply(lambda goal: goal.succeed(result, text or ""))
 
     def publish_feedback(self, feedback: Any) -> None:
         """Tell how the goal goes."""
-        self._do(lambda goal: goal.publish_feedback(feedback))
+        self._apply(lambda goal: goal.publish_feedback(feedback))
 
     def set_cancel_requested(self) -> bool:
         """Note that somebody wants the goal cancelled; False when that changes nothing."""
@@ -85,7 +85,7 @@ class ServerGoalHandle:
         status.goal_id = self.get_goal_id()
         return status
 
-    def _do(self, step: Callable[[ServerGoal], None]) -> None:
+    def _apply(self, step: Callable[[ServerGoal], None]) -> None:
         """Take a step; actionlib logs one that cannot be and goes on."""
         if self.impl is None:
             logerr(_UNINITIALISED)

@@ -49,7 +49,7 @@ def get_msg_text(type_: str, raw: bool = False, rospack: RosPack | None = None) 
     Raises:
         ROSMsgException: nothing defines it.
     """
-    _learn(type_, rospack)
+    _add_definitions(type_, rospack)
     try:
         if raw:
             return definition(type_, RosVersion.ROS1).text
@@ -64,11 +64,11 @@ def get_srv_text(type_: str, raw: bool = False, rospack: RosPack | None = None) 
     Raises:
         ROSMsgException: nothing defines it.
     """
-    _learn(type_, rospack)
+    _add_definitions(type_, rospack)
     package, _, name = type_.partition("/")
     source = find_source(package, "srv", name, RosVersion.ROS1)
     if source is None:
-        known = [_short(one) for one in known_types("srv")]
+        known = [_short_type_name(one) for one in known_types("srv")]
         text = f"Unknown srv type [{type_}]; {did_you_mean(type_, known)}"
         raise ROSMsgException(text.rstrip("; "))
     return source.text if raw else show_service(type_)
@@ -81,9 +81,9 @@ def list_types(package: str, mode: str = MODE_MSG, rospack: RosPack | None = Non
         ValueError: the mode is none.
         ResourceNotFound: there is no such package.
     """
-    part = _part(mode)
-    _learn(package)
-    found = [_short(one) for one in known_types(part, package)]
+    part = _interface_kind(mode)
+    _add_definitions(package)
+    found = [_short_type_name(one) for one in known_types(part, package)]
     if not found:
         (rospack or RosPack()).get_path(package)
     return sorted(found)
@@ -108,7 +108,7 @@ def iterate_packages(rospack: RosPack | None, mode: str) -> Iterator[tuple[str, 
     Raises:
         ValueError: the mode is none.
     """
-    part = _part(mode)
+    part = _interface_kind(mode)
     packs = rospack or RosPack()
     folders = {name: Path(packs.get_path(name)) for name in packs.list()}
     for name, folder in folders.items():
@@ -126,9 +126,9 @@ def rosmsg_search(rospack: RosPack | None, mode: str, base_type: str) -> Iterato
         ValueError: the mode is none.
     """
     for name, _ in iterate_packages(rospack, mode):
-        for one in known_types(_part(mode), name):
+        for one in known_types(_interface_kind(mode), name):
             if one.rpartition("/")[2] == base_type:
-                yield _short(one)
+                yield _short_type_name(one)
 
 
 def rosmsg_md5(mode: str, type_: str) -> str:
@@ -138,21 +138,21 @@ def rosmsg_md5(mode: str, type_: str) -> str:
         ValueError: the mode is none.
         ROSMsgException: nothing defines it.
     """
-    of_part: Any = {"msg": md5sum, "srv": service_md5sum}[_part(mode)]
-    _learn(type_)
+    of_part: Any = {"msg": md5sum, "srv": service_md5sum}[_interface_kind(mode)]
+    _add_definitions(type_)
     try:
         return str(of_part(type_))
     except NotFoundError as error:
         raise ROSMsgException(f"Unable to load {mode[1:]} [{type_}]: {error}") from error
 
 
-def _part(mode: str) -> str:
+def _interface_kind(mode: str) -> str:
     if mode not in (MODE_MSG, MODE_SRV):
         raise ValueError(f"Unknown mode for iterate_packages: {mode}")
     return mode[1:]
 
 
-def _learn(type_or_package: str, rospack: RosPack | None = None) -> None:
+def _add_definitions(type_or_package: str, rospack: RosPack | None = None) -> None:
     """Take the definitions of a package into account, of the workspace unless it is told where."""
     package = type_or_package.partition("/")[0]
     try:
@@ -163,5 +163,5 @@ def _learn(type_or_package: str, rospack: RosPack | None = None) -> None:
         add_package(package, folder)
 
 
-def _short(name: str) -> str:
+def _short_type_name(name: str) -> str:
     return f"{name.partition('/')[0]}/{name.rpartition('/')[2]}"

@@ -72,7 +72,7 @@ def rosnode_ping(
     full = STATE.resolved(node_name)
     is_there = full in STATE.open_graph().node_names()
     if verbose:
-        _say(f"{full} is alive" if is_there else f"cannot ping [{full}]: unknown node")
+        _print(f"{full} is alive" if is_there else f"cannot ping [{full}]: unknown node")
     return is_there
 
 
@@ -105,5 +105,5 @@ def get_nodes_by_machine(machine: str) -> list[str]:
     return [name for name in get_node_names() if graph.node_info(name).host == machine]
 
 
-def _say(text: str) -> None:
+def _print(text: str) -> None:
     sys.stdout.write(f"{text}\n")

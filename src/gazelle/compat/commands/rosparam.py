@@ -54,7 +54,7 @@ def load_file(
         RosParamException: the file cannot be read, or is no YAML of parameters.
     """
     if verbose:
-        _say(f"reading parameters from [{filename}]")
+        _print(f"reading parameters from [{filename}]")
     try:
         text = Path(filename).read_text(encoding="utf-8")
     except OSError as error:
@@ -141,7 +141,7 @@ def set_param_raw(param: str, value: Any, verbose: bool = False) -> None:
             set_param_raw(join(param, key), item, verbose)
         return
     if verbose:
-        _say(f"set parameter [{param}] to [{value}]")
+        _print(f"set parameter [{param}] to [{value}]")
     client.set_param(param, value)
 
 
@@ -156,7 +156,7 @@ def delete_param(param: str, verbose: bool = False) -> None:
     except KeyError as error:
         raise RosParamException(f"Parameter [{param}] is not set") from error
     if verbose:
-        _say(f"deleted parameter [{param}]")
+        _print(f"deleted parameter [{param}]")
 
 
 def list_params(ns: str) -> list[str]:
@@ -173,7 +173,7 @@ def dump_params(filename: str, param: str, verbose: bool = False) -> None:
     """
     tree = get_param(param)
     if verbose:
-        _say(f"dumping namespace [{param}] to file [{filename}]")
+        _print(f"dumping namespace [{param}] to file [{filename}]")
     Path(filename).write_text(dump_yaml(as_bytes(tree)), encoding="utf-8")
 
 
@@ -188,5 +188,5 @@ def _documents(text: str) -> Iterator[str]:
     yield "".join(lines)
 
 
-def _say(text: str) -> None:
+def _print(text: str) -> None:
     sys.stdout.write(f"{text}\n")

@@ -97,10 +97,10 @@ class ROSTopicHz:
         """Write the rates."""
         rows = [(topic, found) for topic in topics if (found := self.get_hz(topic)) is not None]
         if not rows:
-            _say("no new messages")
+            _print("no new messages")
         for topic, (rate, least, most, deviation, count) in rows:
             name = f"{topic}: " if len(topics) > 1 else ""
-            _say(
+            _print(
                 f"{name}average rate: {rate:.3f}\n\tmin: {least:.3f}s max: {most:.3f}s"
                 f" std dev: {deviation:.5f}s window: {count}"
             )
@@ -137,7 +137,7 @@ class ROSTopicDelay:
     def callback_delay(self, msg: Any) -> None:
         """Measure a message; one without header is told and not measured."""
         if not msg._has_header:
-            _say("msg does not have header")
+            _print("msg does not have header")
             return
         with self.lock:
             self._delays.append(get_time() - msg.header.stamp.to_sec())
@@ -156,10 +156,10 @@ class ROSTopicDelay:
         """Write the delays."""
         found = self.get_delay()
         if found is None:
-            _say("no new messages")
+            _print("no new messages")
             return
         mean, least, most, deviation, count = found
-        _say(
+        _print(
             f"average delay: {mean:.3f}\n\tmin: {least:.3f}s max: {most:.3f}s"
             f" std dev: {deviation:.5f}s window: {count}"
         )
@@ -188,7 +188,7 @@ class ROSTopicBandwidth:
         elapsed = max(time.time() - rows[0][0], 1e-9)
         texts = map(_bytes, (sum(sizes) / elapsed, fmean(sizes), min(sizes), max(sizes)))
         rate, mean, least, most = texts
-        _say(f"average: {rate}/s\n\tmean: {mean} min: {least} max: {most} window: {len(rows)}")
+        _print(f"average: {rate}/s\n\tmean: {mean} min: {least} max: {most} window: {len(rows)}")
 
 
 class ROSTopicException(Exception):  # noqa: N818 - rostopic's name
@@ -216,7 +216,7 @@ def get_topic_type(
         known = {one.name: one.type_name for one in STATE.open_graph().topics()}
         found = max((name for name in known if _covers(name, wanted)), key=len, default=None)
         if found is not None and known[found] != "*":
-            return ros1_type_of(known[found]), found, _taker(wanted.removeprefix(found))
+            return ros1_type_of(known[found]), found, _field_getter(wanted.removeprefix(found))
         if not blocking or is_shutdown():
             return None, None, None
         time.sleep(_PAUSE_S)
@@ -286,7 +286,7 @@ def _bytes(count: float) -> str:
     return f"{count / 1e3:.2f}KB" if count < 1e6 else f"{count / 1e6:.2f}MB"
 
 
-def _say(text: str) -> None:
+def _print(text: str) -> None:
     sys.stdout.write(f"{text}\n")
 
 
@@ -294,7 +294,7 @@ def _covers(name: str, wanted: str) -> bool:
     return wanted == name or wanted.startswith((f"{name}/", f"{name}["))
 
 
-def _taker(path: str) -> Callable[[Any], Any] | None:
+def _field_getter(path: str) -> Callable[[Any], Any] | None:
     """Return what takes ``/pose/position`` or ``/ranges[0]`` of a message; None for all of it."""
     steps = [step for step in path.replace("[", "/[").split("/") if step]
     if not steps:

@@ -22,7 +22,7 @@ _NO_HARDWARE = (
 )
 
 
-class _OfRospy:
+class _RospyNode:
     """What the updater needs of a node of rospy."""
 
     period_s: float = 1.0
@@ -59,7 +59,7 @@ class _OfRospy:
         return bool(now >= self._last + self._rospy.Duration(self.period_s))
 
 
-class _OfRclpy:
+class _RclpyNode:
     """What the updater needs of a node of rclpy."""
 
     def __init__(self, node: Any, period_s: float, updater: Updater) -> None:
@@ -120,7 +120,7 @@ class Updater(DiagnosticTaskVector):
         self.verbose = False
         self.hwid = ""
         self.warn_nohwid_done = False
-        self._of: Any = _OfRospy() if node is None else _OfRclpy(node, period, self)
+        self._of: Any = _RospyNode() if node is None else _RclpyNode(node, period, self)
 
     @property
     def period(self) -> float:
@@ -129,7 +129,7 @@ class Updater(DiagnosticTaskVector):
 
     @period.setter
     def period(self, period: float) -> None:
-        if isinstance(self._of, _OfRclpy):
+        if isinstance(self._of, _RclpyNode):
             self._of.set_period(period)
         else:
             self._of.period_s = period

@@ -14,7 +14,7 @@ from gazelle.graph.dynamic_reconfigure.messages import config_message, config_tr
 
 __all__ = ["Server"]
 
-_EVERYTHING = 0xFFFFFFFF
+_ALL_LEVELS = 0xFFFFFFFF
 
 
 class Server:
@@ -58,7 +58,7 @@ class Server:
         message = config_message(self._group, values)
         config = config_tree(message, self._group, Config)
         assert isinstance(config, Config)
-        answer = self.callback(config, -1 if level == _EVERYTHING else level)
+        answer = self.callback(config, -1 if level == _ALL_LEVELS else level)
         if answer is None:
             text = "Reconfigure callback should return a possibly updated configuration."
             logerr(text)

@@ -74,7 +74,7 @@ def rendered(text: str, mappings: Mapping[str, Any], file: str) -> str:
     try:
         template: Any = import_module("jinja2").Template(text)
     except ImportError:
-        return _simple(text, mappings, file)
+        return _rendered_without_jinja(text, mappings, file)
     template.globals.update(_FUNCTIONS)
     return str(template.render(mappings))
 
@@ -172,10 +172,10 @@ def get_path(package_name: str, file_path: str) -> str:
     return str(Path(get_package_share_directory(package_name)) / file_path)
 
 
-def _simple(text: str, mappings: Mapping[str, Any], file: str) -> str:
+def _rendered_without_jinja(text: str, mappings: Mapping[str, Any], file: str) -> str:
     def value(match: re.Match[str]) -> str:
         try:
-            return str(_worked_out(ast.parse(match[1].strip(), mode="eval").body, mappings))
+            return str(_evaluated(ast.parse(match[1].strip(), mode="eval").body, mappings))
         except _ERRORS as error:
             line = text.count("\n", 0, match.start()) + 1
             reason = f"'{match[0]}' cannot be worked out ({error!r})"
@@ -188,22 +188,22 @@ def _simple(text: str, mappings: Mapping[str, Any], file: str) -> str:
     return _EXPRESSION.sub(value, text[:end]) + text[end:]
 
 
-def _worked_out(node: ast.expr, mappings: Mapping[str, Any]) -> Any:
+def _evaluated(node: ast.expr, mappings: Mapping[str, Any]) -> Any:
     match node:
         case ast.Constant(value=value):
             return value
         case ast.Name(id=name):
             return mappings[name]
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _OPERATORS:
-            return _OPERATORS[type(op)](_worked_out(left, mappings), _worked_out(right, mappings))
+            return _OPERATORS[type(op)](_evaluated(left, mappings), _evaluated(right, mappings))
         case ast.UnaryOp(op=op, operand=operand) if type(op) in _OPERATORS:
-            return _OPERATORS[type(op)](_worked_out(operand, mappings))
+            return _OPERATORS[type(op)](_evaluated(operand, mappings))
         case ast.Call(func=ast.Name(id=name), args=[argument]) if name in _FUNCTIONS:
-            return _FUNCTIONS[name](_worked_out(argument, mappings))
+            return _FUNCTIONS[name](_evaluated(argument, mappings))
         case ast.Subscript(value=inner, slice=key):
-            return _worked_out(inner, mappings)[_worked_out(key, mappings)]
+            return _evaluated(inner, mappings)[_evaluated(key, mappings)]
         case ast.Attribute(value=inner, attr=key):
-            return _worked_out(inner, mappings)[key]
+            return _evaluated(inner, mappings)[key]
     raise ValueError(f"'{ast.unparse(node)}' is not understood")
 
 

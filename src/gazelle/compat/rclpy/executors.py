@@ -86,7 +86,7 @@ class Executor:
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
         """Run a function or coroutine while spinning; return its future."""
         task = Task(callback, args, kwargs, executor=self)
-        self._put(task, None)
+        self._enqueue(task, None)
         return task
 
     def add_node(self, node: Node) -> bool:
@@ -156,18 +156,18 @@ class Executor:
         """Run callbacks until a future is done, or time is up."""
         future.wake_with(lambda _future: self.wake())
         deadline = None if timeout_sec is None or timeout_sec < 0 else _now() + timeout_sec
-        while self._context.ok() and not self._is_shutdown and not _over(future):
+        while self._context.ok() and not self._is_shutdown and not _is_over(future):
             left_s = None if deadline is None else deadline - _now()
             if left_s is not None and left_s < 0:
                 return
-            self._spin_once(left_s, until=lambda: _over(future))
+            self._spin_once(left_s, until=lambda: _is_over(future))
 
     def spin_once_until_future_complete(
         self, future: Future, timeout_sec: float | None = None
     ) -> None:
         """Run one callback, or none when the future is done first."""
         future.wake_with(lambda _future: self.wake())
-        self._spin_once(timeout_sec, until=lambda: _over(future))
+        self._spin_once(timeout_sec, until=lambda: _is_over(future))
 
     def _spin_once(
         self, timeout_sec: float | None, until: Callable[[], bool] = lambda: False
@@ -175,7 +175,7 @@ class Executor:
         found = self._wait(timeout_sec, until)
         if found is not None:
             task = found[0]
-            self._step(*found)
+            self._run_step(*found)
             if found[1] is not None and task.done():
                 task.result()
 
@@ -189,7 +189,7 @@ class Executor:
                 if self._is_shutdown or until():
                     return None
                 if not self._context.ok():
-                    raise self._end()
+                    raise self._spin_end()
                 found = self._next()
                 if found is not None:
                     self._running_count += 1
@@ -199,7 +199,7 @@ class Executor:
                     return None
                 self._changed.wait(left_s)
 
-    def _end(self) -> BaseException:
+    def _spin_end(self) -> BaseException:
         """Return what spinning ends with: Ctrl-C is Ctrl-C.
 
         Python's own interrupt may come where nobody hears it, in a finaliser for one.
@@ -220,7 +220,7 @@ class Executor:
                 return Task(callback, executor=self), work
         return None
 
-    def _step(self, task: Task, work: Work | None) -> None:
+    def _run_step(self, task: Task, work: Work | None) -> None:
         """Run a task up to its end or its next `await`."""
         self._own.count = self._own_count() + 1
         try:
@@ -231,12 +231,12 @@ class Executor:
                 self._running_count -= 1
                 self._changed.notify_all()
         if awaited is not None:
-            awaited.wake_with(lambda _future: self._put(task, work))
+            awaited.wake_with(lambda _future: self._enqueue(task, work))
         elif work is not None:
             work.callback_group.ending_execution(work)
             self.wake()
 
-    def _put(self, task: Task, work: Work | None) -> None:
+    def _enqueue(self, task: Task, work: Work | None) -> None:
         with self._changed:
             self._tasks.append((task, work))
             self._changed.notify_all()
@@ -274,7 +274,7 @@ class MultiThreadedExecutor(Executor):
             # As in rclpy, which raises it in the single-threaded one only.
             found = None
         if found is not None:
-            pooled = self._pool.submit(self._step, *found)
+            pooled = self._pool.submit(self._run_step, *found)
             self._running.append((pooled, *found))
         over = [one for one in self._running if one[0].done()]
         self._running = [one for one in self._running if not one[0].done()]
@@ -284,7 +284,7 @@ class MultiThreadedExecutor(Executor):
                 task.result()
 
 
-def _over(future: Future) -> bool:
+def _is_over(future: Future) -> bool:
     return future.done() or future.cancelled()
 
 

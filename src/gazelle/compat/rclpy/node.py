@@ -446,11 +446,11 @@ class Node:
             raise InvalidParameterException(str(name))
         if name in self._parameters.values or name in self._rcl_uninitialized:
             raise ParameterAlreadyDeclaredException([name])
-        known = _descriptor(descriptor)
+        known = _descriptor_of(descriptor)
         wanted = value if isinstance(value, Parameter.Type) else None
         given = None if wanted is not None else value
         if not ignore_override and name in self._rcl_overrides:
-            given = _fitting(name, self._rcl_overrides[name], value, known)
+            given = _override_of_type(name, self._rcl_overrides[name], value, known)
         elif wanted is not None:
             self._rcl_uninitialized[name] = wanted
             return Parameter(name)
@@ -580,7 +580,7 @@ class Node:
         self.__check_declared(name)
         if self._parameters.descriptor(name).read_only:
             raise ParameterImmutableException(name)
-        known = _descriptor(descriptor)
+        known = _descriptor_of(descriptor)
         value = self._parameters.values[name]
         if not known.allows(value) and alternative_value is not None:
             value = value_from_message(alternative_value)
@@ -889,7 +889,7 @@ def _pairs(endpoints: Any) -> NamesAndTypes:
     return [(one.name, [one.type_name]) for one in endpoints]
 
 
-def _descriptor(message: Any) -> Descriptor:
+def _descriptor_of(message: Any) -> Descriptor:
     if message is None:
         return Descriptor()
     ranges = [*message.floating_point_range, *message.integer_range]
@@ -902,7 +902,7 @@ def _descriptor(message: Any) -> Descriptor:
     )
 
 
-def _fitting(name: str, given: Any, declared: Any, known: Descriptor) -> Any:
+def _override_of_type(name: str, given: Any, declared: Any, known: Descriptor) -> Any:
     """Return an override if it is of the declared type; 3 is no double, as in rclpy.
 
     Raises:

@@ -110,7 +110,7 @@ class Future:
             self._run(callback)
 
     def _run(self, callback: Any) -> None:
-        if isinstance(callback, _AtOnce):
+        if isinstance(callback, _InlineCallback):
             callback.callback(self)
             return
         if self._executor is not None:
@@ -125,12 +125,12 @@ class Future:
         """Call `wake` when it is done, in the very thread that sets it."""
         with self._lock:
             if not self._done and not self._cancelled:
-                self._callbacks.insert(0, _AtOnce(wake))
+                self._callbacks.insert(0, _InlineCallback(wake))
                 return
         wake(self)
 
 
-class _AtOnce:
+class _InlineCallback:
     """A done callback that goes past the executor."""
 
     def __init__(self, callback: Callable[[Any], Any]) -> None:

@@ -52,12 +52,14 @@ def numpify(msg: Any, *args: Any, **kwargs: Any) -> Any:
     if isinstance(msg, Sequence) and not isinstance(msg, str):
         if not msg:
             raise ValueError("Cannot determine the type of an empty Collection")
-        if _name(msg[0]) == _POINT_FIELD:
+        if _type_name(msg[0]) == _POINT_FIELD:
             return point_cloud2.fields_to_dtype(msg, *args, **kwargs)
-        raise ValueError(_unable("convert", _name(msg[0]) + "[]", [f"{_POINT_FIELD}[]"]))
-    convert = _TO_NUMPY.get(_name(msg))
+        raise ValueError(
+            _unsupported_text("convert", _type_name(msg[0]) + "[]", [f"{_POINT_FIELD}[]"])
+        )
+    convert = _TO_NUMPY.get(_type_name(msg))
     if convert is None:
-        raise ValueError(_unable("convert", _name(msg), _TO_NUMPY))
+        raise ValueError(_unsupported_text("convert", _type_name(msg), _TO_NUMPY))
     return convert(msg, *args, **kwargs)
 
 
@@ -74,20 +76,20 @@ def msgify(msg_type: Any, numpy_obj: Any, *args: Any, plural: bool = False, **kw
     Raises:
         ValueError: no array stands for the type, or this one has not its shape.
     """
-    name = _name(msg_type)
+    name = _type_name(msg_type)
     if plural and name == _POINT_FIELD:
         return point_cloud2.dtype_to_fields(numpy_obj, msg_type)
     convert = _FROM_NUMPY.get(name)
     if convert is None or plural:
-        raise ValueError(_unable("build", name, _FROM_NUMPY))
+        raise ValueError(_unsupported_text("build", name, _FROM_NUMPY))
     return convert(numpy_obj, *args, msg_type=msg_type, **kwargs)
 
 
-def _name(one: Any) -> str:
+def _type_name(one: Any) -> str:
     return str(getattr(one, "TYPE_NAME", "") or getattr(one, "__name__", type(one).__name__))
 
 
-def _unable(what: str, name: str, known: Any) -> str:
+def _unsupported_text(what: str, name: str, known: Any) -> str:
     names = ", ".join(sorted(known))
     text = f"Unable to {what} message {name} - only supports {names}"
     return f"{text}; {did_you_mean(name, known)}".rstrip("; ")

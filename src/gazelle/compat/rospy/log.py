@@ -35,12 +35,12 @@ def _log(level: Level, message: Any, args: tuple[Any, ...], kwargs: dict[str, An
     )
 
 
-def _place() -> tuple[str, int]:
+def _call_site() -> tuple[str, int]:
     frame: FrameType = sys._getframe(2)
     return frame.f_code.co_filename, frame.f_lineno
 
 
-def _due(call_site: tuple[str, int], period: float, text: str, *, identical: bool) -> bool:
+def _is_due(call_site: tuple[str, int], period: float, text: str, *, identical: bool) -> bool:
     """Return whether a throttled message may be said; the clock is the node's."""
     now = time.monotonic() if STATE.node is None else STATE.node.clock.now_ns() / 1e9
     last, last_text = _last.get(call_site, (float("-inf"), ""))
@@ -84,7 +84,7 @@ def logfatal(msg: Any, *args: Any, **kwargs: Any) -> None:
 def _throttled(level: Level, *, identical: bool) -> Any:
     def log(period: float, msg: Any, *args: Any, **kwargs: Any) -> None:
         text = str(msg) % args if args else str(msg)
-        if _due(_place(), float(period), text, identical=identical):
+        if _is_due(_call_site(), float(period), text, identical=identical):
             _log(level, msg, args, kwargs)
 
     log.__doc__ = f"Say something at {level.name.lower()} level, at most once in `period` seconds."
@@ -93,7 +93,7 @@ def _throttled(level: Level, *, identical: bool) -> Any:
 
 def _once(level: Level) -> Any:
     def log(msg: Any, *args: Any, **kwargs: Any) -> None:
-        if is_first_time(_place()):
+        if is_first_time(_call_site()):
             _log(level, msg, args, kwargs)
 
     log.__doc__ = f"Say something at {level.name.lower()} level, once from this place."

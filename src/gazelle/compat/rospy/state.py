@@ -104,7 +104,7 @@ class NodeState:
         """Make the node (see `rospy.init_node`)."""
         with self._lock:
             if self.node is not None:
-                self._check_again(name)
+                self._check_repeated_init(name)
                 return
             self.line = parse_command_line(sys.argv[1:] if argv is None else argv)
             self.argv = argv
@@ -225,7 +225,7 @@ class NodeState:
         if self.is_over():
             raise ROSInterruptException("rospy shutdown")
 
-    def _check_again(self, name: str) -> None:
+    def _check_repeated_init(self, name: str) -> None:
         assert self.node is not None
         own = self.node.name.rsplit("/", 1)[-1]
         if own != name and not own.startswith(f"{name}_"):
@@ -253,7 +253,7 @@ class NodeState:
             self._asked_twice = True
             signal.default_int_handler(number, frame)
         if number == signal.SIGINT:
-            threading.Thread(target=self._end_what_waits, daemon=True).start()
+            threading.Thread(target=self._interrupt_waiting_threads, daemon=True).start()
         # Hooks publish and wait; that must not happen inside the handler of a held lock.
         thread = threading.Thread(target=self.shut_down, args=(f"signal-{number}",), daemon=True)
         thread.start()
@@ -266,7 +266,7 @@ class NodeState:
         elif self._previous_sigint not in _PLAIN_HANDLERS and callable(self._previous_sigint):
             self._previous_sigint(number, frame)
 
-    def _end_what_waits(self) -> None:
+    def _interrupt_waiting_threads(self) -> None:
         """Interrupt the main thread, or leave the others, if they do not know of the shutdown.
 
         Python goes on waiting when a signal comes, so a program may wait for ever.

@@ -55,7 +55,7 @@ class TransformListener:
             buffer.use_node(node)
         self._listener = graph_tf.TransformListener(
             buffer.core,
-            _node(node, "TransformListener"),
+            _graph_node(node, "TransformListener"),
             moving=tf_topic,
             static=tf_static_topic,
         )
@@ -74,8 +74,8 @@ class TransformBroadcaster:
     """
 
     def __init__(self, node: Any = None, qos: Any = None) -> None:
-        owner = _node(node, "TransformBroadcaster")
-        self._core = graph_tf.TransformBroadcaster(owner, qos=_announced(qos))
+        owner = _graph_node(node, "TransformBroadcaster")
+        self._core = graph_tf.TransformBroadcaster(owner, qos=_announced_qos(qos))
 
     def sendTransform(self, transform: Any) -> None:
         """Send one ``TransformStamped`` or a list of them."""
@@ -91,17 +91,19 @@ class StaticTransformBroadcaster:
     """
 
     def __init__(self, node: Any = None, qos: Any = None) -> None:
-        wanted = _announced(qos)
+        wanted = _announced_qos(qos)
         if wanted is not None and not wanted.latched:
             warn_once("StaticTransformBroadcaster: late listeners get its frames whatever the QoS")
-        self._core = graph_tf.StaticTransformBroadcaster(_node(node, "StaticTransformBroadcaster"))
+        self._core = graph_tf.StaticTransformBroadcaster(
+            _graph_node(node, "StaticTransformBroadcaster")
+        )
 
     def sendTransform(self, transform: Any) -> None:
         """Send one ``TransformStamped`` or a list of them."""
         self._core.send(transform)
 
 
-def _announced(qos: Any) -> Qos | None:
+def _announced_qos(qos: Any) -> Qos | None:
     """Return what others are told of rclpy's QoS, None for the usual."""
     if qos is None:
         return None
@@ -110,7 +112,7 @@ def _announced(qos: Any) -> Qos | None:
     return announced_qos(as_profile(qos))
 
 
-def _node(node: Any, who: str) -> Node:
+def _graph_node(node: Any, who: str) -> Node:
     if hasattr(node, "graph_node"):
         found: Node = node.graph_node
         return found

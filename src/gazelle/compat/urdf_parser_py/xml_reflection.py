@@ -159,7 +159,7 @@ class Info:
         self.children = xml_children(node)
 
 
-def _said(path: Path | None, do: Callable[[], None]) -> None:
+def _with_path(path: Path | None, do: Callable[[], None]) -> None:
     """Do something; an error of it is told with the place."""
     try:
         do()
@@ -202,9 +202,9 @@ class Reflection:
         if self.parent is not None:
             path = self.parent.set_from_xml(obj, node, path, left)
         for attribute in self._read_attributes(obj, node, path, left):
-            _said(path, partial(attribute.set_default, obj))
+            _with_path(path, partial(attribute.set_default, obj))
         for element in self._read_elements(obj, path, left):
-            _said(path, partial(element.set_default, obj))
+            _with_path(path, partial(element.set_default, obj))
         if info is None:
             for name in left.attributes:
                 report(f'Unknown attribute "{name}" in {path}')
@@ -219,7 +219,7 @@ class Reflection:
         for name in [one for one in left.attributes if one in self.attribute_map]:
             attribute = self.attribute_map[name]
             child_path = Path(path.tag, path.parent, f"{path.suffix}[@{name}]", path.tree)
-            _said(child_path, partial(attribute.set_from_string, obj, node.attrib[name]))
+            _with_path(child_path, partial(attribute.set_from_string, obj, node.attrib[name]))
             if name == "name":
                 path.suffix = f"[@name='{attribute.get_value(obj)}']"
             left.attributes.remove(name)
@@ -312,7 +312,7 @@ class Object(YamlReflection):
         """
         self._table().set_from_xml(self, node, path)
         self.post_read_xml()
-        _said(path, self.check_valid)
+        _with_path(path, self.check_valid)
 
     @classmethod
     def from_xml(cls, node: ET.Element, path: Path) -> Self:

@@ -185,7 +185,7 @@ class MoveGroupCommander:
         Raises:
             MoveItCommanderException: there is none.
         """
-        link = self._link(end_effector_link, "There is no end effector to get the pose of")
+        link = self._link_or_tip(end_effector_link, "There is no end effector to get the pose of")
         pose = self._robot.link_pose(link)
         values = [*pose.position_m, *pose.quat_xyzw]
         return list_to_pose_stamped(values, self._robot.model.frame)
@@ -196,7 +196,7 @@ class MoveGroupCommander:
         Raises:
             MoveItCommanderException: there is none.
         """
-        link = self._link(end_effector_link, "There is no end effector to get the rpy of")
+        link = self._link_or_tip(end_effector_link, "There is no end effector to get the rpy of")
         return list(self._robot.link_pose(link).rpy_rad)
 
     def get_random_joint_values(self) -> list[float]:
@@ -210,7 +210,7 @@ class MoveGroupCommander:
         Raises:
             MoveItCommanderException: there is no end effector.
         """
-        link = self._link(end_effector_link, "There is no end effector to get the pose of")
+        link = self._link_or_tip(end_effector_link, "There is no end effector to get the pose of")
         model = self._robot.model
         q = self._group.space.sample(self._rng)
         where = model.with_group(self._group, q, self._robot.positions())
@@ -235,11 +235,11 @@ class MoveGroupCommander:
         elif isinstance(arg1, str):
             values = {arg1: arg2[0] if isinstance(arg2, list | tuple) else arg2}
         elif hasattr(arg1, "pose") or hasattr(arg1, "orientation"):
-            values = self._solved(arg1, arg2 if isinstance(arg2, str) else "", bool(arg3))
+            values = self._joints_of_pose(arg1, arg2 if isinstance(arg2, str) else "", bool(arg3))
         elif isinstance(arg1, Mapping):
             values = dict(arg1)
         else:
-            values = self._listed(arg1)
+            values = self._joints_of_list(arg1)
         unknown = [name for name in values if name not in self._robot.model.variables]
         if unknown:
             hint = did_you_mean(unknown[0], self._group.variables)
@@ -264,8 +264,8 @@ class MoveGroupCommander:
         Raises:
             MoveItCommanderException: there is no end effector, or the numbers are no pose.
         """
-        link = self._link(end_effector_link, _NO_TIP)
-        found = [self._pose(pose) for pose in poses]
+        link = self._link_or_tip(end_effector_link, _NO_TIP)
+        found = [self._stamped_pose(pose) for pose in poses]
         frame = found[0][0] if found else self._frame
         self._targets.set_poses(link, frame, [pose for _, pose in found])
 
@@ -275,7 +275,7 @@ class MoveGroupCommander:
         Raises:
             MoveItCommanderException: there is no end effector.
         """
-        link = self._link(end_effector_link, _NO_TIP)
+        link = self._link_or_tip(end_effector_link, _NO_TIP)
         self._targets.set_part(link, self._frame, position_m=[float(value) for value in xyz])
 
     def set_orientation_target(self, q: Sequence[float], end_effector_link: str = "") -> None:
@@ -286,7 +286,7 @@ class MoveGroupCommander:
         """
         if len(q) != 4:
             raise MoveItCommanderException("Expected [qx, qy, qz, qw]")
-        link = self._link(end_effector_link, _NO_TIP)
+        link = self._link_or_tip(end_effector_link, _NO_TIP)
         self._targets.set_part(link, self._frame, quat_xyzw=[float(value) for value in q])
 
     def set_rpy_target(self, rpy: Sequence[float], end_effector_link: str = "") -> None:
@@ -306,7 +306,7 @@ class MoveGroupCommander:
         Raises:
             MoveItCommanderException: there is no end effector, or the axis is not 0 to 5.
         """
-        link = self._link(end_effector_link, _NO_TIP)
+        link = self._link_or_tip(end_effector_link, _NO_TIP)
         if not 0 <= axis < 6:
             raise MoveItCommanderException("An axis value between 0 and 5 expected")
         start = (self._robot.model.frame, self._robot.link_pose(link))
@@ -710,20 +710,20 @@ class MoveGroupCommander:
         solver = self._robot.solver(self._group.name)
         return solver.jacobian(self._array(joint_values), self._tip, T_link_tool=tool)
 
-    def _link(self, name: str, otherwise: str) -> str:
+    def _link_or_tip(self, name: str, otherwise: str) -> str:
         link = name or self._tip
         if not link:
             raise MoveItCommanderException(otherwise)
         return link
 
-    def _pose(self, pose: Any) -> tuple[str, Pose]:
+    def _stamped_pose(self, pose: Any) -> tuple[str, Pose]:
         if hasattr(pose, "pose"):
             return pose.header.frame_id or self._frame, pose_of(pose.pose)
         if hasattr(pose, "orientation"):
             return self._frame, pose_of(pose)
         return self._frame, pose_of_list(pose)
 
-    def _listed(self, values: Any) -> dict[str, float]:
+    def _joints_of_list(self, values: Any) -> dict[str, float]:
         names = self._group.variables
         try:
             numbers = [float(value) for value in values]
@@ -744,8 +744,8 @@ class MoveGroupCommander:
             text = "Error setting joint target. Is the target within bounds? "
             raise MoveItCommanderException(text + "; ".join(mine))
 
-    def _solved(self, pose: Any, link: str, approximate: bool) -> dict[str, float]:
-        frame, target = self._pose(pose)
+    def _joints_of_pose(self, pose: Any, link: str, approximate: bool) -> dict[str, float]:
+        frame, target = self._stamped_pose(pose)
         if approximate:
             text = "approximate inverse kinematics is not there; give a pose that can be reached"
             raise MoveItCommanderException(text)

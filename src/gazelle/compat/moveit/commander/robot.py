@@ -19,9 +19,9 @@ __all__ = ["RobotCommander"]
 class _Joint:
     """A joint: its limits and where it is."""
 
-    def __init__(self, robot: RobotCommander, view: RobotInterface, joint: RobotJoint) -> None:
+    def __init__(self, robot: RobotCommander, interface: RobotInterface, joint: RobotJoint) -> None:
         self._robot = robot
-        self._view = view
+        self._interface = interface
         self._joint = joint
 
     def name(self) -> str:
@@ -49,7 +49,7 @@ class _Joint:
 
     def value(self) -> Any:
         """Return where it is, rad or m."""
-        known = self._view.model.named(self._view.positions())
+        known = self._interface.model.named(self._interface.positions())
         rows = [known[name] for name in self._joint.variables]
         return rows[0] if len(rows) == 1 else rows
 
@@ -68,8 +68,8 @@ class _Joint:
 class _Link:
     """A link and where it is."""
 
-    def __init__(self, view: RobotInterface, name: str) -> None:
-        self._view = view
+    def __init__(self, interface: RobotInterface, name: str) -> None:
+        self._interface = interface
         self._name = name
 
     def name(self) -> str:
@@ -78,9 +78,9 @@ class _Link:
 
     def pose(self) -> Any:
         """Return its pose in the planning frame."""
-        pose = self._view.link_pose(self._name)
+        pose = self._interface.link_pose(self._name)
         values = [*pose.position_m, *pose.quat_xyzw]
-        return list_to_pose_stamped(values, self._view.model.frame)
+        return list_to_pose_stamped(values, self._interface.model.frame)
 
 
 class RobotCommander:
@@ -100,50 +100,52 @@ class RobotCommander:
     def __init__(self, robot_description: str = "robot_description", ns: str = "") -> None:
         self._description = robot_description
         self._ns = ns
-        self._view = robot_of(robot_description, ns)
+        self._interface = robot_of(robot_description, ns)
         self._groups: dict[str, MoveGroupCommander] = {}
 
     def get_planning_frame(self) -> str:
         """Return the frame that everything is planned in."""
-        return self._view.model.frame
+        return self._interface.model.frame
 
     def get_root_link(self) -> str:
         """Return the link that carries all others."""
-        return self._view.model.root_link
+        return self._interface.model.root_link
 
     def get_group_names(self) -> list[str]:
         """Return the planning groups."""
-        return list(self._view.model.groups)
+        return list(self._interface.model.groups)
 
     def has_group(self, name: str) -> bool:
         """Return whether there is a group of this name."""
-        return name in self._view.model.groups
+        return name in self._interface.model.groups
 
     def get_active_joint_names(self, group: str | None = None) -> list[str]:
         """Return the joints that can be driven, of the robot or of a group."""
         if group is not None:
             return list(self._group(group).active_joints)
-        return [joint.name for joint in self._view.model.joints if joint.is_active]
+        return [joint.name for joint in self._interface.model.joints if joint.is_active]
 
     def get_joint_names(self, group: str | None = None) -> list[str]:
         """Return all joints, of the robot or of a group."""
         if group is not None:
             return list(self._group(group).joints)
-        return [joint.name for joint in self._view.model.joints]
+        return [joint.name for joint in self._interface.model.joints]
 
     def get_link_names(self, group: str | None = None) -> list[str]:
         """Return all links, of the robot or of a group."""
-        return list(self._view.model.links if group is None else self._group(group).links)
+        return list(self._interface.model.links if group is None else self._group(group).links)
 
     def get_current_state(self) -> Any:
         """Return the ``RobotState`` of now."""
-        model = self._view.model
-        made = robot_state_message(model, self._view.positions(), frame=model.frame, stamp_ns=0)
+        model = self._interface.model
+        made = robot_state_message(
+            model, self._interface.positions(), frame=model.frame, stamp_ns=0
+        )
         return ros1(made)
 
     def get_current_variable_values(self) -> dict[str, float]:
         """Return where all joints are, by variable."""
-        return self._view.model.named(self._view.positions())
+        return self._interface.model.named(self._interface.positions())
 
     def get_joint(self, name: str) -> _Joint:
         """Return a joint.
@@ -151,10 +153,10 @@ class RobotCommander:
         Raises:
             MoveItCommanderException: there is none of this name.
         """
-        joints = {joint.name: joint for joint in self._view.model.joints}
+        joints = {joint.name: joint for joint in self._interface.model.joints}
         if name not in joints:
-            raise MoveItCommanderException(_none("joint", name, tuple(joints)))
-        return _Joint(self, self._view, joints[name])
+            raise MoveItCommanderException(_unknown_text("joint", name, tuple(joints)))
+        return _Joint(self, self._interface, joints[name])
 
     def get_link(self, name: str) -> _Link:
         """Return a link.
@@ -162,9 +164,9 @@ class RobotCommander:
         Raises:
             MoveItCommanderException: there is none of this name.
         """
-        if name not in self._view.model.links:
-            raise MoveItCommanderException(_none("link", name, self._view.model.links))
-        return _Link(self._view, name)
+        if name not in self._interface.model.links:
+            raise MoveItCommanderException(_unknown_text("link", name, self._interface.model.links))
+        return _Link(self._interface, name)
 
     def get_group(self, name: str) -> MoveGroupCommander:
         """Return the commander of a group.
@@ -179,7 +181,7 @@ class RobotCommander:
 
     def get_default_owner_group(self, joint_name: str) -> str | None:
         """Return the smallest group that drives a joint."""
-        groups = self._view.model.groups.values()
+        groups = self._interface.model.groups.values()
         owners = [group for group in groups if joint_name in group.active_joints]
         found = min(owners, key=lambda group: len(group.active_joints), default=None)
         return None if found is None else found.name
@@ -187,7 +189,7 @@ class RobotCommander:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
-        model = self._view.model
+        model = self._interface.model
         if name in model.groups:
             return self.get_group(name)
         joints = {joint.name for joint in model.joints if joint.kind is not JointKind.FIXED}
@@ -198,10 +200,12 @@ class RobotCommander:
         raise AttributeError(f"RobotCommander has no attribute, group, joint or link '{name}'")
 
     def _group(self, name: str) -> JointGroup:
-        if name not in self._view.model.groups:
-            raise MoveItCommanderException(_none("group", name, tuple(self._view.model.groups)))
-        return self._view.model.groups[name]
+        if name not in self._interface.model.groups:
+            raise MoveItCommanderException(
+                _unknown_text("group", name, tuple(self._interface.model.groups))
+            )
+        return self._interface.model.groups[name]
 
 
-def _none(kind: str, name: str, known: tuple[str, ...]) -> str:
+def _unknown_text(kind: str, name: str, known: tuple[str, ...]) -> str:
     return f"There is no {kind} named {name}; {did_you_mean(name, known)}"
