@@ -24,7 +24,7 @@ WITH_TYPES = {
     "gazelle.compat.rclpy.endpoints",
     "gazelle.engine.core",
     "gazelle.graph.actions.actionlib_wire",
-    "gazelle.graph.clock",
+    "gazelle.graph.callback_queue",
     "gazelle.launch.ros2.action",
     "gazelle.launch.ros2.event_handler",
     "gazelle.simulator.handles",
