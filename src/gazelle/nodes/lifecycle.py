@@ -10,11 +10,13 @@ from gazelle.interfaces import message_type, service_type
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
+    from gazelle.nodes.arguments import NodeArguments
 
-__all__ = ["Lifecycle"]
+__all__ = ["Lifecycle", "serve"]
 
 _STATES = {0: "unknown", 1: "unconfigured", 2: "inactive", 3: "active", 4: "finalized"}
 _UNCONFIGURED, _INACTIVE, _ACTIVE, _FINALIZED = 1, 2, 3, 4
+_POLL_S = 0.2
 
 
 class _Transition(NamedTuple):
@@ -133,6 +135,29 @@ class Lifecycle:
 
     def _on_graph(self, _request: Any) -> Any:
         return _descriptions(list(_TRANSITIONS))
+
+
+def serve(
+    arguments: NodeArguments,
+    node: Node,
+    stop: threading.Event,
+    callbacks: dict[str, Callable[[], bool]],
+) -> Lifecycle:
+    """Be a managed node until told to stop, or until it is finalized.
+
+    Args:
+        arguments: of the node.
+        node: on the graph.
+        stop: told to stop.
+        callbacks: see `Lifecycle`.
+    """
+    lifecycle = Lifecycle(node, callbacks)
+    arguments.ready()
+    while not (stop.wait(_POLL_S) or lifecycle.finalized or node.closed):
+        pass
+    if not node.closed and lifecycle.active:
+        lifecycle.change("deactivate")
+    return lifecycle
 
 
 def _state(number: int) -> Any:

@@ -6,20 +6,23 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, brief
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Level, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import aside_path, level_of, write_aside
 from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters, ParameterPolicy
-from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.arguments import NodeArguments, file_params
 from gazelle.nodes.log_output import keep_log, print_ros2
-from gazelle.parameters import ParameterTable
+from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.owner import ParameterOwner
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.sources import TreeSource
 from gazelle.parameters.trees import flattened, nested, values_only
+
+if TYPE_CHECKING:
+    from gazelle.graph.dynamic_reconfigure import DynamicParameter, ReconfigureServer
 
 __all__ = [
     "log_findings",
@@ -27,15 +30,20 @@ __all__ = [
     "node_parameters",
     "node_reader",
     "number_or_end",
+    "offer_dynamic_reconfigure",
+    "offer_parameters",
     "parameter_tree",
     "private_parameters",
     "start_node",
+    "start_ros2_node",
     "ticks",
+    "tree_of_node",
 ]
 
 
 _LEVELS = {10: "info", 20: "warn", 30: "error"}
 _SIM_TIME = "use_sim_time"
+_RECONFIGURE_TYPES = {"number": "double", "integer": "int", "flag": "bool", "text": "str"}
 
 # Nav2's launch files give autostart to all nodes of a container; lifecycle_manager reads it.
 _EVERYWHERE = frozenset(
@@ -104,6 +112,15 @@ def start_node(arguments: NodeArguments, graph: Graph, *, offers_parameters: boo
     return node
 
 
+def start_ros2_node(arguments: NodeArguments, graph: Graph) -> tuple[Node, dict[str, Any]]:
+    """Make the graph node; returns it and its parameters, nested, for `offer_parameters`."""
+    node = start_node(arguments, graph, offers_parameters=False)
+    tree = nested(arguments.params)
+    if tree.get("use_sim_time") in (True, "true", "True"):
+        node.clock.use(True)
+    return node, tree
+
+
 def node_parameters(
     node: Node,
     values: Mapping[str, Any],
@@ -130,6 +147,45 @@ def node_parameters(
         policy=ParameterPolicy(allow_undeclared=allow_undeclared),
         now_ns=node.clock.now_ns,
     )
+
+
+def offer_parameters(
+    node: Node,
+    tree: Mapping[str, Any],
+    changed: Callable[[dict[str, Any]], str] = lambda changes: "",
+) -> NodeParameters:
+    """Offer a node's parameters to ``ros2 param``; `changed` may refuse with a reason."""
+    values = {key: value for key, value in values_only(flattened(tree)) if value is not None}
+    return node_parameters(node, values, changed, allow_undeclared=True)
+
+
+def offer_dynamic_reconfigure(
+    node: Node, namespace: str, settings: ParameterReader, changed: Callable[[dict[str, Any]], None]
+) -> ReconfigureServer | None:
+    """Offer a table's live parameters to dynamic_reconfigure; None when there are none.
+
+    Args:
+        node: the owner.
+        namespace: absolute, such as ``/move_base/local_costmap``.
+        settings: present values and their table.
+        changed: hears all live values after each change.
+    """
+    from gazelle.graph.dynamic_reconfigure import ReconfigureServer
+
+    rows = [row for row in settings.table.rows if row.live and row.kind in _RECONFIGURE_TYPES]
+    if not rows:
+        return None
+
+    def on_change(values: dict[str, Any], _level: int) -> None:
+        changed(dict(values))
+
+    group = [_dynamic_parameter(row, settings.value(row)) for row in rows]
+    return ReconfigureServer(node, namespace, group, on_change)
+
+
+def tree_of_node(arguments: NodeArguments, full_name: str) -> dict[str, Any]:
+    """Return the parameters of another node of the same process, nested."""
+    return nested(file_params(arguments.parameter_files, full_name))
 
 
 def parameter_tree(node: Node, arguments: NodeArguments) -> dict[str, Any]:
@@ -273,3 +329,12 @@ def _offer_given(node: Node, given: Mapping[str, Any]) -> None:
         name: value for name, value in values_only(flattened(nested(given))) if value is not None
     }
     node_parameters(node, {_SIM_TIME: False, **values}, refused)
+
+
+def _dynamic_parameter(row: Parameter, value: Any) -> DynamicParameter:
+    from gazelle.graph.dynamic_reconfigure import DynamicParameter
+
+    kind = _RECONFIGURE_TYPES[row.kind]
+    low, high = (None, None) if kind in ("bool", "str") else (row.low, row.high)
+    meaning = f"{row.meaning} [{row.unit}]" if row.unit else row.meaning
+    return DynamicParameter(row.key, kind, value, meaning, low, high)

@@ -27,9 +27,14 @@ from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.occupancy_grid import grid_of_message
-from gazelle.nodes.navigation.live_parameters import offer
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
-from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node
+from gazelle.nodes.parameters import (
+    log_findings,
+    node_reader,
+    offer_dynamic_reconfigure,
+    parameter_tree,
+    start_node,
+)
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["AmclNode", "Outputs", "SpawnHint", "run", "run_ros2", "scan_of_message"]
@@ -184,7 +189,7 @@ class AmclNode:
         self._odometry: tuple[PlanePose, int] | None = None
         self._saved_ns = 0
         self._hint: SpawnHint | None = None
-        offer(node, node.resolve_name("~"), self._settings, self._reconfigure)
+        offer_dynamic_reconfigure(node, node.resolve_name("~"), self._settings, self._reconfigure)
         log_findings(node, found)
 
     def start(self) -> None:

@@ -19,9 +19,8 @@ from gazelle.graph.tf import TransformError
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_xyz, xyz_of
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.starting import offer_parameters, start
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.parameters import log_findings, node_reader
+from gazelle.nodes.parameters import log_findings, node_reader, offer_parameters, start_ros2_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 
 __all__ = ["PARAMETERS", "run"]
@@ -48,7 +47,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     Raises:
         LaunchError: no frame is given.
     """
-    node, tree = start(arguments, graph)
+    node, tree = start_ros2_node(arguments, graph)
     found = Diagnostics()
     settings = node_reader(PARAMETERS, tree, node.name, found)
     frames = arguments.rest or settings.texts("target_frames")

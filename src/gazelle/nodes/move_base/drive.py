@@ -18,6 +18,7 @@ from gazelle.nodes.move_base.state_machine import Plan, Trigger
 from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
 from gazelle.nodes.navigation.robot_pose import PlanePose
 from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.twist_publisher import TwistPublisher
 
 if TYPE_CHECKING:
     from gazelle.graph import Node
@@ -50,8 +51,7 @@ class Driver:
         self._near, self._whole = near, whole
         self._local = local
         self._goals = goals
-        self._twist: Any = message_type("geometry_msgs/msg/Twist")
-        self._out = node.create_publisher("cmd_vel", self._twist, queue_size=1)
+        self._out = TwistPublisher(node, is_stamped=False)
         self._status: Any = message_type("move_base_msgs/msg/RecoveryStatus")
         self._status_out = node.create_publisher("~/recovery_status", self._status, queue_size=1)
         self._limited: tuple[PlanePose | None, float] | None = None
@@ -94,16 +94,16 @@ class Driver:
             self._near.frames.say("warn", found, key="no velocity", every_s=1.0)
             return found
         x, y, turn = found.velocity
-        self._send(x, y, turn)
+        self._out.publish(x, y, turn)
         return ""
 
     def stop(self) -> None:
         """Send zero velocity."""
-        self._send(0.0, 0.0, 0.0)
+        self._out.stop()
 
     def drive(self, linear_m_s: float, angular_rad_s: float) -> None:
         """Send a velocity."""
-        self._send(linear_m_s, 0.0, angular_rad_s)
+        self._out.publish(linear_m_s, 0.0, angular_rad_s)
 
     def recover(self, index: int, trigger: Trigger) -> None:
         """Run a behaviour to its end and tell about it."""
@@ -151,11 +151,6 @@ class Driver:
     def _limit_speed(self, speed_m_s: float, distance_m: float) -> None:
         self._limited = (None, distance_m)
         self._local.limit_speed(speed_m_s)
-
-    def _send(self, x: float, y: float, turn: float) -> None:
-        message = self._twist()
-        message.linear.x, message.linear.y, message.angular.z = x, y, turn
-        self._out.publish(message)
 
     def _tell(self, index: int, behaviour: Behaviour) -> None:
         message = self._status(

@@ -23,10 +23,16 @@ from gazelle.nodes.move_base.state_machine import Executive, Outcome, PlanPose, 
 from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
 from gazelle.nodes.navigation.costmap_parameters import INHERITED, assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
-from gazelle.nodes.navigation.live_parameters import offer
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
 from gazelle.nodes.navigation.simple_action_server import SingleGoal
-from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node, ticks
+from gazelle.nodes.parameters import (
+    log_findings,
+    node_reader,
+    offer_dynamic_reconfigure,
+    parameter_tree,
+    start_node,
+    ticks,
+)
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["MoveBase", "Services", "run"]
@@ -331,14 +337,16 @@ class MoveBase:
 
     def _offer_changes(self) -> None:
         """Offer what dynamic_reconfigure may change."""
-        offer(self.node, self.node.name, self.settings, self._change)
-        offer(self.node, f"{self.node.name}/{self.local.name}", self.local.settings,
-              self.local.change)  # fmt: skip
+        node, local = self.node, self.local
+        offer_dynamic_reconfigure(node, node.name, self.settings, self._change)
+        below = f"{node.name}/{local.name}"
+        offer_dynamic_reconfigure(node, below, local.settings, local.change)
         for name, costmap in self.costmaps.items():
-            below = f"{self.node.name}/{name}"
-            offer(self.node, below, costmap.assembly.settings, costmap.change)
+            below = f"{node.name}/{name}"
+            offer_dynamic_reconfigure(node, below, costmap.assembly.settings, costmap.change)
             for layer, settings in costmap.assembly.layers.items():
-                offer(self.node, f"{below}/{layer}", settings, costmap.layer_changer(layer))
+                change = costmap.layer_changer(layer)
+                offer_dynamic_reconfigure(node, f"{below}/{layer}", settings, change)
 
     def _change(self, values: dict[str, Any]) -> None:
         self.settings.tree.update(values)

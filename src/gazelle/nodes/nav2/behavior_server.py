@@ -15,13 +15,13 @@ from gazelle.interfaces import action_type
 from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.navigation.costmap import CostGrid, Footprint, footprint_cost
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.costmap_node import grid_of_costmap, outline_in_base
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import BEHAVIOR_SERVER
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
 from gazelle.nodes.navigation.simple_action_server import SingleGoal
 from gazelle.nodes.parameters import ticks
+from gazelle.nodes.twist_publisher import TwistPublisher
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
@@ -49,7 +49,7 @@ class _BehaviorServer(ManagedServer):
         super().__init__(setup, BEHAVIOR_SERVER)
         self._frames = Frames(self._node)
         stamped = self._settings.flag("enable_stamped_cmd_vel")
-        self._out = VelocityOutput(self._node, stamped=stamped)
+        self._out = TwistPublisher(self._node, is_stamped=stamped)
         self._grid: CostGrid | None = None
         self._footprint: Footprint | None = None
 
@@ -134,7 +134,7 @@ class _BehaviorServer(ManagedServer):
             speed = min(max(fastest, number("min_rotational_vel")), number("max_rotational_vel"))
             turn = math.copysign(speed, wanted)
             self._look_ahead(0.0, turn, left / speed)
-            self._out.send(0.0, 0.0, turn)
+            self._out.publish(0.0, 0.0, turn)
             feedback = action_type("nav2_msgs/Spin").Feedback()
             feedback.angular_distance_traveled = turned
             action.feedback(feedback)
@@ -158,7 +158,7 @@ class _BehaviorServer(ManagedServer):
             if gone >= abs(distance):
                 return
             self._look_ahead(speed, 0.0, (abs(distance) - gone) / max(abs(speed), 1e-6))
-            self._out.send(speed, 0.0, 0.0)
+            self._out.publish(speed, 0.0, 0.0)
             feedback = action_type("nav2_msgs/BackUp").Feedback()
             feedback.distance_traveled = gone
             action.feedback(feedback)

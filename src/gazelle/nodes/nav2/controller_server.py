@@ -25,7 +25,6 @@ from gazelle.navigation.controllers import (
     RobotState,
 )
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import (
     CONTROLLER_SERVER,
@@ -36,6 +35,7 @@ from gazelle.nodes.nav2.parameters import (
 from gazelle.nodes.navigation.robot_pose import Odometry, PlanePose, path_message
 from gazelle.nodes.navigation.simple_action_server import SingleGoal
 from gazelle.nodes.parameters import ticks
+from gazelle.nodes.twist_publisher import TwistPublisher
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader
 
@@ -130,7 +130,7 @@ class _ControllerServer(ManagedServer):
         self._goal_checkers: dict[str, GoalChecker] = {}
         self._progress_checkers: dict[str, ProgressChecker] = {}
         stamped = self._settings.flag("enable_stamped_cmd_vel")
-        self._out = VelocityOutput(node, stamped=stamped)
+        self._out = TwistPublisher(node, is_stamped=stamped)
         self._odometry = Odometry(node, self._settings.text("odom_topic"))
         path = message_type("nav_msgs/msg/Path")
         self._local_out = node.create_publisher("local_plan", path, queue_size=1)
@@ -294,7 +294,7 @@ class _ControllerServer(ManagedServer):
             if found.note:
                 live.frames.say("warn", found.note, key="maneuver")
             x, y, turn = found.velocity
-            self._out.send(x, y, turn, live.base_frame)
+            self._out.publish(x, y, turn, live.base_frame)
             if self._local_out.matched:
                 message = path_message(found.trajectory, live.global_frame, now_ns)
                 self._local_out.publish(message)

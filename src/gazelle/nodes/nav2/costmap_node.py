@@ -16,11 +16,11 @@ from gazelle.interfaces import service_type
 from gazelle.navigation.costmap import CostGrid
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_output import print_ros2
-from gazelle.nodes.nav2.starting import offer_parameters, tree_of_node
 from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
 from gazelle.nodes.navigation.costmap_parameters import assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames
+from gazelle.nodes.parameters import offer_parameters, tree_of_node
 
 __all__ = ["Nav2Costmap", "grid_of_costmap", "outline_in_base"]
 

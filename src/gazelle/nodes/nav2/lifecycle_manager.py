@@ -14,8 +14,7 @@ from gazelle.graph.errors import ServiceCallError
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.nav2.parameters import LIFECYCLE_MANAGER
-from gazelle.nodes.nav2.starting import offer_parameters, start
-from gazelle.nodes.parameters import log_findings, node_reader
+from gazelle.nodes.parameters import log_findings, node_reader, offer_parameters, start_ros2_node
 
 __all__ = ["run"]
 
@@ -42,7 +41,7 @@ _REVERSED = frozenset({1, 3, 4, 6})
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Manage until told to stop."""
-    node, tree = start(arguments, graph)
+    node, tree = start_ros2_node(arguments, graph)
     manager = _Manager(node, tree, stop)
     arguments.ready()
     manager.watch()

@@ -12,10 +12,10 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.lifecycle import serve
 from gazelle.nodes.nav2.costmap_node import Nav2Costmap
-from gazelle.nodes.nav2.starting import offer_parameters, serve, start
 from gazelle.nodes.navigation.simple_action_server import SingleGoal
-from gazelle.nodes.parameters import log_findings, node_reader
+from gazelle.nodes.parameters import log_findings, node_reader, offer_parameters, start_ros2_node
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader
 
@@ -76,7 +76,7 @@ def run_server(
     stop: threading.Event,
 ) -> int:
     """Be a managed node until told to stop."""
-    node, tree = start(arguments, graph)
+    node, tree = start_ros2_node(arguments, graph)
     server = make(ServerSetup(node, tree, arguments, graph))
     serve(arguments, node, stop, {
         "configure": server.configure, "activate": server.activate,

@@ -9,11 +9,11 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import VELOCITY_SMOOTHER
 from gazelle.nodes.navigation.robot_pose import Odometry
 from gazelle.nodes.parameters import ticks
+from gazelle.nodes.twist_publisher import TwistPublisher
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["limited", "run"]
@@ -63,7 +63,7 @@ class _Smoother(ManagedServer):
         super().__init__(setup, VELOCITY_SMOOTHER)
         node = self._node
         self._stamped = self._settings.flag("enable_stamped_cmd_vel")
-        self._out = VelocityOutput(node, stamped=self._stamped, topic="cmd_vel_smoothed")
+        self._out = TwistPublisher(node, is_stamped=self._stamped, topic="cmd_vel_smoothed")
         self._odometry = Odometry(node, self._settings.text("odom_topic"))
         self._wanted, self._now = _STAND, _STAND
         self._heard_ns: int | None = None
@@ -113,7 +113,7 @@ class _Smoother(ManagedServer):
         )  # fmt: skip
         dead = numbers("deadband_velocity")
         sent = [0.0 if abs(v) < d else v for v, d in zip(self._now, dead, strict=True)]
-        self._out.send(sent[0], sent[1], sent[2])
+        self._out.publish(sent[0], sent[1], sent[2])
         if silent and self._now == _STAND:
             self._heard_ns = None
 

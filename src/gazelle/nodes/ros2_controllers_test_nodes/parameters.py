@@ -10,8 +10,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.starting import offer_parameters
-from gazelle.nodes.parameters import log_findings, parameter_tree, start_node
+from gazelle.nodes.parameters import log_findings, offer_parameters, parameter_tree, start_node
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.owner import ParameterOwner
 from gazelle.parameters.reader import ParameterReader

@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.graph.names import join
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.gzserver import run as run_server
+from gazelle.nodes.gazebo_ros import run_gzserver
 from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import Parameter, ParameterTable, refused
 
@@ -44,7 +44,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
     def serve(*words: str, falls_back: bool) -> int:
         named = replace(arguments, rest=(*words, "--gz"))
-        return run_server(named, graph, stop, falls_back=falls_back, found=found)
+        return run_gzserver(named, graph, stop, falls_back=falls_back, found=found)
 
     if file or not text:
         return serve(*filter(None, (file,)), falls_back=False)

@@ -27,8 +27,13 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.starting import offer_parameters
-from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node
+from gazelle.nodes.parameters import (
+    log_findings,
+    node_reader,
+    offer_parameters,
+    parameter_tree,
+    start_node,
+)
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.trees import flattened, nested, values_only
 

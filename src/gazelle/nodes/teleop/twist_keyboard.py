@@ -13,7 +13,7 @@ from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import number_or_end, private_parameters, start_node
 from gazelle.nodes.teleop.keyboard import CTRL_C, Keys, say
-from gazelle.nodes.teleop.twists import TwistSender, twist_sender
+from gazelle.nodes.twist_publisher import TwistPublisher
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["PARAMETERS", "Driving", "run", "run_ros2"]
@@ -145,11 +145,11 @@ class Driving:
         """The speeds in words."""
         return f"currently:\tspeed {self.speed_m_s}\tturn {self.turn_rad_s} "
 
-    def send(self, send: TwistSender) -> None:
-        """Send the velocities."""
+    def publish(self, twists: TwistPublisher) -> None:
+        """Publish the velocities."""
         x, y, z, turn = self.move
         speed = self.speed_m_s
-        send((x * speed, y * speed, z * speed), turn * self.turn_rad_s)
+        twists.publish(x * speed, y * speed, turn * self.turn_rad_s, z_m_s=z * speed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,29 +187,29 @@ def _drive(arguments: NodeArguments, graph: Graph, stop: threading.Event, *, is_
             key_s = number_or_end(own, "key_timeout", 0.0 if is_ros2 else None)
             stamped, frame_id = own.flag("stamped"), own.text("frame_id")
         times = _Times(key_s, 1 / rate if rate > 0 else 0.0)
-        send = twist_sender(node, is_stamped=stamped, frame_id=frame_id)
-        if is_ros2 or _wait_for_listener(send, keys, stop):
+        twists = TwistPublisher(node, is_stamped=stamped, frame_id=frame_id)
+        if is_ros2 or _wait_for_listener(twists, keys, stop):
             say(f"{_ROS2_HEAD if is_ros2 else _HEAD}{_HELP}\n{driving.text}")
-            _loop(driving, send, keys, times, stop)
-        send((0.0, 0.0, 0.0), 0.0)
+            _loop(driving, twists, keys, times, stop)
+        twists.stop()
         node.shutdown()
     return 0
 
 
-def _wait_for_listener(send: TwistSender, keys: Keys, stop: threading.Event) -> bool:
+def _wait_for_listener(twists: TwistPublisher, keys: Keys, stop: threading.Event) -> bool:
     """Wait until somebody subscribes; False when told to end first."""
     told_s = time.monotonic()
-    while not send.publisher.matched:
+    while not twists.publisher.matched:
         if stop.is_set() or keys.read(_POLL_S) in {None, CTRL_C}:
             return False
         if time.monotonic() - told_s >= _WAITING_S:
-            say(f"Waiting for subscriber to connect to {send.publisher.topic}")
+            say(f"Waiting for subscriber to connect to {twists.publisher.topic}")
             told_s = time.monotonic()
     return True
 
 
 def _loop(
-    driving: Driving, send: TwistSender, keys: Keys, times: _Times, stop: threading.Event
+    driving: Driving, twists: TwistPublisher, keys: Keys, times: _Times, stop: threading.Event
 ) -> None:
     lines, key_s, sent_s = 0, time.monotonic(), time.monotonic()
     while not stop.is_set():
@@ -229,5 +229,5 @@ def _loop(
             key_s = now_s
         elif not times.repeat_s or now_s - sent_s < times.repeat_s:
             continue
-        driving.send(send)
+        driving.publish(twists)
         sent_s = now_s

@@ -16,7 +16,7 @@ from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import namespace_parameters, start_node
 from gazelle.nodes.teleop.keyboard import CTRL_C, Keys, say
-from gazelle.nodes.teleop.twists import twist_sender
+from gazelle.nodes.twist_publisher import TwistPublisher
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterReader
 
@@ -152,7 +152,7 @@ def _drive(
         node = start_node(arguments, graph)
         with namespace_parameters(node, arguments, PARAMETERS) as beside:
             speeds = Speeds(limits_of(model_of(beside)))
-        send = twist_sender(node, is_stamped=is_stamped)
+        twists = TwistPublisher(node, is_stamped=is_stamped, frame_id="")
         say(_HELP)
         lines = 0
         while not stop.is_set():
@@ -166,8 +166,8 @@ def _drive(
                 say(_HELP)
                 lines = 0
             linear, angular = speeds.advance()
-            send((linear, 0.0, 0.0), angular)
-        send((0.0, 0.0, 0.0), 0.0)
+            twists.publish(linear, 0.0, angular)
+        twists.stop()
         node.shutdown()
     return 0
 

@@ -26,12 +26,11 @@ from gazelle.nodes.nav2.collision_monitor.polygons import (
     guarded,
 )
 from gazelle.nodes.nav2.collision_monitor.sources import Source, WorldFrames
-from gazelle.nodes.nav2.commands import VelocityOutput
 from gazelle.nodes.nav2.costmap_node import outline_in_base
 from gazelle.nodes.nav2.managed_server import ServerSetup, run_server
-from gazelle.nodes.nav2.starting import offer_parameters
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.parameters import log_findings, node_reader
+from gazelle.nodes.parameters import log_findings, node_reader, offer_parameters
+from gazelle.nodes.twist_publisher import TwistPublisher
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
@@ -65,7 +64,7 @@ class _Monitor:
         self._sources: list[Source] = []
         self._shown: list[tuple[Zone, Any]] = []
         self._open: list[Any] = []
-        self._out: VelocityOutput | None = None
+        self._out: TwistPublisher | None = None
         self._state_out: Any = None
         self._is_active, self._is_on = False, True
         self._last, self._stopped_ns = Verdict(_STAND, Action.NONE, ""), 0
@@ -88,8 +87,8 @@ class _Monitor:
         self._zones = [zone for zone, _ in zones]
         for zone, own in zones:
             self._connect(zone, own)
-        self._out = VelocityOutput(
-            self._node, stamped=self._stamped, topic=text("cmd_vel_out_topic")
+        self._out = TwistPublisher(
+            self._node, is_stamped=self._stamped, topic=text("cmd_vel_out_topic")
         )
         kind = "geometry_msgs/msg/TwistStamped" if self._stamped else "geometry_msgs/msg/Twist"
         topic = text("cmd_vel_in_topic")
@@ -165,7 +164,7 @@ class _Monitor:
                 return
         self._last = verdict
         assert self._out is not None
-        self._out.send(*verdict.velocity, self._base)
+        self._out.publish(*verdict.velocity, self._base)
 
     def _verdict(self, command: Velocity, now_ns: int) -> Verdict:
         if not self._is_on:

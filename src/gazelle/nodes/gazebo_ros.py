@@ -1,4 +1,4 @@
-"""``gazebo_ros/gzserver``: the simulator as a node of a launch."""
+"""``gazebo_ros``: ``gzserver``, the simulator as a node; ``spawn_model``, ``spawn_entity.py``."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_output import print_ros2
+from gazelle.nodes.parameters import start_node
 from gazelle.simulator.server_parameters import PARAMETERS
 
-__all__ = ["PARAMETERS", "run"]
+__all__ = ["PARAMETERS", "run_gzserver", "run_spawn_entity", "run_spawn_model"]
 
 
-def run(
+def run_gzserver(
     arguments: NodeArguments,
     graph: Graph,
     stop: threading.Event,
@@ -35,3 +36,23 @@ def run(
     if arguments.ros_version == 2:
         graph.console = print_ros2
     return serve(arguments, graph, stop, falls_back=falls_back, found=found)
+
+
+def run_spawn_model(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Spawn, say how it went, and end; the arguments tell whether they are ROS 2's."""
+    return _spawn(arguments, graph, stop, None)
+
+
+def run_spawn_entity(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Do the same with ROS 2's arguments."""
+    return _spawn(arguments, graph, stop, True)
+
+
+def _spawn(arguments: NodeArguments, graph: Graph, stop: threading.Event, ros2: bool | None) -> int:
+    from gazelle.simulator.spawn_model import spawn_model
+
+    node = start_node(arguments, graph)
+    try:
+        return spawn_model(list(arguments.rest), node, stop, ros2=ros2)
+    finally:
+        node.shutdown()
