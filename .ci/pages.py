@@ -23,15 +23,15 @@ _PICTURES = [str(_ROOT / ".ci" / "pictures.py")]
 
 # The page and the module that prints it.
 PAGES = {
-    "builtin_nodes.md": "gazelle.node_specs.documentation",
+    "builtin_nodes.md": "gazelle.node_specs.docs",
     "controllers.md": "gazelle.control.controllers",
     "diagnostics.md": "gazelle.diagnostics.docs",
     "launch.md": "gazelle.launch.ros2.reference",
-    "navigation.md": "gazelle.nodes.navigation.page",
-    "nodes.md": "gazelle.nodes.documentation",
+    "navigation.md": "gazelle.nodes.navigation.docs",
+    "nodes.md": "gazelle.nodes.docs",
     "plugins.md": "gazelle.simulator.plugins",
     "python_names.md": "gazelle.compat.unsupported.docs",
-    "slam.md": "gazelle.nodes.slam.page",
+    "slam.md": "gazelle.nodes.slam.docs",
     "worlds.md": "gazelle.workspace.gazebo_models",
 }
 

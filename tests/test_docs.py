@@ -11,7 +11,7 @@ from tests.ci_scripts import ci_script
 from gazelle.compat.unsupported.docs import unsupported_markdown
 from gazelle.diagnostics.catalogue import all_entries
 from gazelle.diagnostics.docs import catalogue_markdown
-from gazelle.node_specs.documentation import nodes_markdown
+from gazelle.node_specs.docs import nodes_markdown
 
 ROOT = Path(__file__).parents[1]
 _TEST = re.compile(r"`((?:tests|benchmarks)/[\w/.]+)`")
@@ -31,7 +31,7 @@ def test_page_of_refused_names_is_generated_from_their_tables() -> None:
 
 def test_page_of_nodes_is_generated_from_their_rows() -> None:
     page = (ROOT / "docs" / "builtin_nodes.md").read_text(encoding="utf-8")
-    command = "python -m gazelle.node_specs.documentation > docs/builtin_nodes.md"
+    command = "python -m gazelle.node_specs.docs > docs/builtin_nodes.md"
     assert page == nodes_markdown(), f"run: {command}"
 
 

@@ -16,8 +16,8 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.mapping.slam import SlamParameters, save_graph
 from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.slam.cartographer.configuration import flags_of, read_configuration
+from gazelle.nodes.slam.docs import page
 from gazelle.nodes.slam.options import SlamOptions
-from gazelle.nodes.slam.page import page
 from gazelle.nodes.slam.ros_packages import FLAVOURS
 from gazelle.parameters.trees import nested
 
@@ -67,7 +67,7 @@ def _other(value: Any) -> Any:
 
 
 def test_the_page_is_generated_from_the_tables() -> None:
-    command = "python -m gazelle.nodes.slam.page > docs/slam.md"
+    command = "python -m gazelle.nodes.slam.docs > docs/slam.md"
     assert (ROOT / "docs" / "slam.md").read_text(encoding="utf-8") == page(), f"run: {command}"
 
 

@@ -1,4 +1,4 @@
-"""The page of nodes' parameters: ``python -m gazelle.nodes.documentation > docs/nodes.md``."""
+"""The page of nodes' parameters: ``python -m gazelle.nodes.docs > docs/nodes.md``."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["page"]
 
 _INTRODUCTION = (
     "# Nodes: parameters\n\nGenerated from the tables that the nodes read; do not edit"
-    " (`python -m gazelle.nodes.documentation > docs/nodes.md`). Names are those below a node's"
+    " (`python -m gazelle.nodes.docs > docs/nodes.md`). Names are those below a node's"
     " own (`~`); parts are joined with dots here, in ROS 1 with slashes. Parameters without effect"
     " are told, with the reason, where they ask for what the original does, and so are names that"
     " are not listed. Nodes of [navigation](navigation.md) and [SLAM](slam.md) have pages of their"

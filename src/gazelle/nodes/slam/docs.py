@@ -1,4 +1,4 @@
-"""The page of SLAM's parameters: ``python -m gazelle.nodes.slam.page > docs/slam.md``."""
+"""The page of SLAM's parameters: ``python -m gazelle.nodes.slam.docs > docs/slam.md``."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["page"]
 
 _INTRODUCTION = (
     "# SLAM: parameters\n\nGenerated from the tables that the nodes read; do not edit"
-    " (`python -m gazelle.nodes.slam.page > docs/slam.md`). One engine answers to all these names"
+    " (`python -m gazelle.nodes.slam.docs > docs/slam.md`). One engine answers to all these names"
     " ([how](howto/slam.md)). Parameters without effect are told when they are set, with the"
     " reason, and so are names that are not listed. cartographer_node's are those of its Lua file."
 )

@@ -1,4 +1,4 @@
-"""The page of all parameters: ``python -m gazelle.nodes.navigation.page > docs/navigation.md``."""
+"""The page of all parameters: ``python -m gazelle.nodes.navigation.docs > docs/navigation.md``."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ __all__ = ["page"]
 
 _INTRODUCTION = (
     "# Navigation: parameters\n\nGenerated from the tables that the nodes read; do not edit"
-    " (`python -m gazelle.nodes.navigation.page > docs/navigation.md`). Parameters marked *live*"
+    " (`python -m gazelle.nodes.navigation.docs > docs/navigation.md`). Parameters marked *live*"
     " change while the node runs. Those without effect are told when a file sets them, with the"
     " reason, and so are names that are not listed."
 )

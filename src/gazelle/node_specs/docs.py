@@ -14,7 +14,7 @@ __all__ = ["nodes_markdown"]
 _HEAD = """# Nodes that are built in
 
 Generated from the rows that the nodes are found by; do not edit (`python -m
-gazelle.node_specs.documentation > docs/builtin_nodes.md`). `rosrun PACKAGE EXECUTABLE`,
+gazelle.node_specs.docs > docs/builtin_nodes.md`). `rosrun PACKAGE EXECUTABLE`,
 `ros2 run` and launch files start them under any of their names. Names of topics are those of the
 code, before remapping: `/global`, `relative`, `~private`; `{~scan_topic|scan}` is the value of a
 parameter, or `scan`. Topics that only words or parameters name are not listed; parameters are on

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gazelle.nodes.navigation.page import page
+from gazelle.nodes.navigation.docs import page
 
 ROOT = Path(__file__).parents[3]
 
 
 def test_page_is_generated_from_the_tables() -> None:
     text = (ROOT / "docs" / "navigation.md").read_text(encoding="utf-8")
-    command = "python -m gazelle.nodes.navigation.page > docs/navigation.md"
+    command = "python -m gazelle.nodes.navigation.docs > docs/navigation.md"
     assert text == page(), f"run: {command}"
 
 
