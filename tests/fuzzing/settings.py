@@ -36,8 +36,8 @@ from gazelle.nodes.joy.parameters import read_options
 from gazelle.nodes.nav2.behavior_trees.xml_parsing import read_trees
 from gazelle.nodes.nav2.collision_monitor.parameters import (
     COLLISION_MONITOR,
+    read_polygons,
     read_sources,
-    read_zones,
     report_others,
 )
 from gazelle.nodes.nav2.parameters import controller_table, planner_table
@@ -48,7 +48,7 @@ from gazelle.nodes.robot_localization.parameters import ekf_table
 from gazelle.nodes.ros_gz.bridge_config import read_file
 from gazelle.nodes.slam.cartographer.configuration import read_configuration
 from gazelle.nodes.slam.options import options_of
-from gazelle.nodes.slam.ros_packages import FLAVOURS
+from gazelle.nodes.slam.ros_packages import SLAM_NODES
 from gazelle.nodes.teleop.twist_joy import read_driving
 from gazelle.nodes.twist_mux.parameters import read_inputs
 from gazelle.parameters.trees import nested
@@ -120,7 +120,7 @@ def _nav2(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
                 settings.report_unknown("plugin")
     monitor = _group(tree, "collision_monitor", "ros__parameters")
     settings = node_reader(COLLISION_MONITOR, monitor, "/collision_monitor", diagnostics)
-    read_zones(settings)
+    read_polygons(settings)
     read_sources(settings)
     report_others(settings)
     own = _group(tree, "amcl", "ros__parameters")
@@ -129,9 +129,9 @@ def _nav2(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
 
 def _slam(path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
     tree = _tree(path)
-    for name, flavour in FLAVOURS.items():
-        settings = node_reader(flavour.table, tree, name, diagnostics)
-        options_of(flavour, settings)
+    for name, slam_node in SLAM_NODES.items():
+        settings = node_reader(slam_node.table, tree, name, diagnostics)
+        options_of(slam_node, settings)
         settings.report_unknown()
 
 

@@ -38,7 +38,13 @@ from gazelle.navigation.costmap import (
     inflated,
 )
 from gazelle.navigation.planners import NavfnOptions, Plan, make_plan
-from gazelle.nodes.move_base.state_machine import Executive, Outcome, PlanPose, Timing, Trigger
+from gazelle.nodes.move_base.state_machine import (
+    MoveBaseStateMachine,
+    Outcome,
+    PlanPose,
+    Timing,
+    Trigger,
+)
 
 __all__ = ["DRIVERS", "ROBOTS", "Field", "Robot", "Run", "controller_for", "cross"]
 
@@ -230,7 +236,7 @@ class Run:
         options = InflationOptions(inflation_radius=0.5, cost_scaling_factor=5.0)
         self._padded = robot.footprint.padded(0.005)
         self._grid = inflated(field.grid(_CELL_M), options, self._padded)
-        self.executive = Executive(self, Timing(planner_frequency_hz=1.0))
+        self.executive = MoveBaseStateMachine(self, Timing(planner_frequency_hz=1.0))
         self._plan: Any = None
 
     def drive(self) -> str:

@@ -14,8 +14,8 @@ from gazelle.node_specs.unavailable_packages import (
     Sends,
     missing_node,
     missing_package,
-    packages_elsewhere,
     replacement_of,
+    unavailable_packages,
     what_it_sends,
 )
 from gazelle.workspace.environment_paths import builtin_package_names
@@ -26,7 +26,7 @@ _NAMED = re.compile(r"`(\w+)`")
 
 def test_no_package_that_is_elsewhere_is_here() -> None:
     here = builtin_packages() | builtin_package_names()
-    assert sorted(packages_elsewhere() & here) == []
+    assert sorted(unavailable_packages() & here) == []
 
 
 def test_every_package_and_program_elsewhere_is_named_once() -> None:

@@ -15,13 +15,13 @@ __all__ = [
     "FAMILIES",
     "PACKAGES",
     "PROGRAMS",
-    "PackageElsewhere",
-    "ProgramElsewhere",
     "Sends",
+    "UnavailablePackage",
+    "UnavailableProgram",
     "missing_node",
     "missing_package",
-    "packages_elsewhere",
     "replacement_of",
+    "unavailable_packages",
     "what_it_sends",
 ]
 
@@ -106,7 +106,7 @@ class Sends(Enum):
     ANYTHING = "not known"
 
 
-class PackageElsewhere(NamedTuple):
+class UnavailablePackage(NamedTuple):
     """A package of ROS that is not here.
 
     Attributes:
@@ -122,12 +122,12 @@ class PackageElsewhere(NamedTuple):
 
 
 FAMILIES = (
-    PackageElsewhere("rqt_", _PANEL, Sends.NOTHING),
-    PackageElsewhere("yocs_", _VELOCITIES),
+    UnavailablePackage("rqt_", _PANEL, Sends.NOTHING),
+    UnavailablePackage("yocs_", _VELOCITIES),
 )
 
 
-class ProgramElsewhere(NamedTuple):
+class UnavailableProgram(NamedTuple):
     """A program that its package has in ROS and not here; everything else of the package runs.
 
     Attributes:
@@ -143,91 +143,91 @@ class ProgramElsewhere(NamedTuple):
 
 
 PROGRAMS = (
-    ProgramElsewhere(
+    UnavailableProgram(
         "joy",
         "game_controller_node",
         "SDL's layout of game controllers; `joy_node` sends the same topic in the kernel's "
         "order of axes and buttons",
         Sends.NOTHING,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "robot_localization",
         "ukf_localization_node",
         "the unscented filter; `ekf_localization_node` fuses the same inputs with the same "
         "parameters",
         Sends.TRANSFORMS,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "robot_localization",
         "ukf_node",
         "the unscented filter; `ekf_node` fuses the same inputs with the same parameters",
         Sends.TRANSFORMS,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "robot_localization",
         "navsat_transform_node",
         "for positions of satellites; robot_localization's pose0 takes poses",
         Sends.TRANSFORMS,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "robot_localization",
         "robot_localization_listener_node",
         "for poses at other times; tf2_ros looks them up",
         Sends.TRANSFORMS,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "pointcloud_to_laserscan",
         "laserscan_to_pointcloud_node",
         "for clouds of scans; laser_geometry's Python module makes them",
         Sends.NOTHING,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "laser_filters",
         "scan_to_cloud_filter_chain",
         "for clouds of filtered scans; `scan_to_scan_filter_chain` and laser_geometry's Python "
         "module do both steps",
         Sends.NOTHING,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "laser_filters",
         "generic_laser_filter_node",
         "an older name; `scan_to_scan_filter_chain` filters scans",
         Sends.NOTHING,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "slam_toolbox",
         "merge_maps_kinematic",
         "for putting maps together by hand; one mapping run over both places makes one map",
         Sends.TRANSFORMS,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "cartographer_ros",
         "cartographer_offline_node",
         "for bags without time; `cartographer_node` maps while `rosbag play` plays",
         Sends.TRANSFORMS,
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "nav2_map_server",
         "costmap_filter_info_server",
         "for keep-out masks; costmap filters are not here, an obstacle in the map keeps robots out",
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "tf2_ros", "buffer_server", "for look-ups by an action; nodes listen to /tf themselves"
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "topic_tools", "delay", "for late copies of a topic; `relay` copies without a delay"
     ),
-    ProgramElsewhere(
+    UnavailableProgram(
         "ros_gz_bridge", "static_bridge", "for a single topic; `parameter_bridge` bridges any"
     ),
     *(
-        ProgramElsewhere("image_view", name, _VIEWERS, Sends.NOTHING)
+        UnavailableProgram("image_view", name, _VIEWERS, Sends.NOTHING)
         for name in ("extract_images", "image_saver", "stereo_view", "video_recorder")
     ),
 )
 
 
-def packages_elsewhere() -> frozenset[str]:
+def unavailable_packages() -> frozenset[str]:
     """Return the names of packages that ROS has and Gazelle has not."""
     return frozenset(_packages())
 
@@ -276,8 +276,10 @@ def missing_package(error: NotFoundError, ros_version: int) -> tuple[str, str]:
     return (text.partition("\n")[0].partition(";")[0] if known else text), known
 
 
-def _rows(instead: str, names: str, sends: Sends = Sends.ANYTHING) -> tuple[PackageElsewhere, ...]:
-    return tuple(PackageElsewhere(name, instead, sends) for name in names.split())
+def _rows(
+    instead: str, names: str, sends: Sends = Sends.ANYTHING
+) -> tuple[UnavailablePackage, ...]:
+    return tuple(UnavailablePackage(name, instead, sends) for name in names.split())
 
 
 PACKAGES = (
@@ -339,7 +341,7 @@ PACKAGES = (
 )
 
 
-def _row(package: str) -> PackageElsewhere | None:
+def _row(package: str) -> UnavailablePackage | None:
     own = _packages().get(package)
     if own is not None and own.instead:
         return own
@@ -347,10 +349,10 @@ def _row(package: str) -> PackageElsewhere | None:
 
 
 @cache
-def _packages() -> dict[str, PackageElsewhere]:
+def _packages() -> dict[str, UnavailablePackage]:
     return {row.name: row for row in PACKAGES}
 
 
 @cache
-def _programs() -> dict[tuple[str, str], ProgramElsewhere]:
+def _programs() -> dict[tuple[str, str], UnavailableProgram]:
     return {(row.package, row.executable): row for row in PROGRAMS}

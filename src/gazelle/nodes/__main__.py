@@ -17,22 +17,22 @@ __all__ = ["main"]
 _PATIENCE_S = 3.0
 
 
-def main(words: list[str]) -> int:
+def main(argv: list[str]) -> int:
     """Run a node, or a host of nodes, in this process."""
     end_at_interrupts()
     from gazelle.parent_process import end_with_parent
 
     end_with_parent()
-    if words and words[0] == "--host":
+    if argv and argv[0] == "--host":
         from gazelle.nodes.host import host
 
         # Ctrl-C is the launcher's business; it closes our input.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        return host(int(words[1]), sys.stdin)
-    if not words:
+        return host(int(argv[1]), sys.stdin)
+    if not argv:
         print("usage: python -m gazelle.nodes PKG/TYPE [args…]", file=sys.stderr)  # noqa: T201
         return 2
-    return _single(words[0], words[1:])
+    return _single(argv[0], argv[1:])
 
 
 def _single(name: str, argv: list[str]) -> int:

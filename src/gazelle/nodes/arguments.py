@@ -30,10 +30,10 @@ from gazelle.ros_arguments import (
 __all__ = [
     "ABSENT_NODES",
     "NodeArguments",
-    "Ros2Words",
+    "RosArgs",
     "file_params",
     "read_arguments",
-    "split_words",
+    "split_ros_args",
 ]
 
 
@@ -44,11 +44,11 @@ ABSENT_NODES = "GAZELLE_ABSENT_NODES"
 """Variable with full names of nodes that the launch could not start."""
 
 
-class Ros2Words:
+class RosArgs:
     """What a command line came to.
 
     Attributes:
-        words: rules as ROS 1 has them (``a:=b``, ``__node:=n`` as ``__name:=n``, ``_p:=1``), and
+        rest: rules as ROS 1 has them (``a:=b``, ``__node:=n`` as ``__name:=n``, ``_p:=1``), and
             the program's own words.
         parameter_files: of ``--params-file``.
         log_level: of ``--log-level``, empty when not given.
@@ -57,21 +57,21 @@ class Ros2Words:
 
     def __init__(self) -> None:
         """Begin with nothing."""
-        self.words: list[str] = []
+        self.rest: list[str] = []
         self.parameter_files: list[Path] = []
         self.log_level = ""
         self.found = False
 
 
-def split_words(argv: Sequence[str]) -> Ros2Words:
+def split_ros_args(argv: Sequence[str]) -> RosArgs:
     """Translate the part from ``--ros-args`` to ``--``; everything else stays as it is.
 
     Raises:
         LaunchError: one of ROS's arguments is not understood.
     """
     split = split_arguments(argv)
-    result = Ros2Words()
-    result.words, result.found = split.own, split.is_ros2
+    result = RosArgs()
+    result.rest, result.found = split.own, split.is_ros2
     try:
         for word in split.ros:
             _take(word, result)
@@ -97,14 +97,14 @@ def file_params(files: Sequence[Path], full_name: str) -> dict[str, Any]:
     return {_slashed(name): value for name, value in found.items()}
 
 
-def _take(word: RosWord, result: Ros2Words) -> None:
+def _take(word: RosWord, result: RosArgs) -> None:
     """Add what a word comes to; a node's name before a rule is for nodes of other names too."""
     if word.option == REMAP:
         _, name, value = rule_of(word)
-        result.words.append(f"{'__name' if name == '__node' else name}:={value}")
+        result.rest.append(f"{'__name' if name == '__node' else name}:={value}")
     elif word.option == PARAM:
         _, name, value = rule_of(word)
-        result.words.append(f"_{_slashed(name)}:={value}")
+        result.rest.append(f"_{_slashed(name)}:={value}")
     elif word.option == PARAMS_FILE:
         result.parameter_files.append(Path(value_of(word)))
     elif word.option == LOG_LEVEL:
@@ -113,7 +113,7 @@ def _take(word: RosWord, result: Ros2Words) -> None:
         # Launch files add their rules after the section, as ROS 1's words.
         if ":=" not in word.written:
             raise unknown_word(word)
-        result.words.append(word.written)
+        result.rest.append(word.written)
 
 
 def _level(text: str) -> str:
@@ -194,8 +194,8 @@ def read_arguments(
         LaunchError: an argument after ``--ros-args`` is not understood.
         UserFileError: a parameter file has errors.
     """
-    ros2 = split_words(argv)
-    line = parse_command_line(ros2.words)
+    ros2 = split_ros_args(argv)
+    line = parse_command_line(ros2.rest)
     name, space = line.name or default_name, line.namespace or namespace or "/"
     return NodeArguments(
         name=name,

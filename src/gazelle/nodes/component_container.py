@@ -43,8 +43,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     container = _Container(node, graph, arguments.parameter_files)
     with node.announced_together():
         for name in ("load_node", "unload_node", "list_nodes"):
-            words = "".join(word.capitalize() for word in name.split("_"))
-            kind: Any = service_type(f"composition_interfaces/srv/{words}")
+            argv = "".join(word.capitalize() for word in name.split("_"))
+            kind: Any = service_type(f"composition_interfaces/srv/{argv}")
             node.create_service(f"~/_container/{name}", kind, _answering(kind, container, name))
     stop.wait()
     container.end()
@@ -131,8 +131,8 @@ class _Container:
 
     def _file_words(self) -> list[str]:
         """Return the container's own files: nodes that components make read them too."""
-        words = [word for file in self._files for word in ("--params-file", str(file))]
-        return ["--ros-args", *words, "--"] if words else []
+        argv = [word for file in self._files for word in ("--params-file", str(file))]
+        return ["--ros-args", *argv, "--"] if argv else []
 
     def _run(self, target: dict[str, Any], stop: threading.Event) -> None:
         from gazelle.nodes.host import run_node
@@ -155,13 +155,13 @@ def _be_missed(request: Any) -> None:
 
 def _words(request: Any, name: str) -> list[str]:
     """Return a request as the command line of a node."""
-    words = ["--ros-args", "-r", f"__node:={name}"]
+    argv = ["--ros-args", "-r", f"__node:={name}"]
     for rule in request.remap_rules:
-        words += ["-r", rule]
+        argv += ["-r", rule]
     for one in request.parameters:
         # JSON is YAML, and keeps texts that look like numbers.
-        words += ["-p", f"{one.name}:={json.dumps(value_from_message(one.value))}"]
-    return words
+        argv += ["-p", f"{one.name}:={json.dumps(value_from_message(one.value))}"]
+    return argv
 
 
 def _refusal(package: str, plugin: str) -> str:

@@ -17,7 +17,7 @@ _NO = frozenset({"0", "f", "false", "n", "no"})
 
 
 def read_flags(
-    words: Sequence[str],
+    argv: Sequence[str],
     kinds: Mapping[str, Kind],
     usage: str = "",
     *,
@@ -30,7 +30,7 @@ def read_flags(
     what follows ``--``.
 
     Args:
-        words: of the command line.
+        argv: of the command line.
         kinds: the program's flags.
         usage: what is added to a message about a wrong flag.
         on_unknown: told of flags that the program lacks, for those that allow reparsing
@@ -40,7 +40,7 @@ def read_flags(
         LaunchError: a flag is unknown, has no value or a wrong one.
     """
     found: dict[str, bool | float | str] = {}
-    rest = deque(words)
+    rest = deque(argv)
     end = f"\n{usage}" if usage else ""
     while rest:
         word = rest.popleft()

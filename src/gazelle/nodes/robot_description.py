@@ -121,19 +121,19 @@ def description_of(node: Node) -> str | None:
         return None
 
 
-def published_robot_of(node: Node, words: Sequence[str], stop: threading.Event) -> Model | None:
+def published_robot_of(node: Node, argv: Sequence[str], stop: threading.Event) -> Model | None:
     """Return the robot as ROS 2's nodes find it: a file, a parameter, else the topic.
 
     Args:
         node: whose parameter and topic ``robot_description`` count.
-        words: the node's own arguments; the first one names a file.
+        argv: the node's own arguments; the first one names a file.
         stop: ends waiting for the topic.
 
     Raises:
         LaunchError: the file cannot be read.
     """
-    if words:
-        return robot_in(node, take_description_file(node, words[0]))
+    if argv:
+        return robot_in(node, take_description_file(node, argv[0]))
     if node.parameters.search(DESCRIPTION):
         return robot_of(node)
     topic = node.resolve_name(DESCRIPTION)

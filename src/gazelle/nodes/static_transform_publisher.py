@@ -70,7 +70,7 @@ class StaticTransform(NamedTuple):
     period_ms: float
 
 
-def parse_arguments(words: Sequence[str], *, with_period: bool) -> StaticTransform:
+def parse_arguments(argv: Sequence[str], *, with_period: bool) -> StaticTransform:
     """Return the transform of a command line; yaw comes before pitch and roll.
 
     Raises:
@@ -78,18 +78,18 @@ def parse_arguments(words: Sequence[str], *, with_period: bool) -> StaticTransfo
     """
     usage = _USAGE.format(period="period(milliseconds)" if with_period else "")
     counts = {8: 6, 9: 7} if not with_period else {9: 6, 10: 7}
-    if len(words) not in counts:
-        raise LaunchError(f"static_transform_publisher got {len(words)} arguments\n{usage}")
-    count = counts[len(words)]
-    if not with_period and count == 7 and _is_number(words[8]) and not _is_number(words[6]):
+    if len(argv) not in counts:
+        raise LaunchError(f"static_transform_publisher got {len(argv)} arguments\n{usage}")
+    count = counts[len(argv)]
+    if not with_period and count == 7 and _is_number(argv[8]) and not _is_number(argv[6]):
         raise LaunchError(
-            f"static_transform_publisher of tf2_ros takes no period: leave out '{words[8]}'. The "
-            f"original takes the words before for a quaternion and sends '{words[7]}' -> "
-            f"'{words[8]}'\n{usage}"
+            f"static_transform_publisher of tf2_ros takes no period: leave out '{argv[8]}'. The "
+            f"original takes the words before for a quaternion and sends '{argv[7]}' -> "
+            f"'{argv[8]}'\n{usage}"
         )
     try:
-        numbers = [float(word) for word in words[:count]]
-        period_ms = float(words[-1]) if with_period else 0.0
+        numbers = [float(word) for word in argv[:count]]
+        period_ms = float(argv[-1]) if with_period else 0.0
     except ValueError as error:
         raise LaunchError(f"static_transform_publisher: {error}\n{usage}") from error
     x, y, z = numbers[:3]
@@ -99,10 +99,10 @@ def parse_arguments(words: Sequence[str], *, with_period: bool) -> StaticTransfo
     else:
         qx, qy, qz, qw = numbers[3:]
         pose = Pose((x, y, z), (qx, qy, qz, qw))
-    return StaticTransform(pose, words[count], words[count + 1], period_ms)
+    return StaticTransform(pose, argv[count], argv[count + 1], period_ms)
 
 
-def parse_options(words: Sequence[str]) -> StaticTransform:
+def parse_options(argv: Sequence[str]) -> StaticTransform:
     """Return the transform of ROS 2's options, ``--x 1 --yaw 0.5 --frame-id a --child-frame-id b``.
 
     Raises:
@@ -114,7 +114,7 @@ def parse_options(words: Sequence[str]) -> StaticTransform:
         parser.add_argument(f"--{name}", type=float)
     parser.add_argument("--frame-id", required=True)
     parser.add_argument("--child-frame-id", required=True)
-    given = parser.parse_args(list(words))
+    given = parser.parse_args(list(argv))
     x, y, z, roll, pitch, yaw, *quat = (getattr(given, name) for name in _NUMBERS)
     if any(one is not None for one in quat):
         if any(one is not None for one in (roll, pitch, yaw)):

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from gazelle.nodes.move_base.state_machine import (
-    Executive,
+    MoveBaseStateMachine,
     Outcome,
     PlanPose,
     State,
@@ -70,7 +70,7 @@ def _recoveries(drive: _Drive) -> list[Any]:
 
 
 def test_goal_goes_from_planning_to_control_to_success(drive) -> None:
-    executive = Executive(drive, Timing())
+    executive = MoveBaseStateMachine(drive, Timing())
     executive.begin()
     assert executive.wants_plan
     assert executive.cycle(_HERE) is None
@@ -85,7 +85,7 @@ def test_goal_goes_from_planning_to_control_to_success(drive) -> None:
 
 
 def test_planner_frequency_keeps_the_planner_running(drive) -> None:
-    executive = Executive(drive, Timing(planner_frequency_hz=5.0))
+    executive = MoveBaseStateMachine(drive, Timing(planner_frequency_hz=5.0))
     executive.begin()
     executive.planned(_PLAN)
     assert executive.wants_plan
@@ -95,7 +95,7 @@ def test_planner_frequency_keeps_the_planner_running(drive) -> None:
 
 
 def test_planner_patience_ends_in_all_recoveries_and_the_reason(drive) -> None:
-    executive = Executive(drive, Timing(planner_patience_s=5.0))
+    executive = MoveBaseStateMachine(drive, Timing(planner_patience_s=5.0))
     executive.begin()
     for _ in range(4):
         drive.now_s += 4.9
@@ -119,7 +119,7 @@ def test_planner_patience_ends_in_all_recoveries_and_the_reason(drive) -> None:
 
 
 def test_max_planning_retries_end_patience_early(drive) -> None:
-    executive = Executive(drive, Timing(max_planning_retries=1))
+    executive = MoveBaseStateMachine(drive, Timing(max_planning_retries=1))
     executive.begin()
     executive.planned(None, "no")
     assert executive.state is State.PLANNING
@@ -128,7 +128,7 @@ def test_max_planning_retries_end_patience_early(drive) -> None:
 
 
 def test_controller_patience_plans_again_before_it_clears(drive) -> None:
-    executive = Executive(drive, Timing(controller_patience_s=15.0))
+    executive = MoveBaseStateMachine(drive, Timing(controller_patience_s=15.0))
     executive.begin()
     executive.planned(_PLAN)
     drive.no_control = "every way is blocked"
@@ -143,7 +143,7 @@ def test_controller_patience_plans_again_before_it_clears(drive) -> None:
 
 
 def test_success_of_what_failed_starts_recoveries_from_the_first_again(drive) -> None:
-    executive = Executive(drive, Timing(planner_patience_s=1.0))
+    executive = MoveBaseStateMachine(drive, Timing(planner_patience_s=1.0))
     executive.begin()
     drive.now_s = 2.0
     executive.planned(None, "no")
@@ -161,7 +161,7 @@ def test_success_of_what_failed_starts_recoveries_from_the_first_again(drive) ->
 
 def test_staying_in_one_place_is_oscillation(drive) -> None:
     timing = Timing(oscillation_timeout_s=10.0, oscillation_distance_m=0.2)
-    executive = Executive(drive, timing)
+    executive = MoveBaseStateMachine(drive, timing)
     executive.begin()
     executive.planned(_PLAN)
     for second, x in ((0, 0.0), (9, 0.1), (9.5, 0.3), (19, 0.4)):
@@ -173,7 +173,7 @@ def test_staying_in_one_place_is_oscillation(drive) -> None:
     assert (executive.state, executive.trigger) == (State.CLEARING, Trigger.OSCILLATION)
 
 
-def _drive_on(drive: _Drive, executive: Executive, poses: list[PlanPose]) -> float:
+def _drive_on(drive: _Drive, executive: MoveBaseStateMachine, poses: list[PlanPose]) -> float:
     """Cycle once a second; return when a recovery began, infinite for never."""
     for pose in poses:
         drive.now_s += 1.0
@@ -184,7 +184,7 @@ def _drive_on(drive: _Drive, executive: Executive, poses: list[PlanPose]) -> flo
 
 
 def test_a_robot_that_gets_nowhere_with_commands_clears_after_its_patience(drive) -> None:
-    executive = Executive(drive, Timing(controller_patience_s=15.0))
+    executive = MoveBaseStateMachine(drive, Timing(controller_patience_s=15.0))
     executive.begin()
     drive.now_s = 100.0
     executive.planned(_PLAN)
@@ -206,7 +206,7 @@ def test_a_robot_that_gets_nowhere_with_commands_clears_after_its_patience(drive
 
 
 def test_a_robot_that_creeps_or_turns_gets_on(drive) -> None:
-    executive = Executive(drive, Timing(controller_patience_s=15.0))
+    executive = MoveBaseStateMachine(drive, Timing(controller_patience_s=15.0))
     executive.begin()
     executive.planned(_PLAN)
     creeping = [PlanPose(0.01 * i, 0.0, 0.0) for i in range(60)]
@@ -220,7 +220,7 @@ def test_a_robot_that_creeps_or_turns_gets_on(drive) -> None:
 
 
 def test_time_without_sensors_is_not_time_without_getting_on(drive) -> None:
-    executive = Executive(drive, Timing(controller_patience_s=15.0))
+    executive = MoveBaseStateMachine(drive, Timing(controller_patience_s=15.0))
     executive.begin()
     executive.planned(_PLAN)
     assert _drive_on(drive, executive, [_HERE] * 10) == math.inf
@@ -232,7 +232,7 @@ def test_time_without_sensors_is_not_time_without_getting_on(drive) -> None:
 
 
 def test_stale_sensors_stop_the_robot(drive) -> None:
-    executive = Executive(drive, Timing())
+    executive = MoveBaseStateMachine(drive, Timing())
     executive.begin()
     executive.planned(_PLAN)
     drive.current = False
@@ -242,7 +242,7 @@ def test_stale_sensors_stop_the_robot(drive) -> None:
 
 
 def test_controller_that_refuses_the_plan_aborts(drive) -> None:
-    executive = Executive(drive, Timing())
+    executive = MoveBaseStateMachine(drive, Timing())
     executive.begin()
     executive.planned(_PLAN)
     drive.takes_plan = False
@@ -252,7 +252,7 @@ def test_controller_that_refuses_the_plan_aborts(drive) -> None:
 
 
 def test_without_recovery_a_goal_is_given_up_at_once(drive) -> None:
-    executive = Executive(drive, Timing(planner_patience_s=0.0, recovery_enabled=False))
+    executive = MoveBaseStateMachine(drive, Timing(planner_patience_s=0.0, recovery_enabled=False))
     executive.begin()
     drive.now_s = 0.1
     executive.planned(None, "no")
@@ -263,7 +263,7 @@ def test_without_recovery_a_goal_is_given_up_at_once(drive) -> None:
 
 
 def test_plans_for_a_goal_that_is_over_are_dropped(drive) -> None:
-    executive = Executive(drive, Timing())
+    executive = MoveBaseStateMachine(drive, Timing())
     executive.begin()
     executive.end()
     executive.planned(_PLAN)

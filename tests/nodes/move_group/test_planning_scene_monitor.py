@@ -7,11 +7,11 @@ import threading
 from tests.nodes.conftest import Bench
 from tests.nodes.move_group.fake_robot import FakeRobot
 
-from gazelle.nodes.move_group.planning_scene_monitor import StateMonitor
+from gazelle.nodes.move_group.planning_scene_monitor import CurrentStateMonitor
 
 
 def test_first_joint_state_is_waited_for(bench: Bench) -> None:
-    monitor = StateMonitor(bench.node, "/joint_states")
+    monitor = CurrentStateMonitor(bench.node, "/joint_states")
     assert not monitor.wait_for_any(0.0) and monitor.positions == {}
     robot = FakeRobot(bench.node, {"hinge": 0.3})
     stop = threading.Event()

@@ -13,7 +13,7 @@ from tests.patience import stretched
 from gazelle.description.moveit import ExecutionSettings
 from gazelle.graph.actions import ServerGoal
 from gazelle.motion.planning.error_codes import ErrorCode
-from gazelle.nodes.move_group.planning_scene_monitor import StateMonitor
+from gazelle.nodes.move_group.planning_scene_monitor import CurrentStateMonitor
 from gazelle.nodes.move_group.simple_controller_manager import ControllerKind, ControllerSpec
 from gazelle.nodes.move_group.trajectory_execution_manager import (
     ExecutionStatus,
@@ -34,7 +34,7 @@ class Rig:
     ) -> None:
         positions = {"a": 0.0, "b": 0.0, "f": 0.0, "g": 0.0}
         self.robot = FakeRobot(bench.node, positions, ros_version)
-        self.states = StateMonitor(bench.node, "/joint_states")
+        self.states = CurrentStateMonitor(bench.node, "/joint_states")
         self.executor = TrajectoryExecutor(
             bench.node, specs or (ARM, HAND), ExecutionSettings(**settings), self.states
         )

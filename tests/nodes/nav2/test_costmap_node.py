@@ -8,12 +8,12 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.costmap_node import Nav2Costmap
+from gazelle.nodes.nav2.costmap_node import CostmapNode
 
 
 def test_a_costmap_logs_as_its_server_does(bench: Any, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = NodeArguments("planner_server", has_ros_args=True)
-    costmap = Nav2Costmap("global_costmap", arguments, bench.node.graph, Diagnostics())
+    costmap = CostmapNode("global_costmap", arguments, bench.node.graph, Diagnostics())
     costmap.node.log("info", "Received a map")
     costmap.close()
     told = capsys.readouterr()

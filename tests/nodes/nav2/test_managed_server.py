@@ -15,7 +15,7 @@ from gazelle.graph.actions import ActionClient, ServerGoal
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup
 from gazelle.nodes.nav2.parameters import WAYPOINT_FOLLOWER
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.parameters.reader import ParameterReader
 
 
@@ -43,7 +43,7 @@ class Server(ManagedServer):
     def _left(self) -> None:
         self.said.append("left")
 
-    def _answer(self, action: SingleGoal, goal: ServerGoal) -> None:
+    def _answer(self, action: SimpleActionServer, goal: ServerGoal) -> None:
         del goal
         action.succeed(text=action.name)
 

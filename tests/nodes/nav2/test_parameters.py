@@ -13,8 +13,8 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.nav2 import parameters as tables
 from gazelle.nodes.nav2.collision_monitor.parameters import (
     COLLISION_MONITOR,
+    read_polygons,
     read_sources,
-    read_zones,
     report_others,
 )
 from gazelle.nodes.navigation.costmap_parameters import assemble
@@ -83,7 +83,7 @@ def test_the_default_file_has_only_what_a_costmap_knows(name: str) -> None:
 def test_the_default_file_has_only_what_collision_monitor_knows() -> None:
     diagnostics = Diagnostics()
     settings = node_reader(COLLISION_MONITOR, _values("collision_monitor"), "c", diagnostics)
-    assert len(read_zones(settings)) == len(read_sources(settings)) == 1
+    assert len(read_polygons(settings)) == len(read_sources(settings)) == 1
     report_others(settings)
     assert [str(item) for item in diagnostics] == []
 

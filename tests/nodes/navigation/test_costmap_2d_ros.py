@@ -17,13 +17,13 @@ from gazelle.geometry import Pose
 from gazelle.graph import Graph
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces.stamps import set_header
-from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 from gazelle.nodes.navigation.costmap_parameters import assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames
 
 
-class Slow(LiveCostmap):
+class Slow(Costmap2DRos):
     """Its update takes as long as the test wants."""
 
     def __init__(self, graph: Graph, said: list[str]) -> None:
@@ -77,7 +77,7 @@ def test_scan_ahead_of_tf_waits_for_it_and_nothing_is_said(graph: Graph) -> None
     said: list[str] = []
     node.console = lambda record, **_: said.append(record.text)
     made = assemble(tree, "/mapper/local_costmap", Diagnostics())
-    costmap = LiveCostmap(
+    costmap = Costmap2DRos(
         node, Frames(node), made, CostmapPublisher(node, "~/local_costmap", "odom")
     )
     tf = TransformBroadcaster(outside)

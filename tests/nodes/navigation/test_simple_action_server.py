@@ -5,14 +5,16 @@ from __future__ import annotations
 import pytest
 
 from gazelle.graph.actions import ActionClient
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 
 _TYPES = {1: "move_base_msgs/MoveBase", 2: "nav2_msgs/Wait"}
 
 
 @pytest.fixture(params=[1, 2])
 def pair(bench, request):
-    server = SingleGoal(bench.node, "work", _TYPES[request.param], ros_version=request.param)
+    server = SimpleActionServer(
+        bench.node, "work", _TYPES[request.param], ros_version=request.param
+    )
     client = ActionClient(bench.node, "work", _TYPES[request.param])
     client.require_server(10.0)
     yield server, client

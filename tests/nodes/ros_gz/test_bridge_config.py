@@ -7,26 +7,34 @@ from pathlib import Path
 import pytest
 
 from gazelle.errors import LaunchError
-from gazelle.nodes.ros_gz.bridge_config import Direction, ServiceRow, TopicRow, read_file, read_word
+from gazelle.nodes.ros_gz.bridge_config import (
+    Direction,
+    ServiceRow,
+    TopicRow,
+    read_argument,
+    read_file,
+)
 from gazelle.nodes.ros_gz.mappings import is_pair, pair_error
 
 
 @pytest.mark.parametrize("sign", list(Direction))
 def test_sign_between_the_types_is_the_direction(sign: Direction) -> None:
-    found = read_word(f"/clock@rosgraph_msgs/msg/Clock{sign.value}gz.msgs.Clock")
+    found = read_argument(f"/clock@rosgraph_msgs/msg/Clock{sign.value}gz.msgs.Clock")
     assert found == TopicRow("/clock", "/clock", "rosgraph_msgs/msg/Clock", "gz.msgs.Clock", sign)
 
 
 @pytest.mark.parametrize("rest", ["", "@gz.msgs.WorldControl@gz.msgs.Boolean"])
 def test_services_are_known_by_their_type(rest: str) -> None:
     word = f"/world/w/control@ros_gz_interfaces/srv/ControlWorld{rest}"
-    assert read_word(word) == ServiceRow("/world/w/control", "ros_gz_interfaces/srv/ControlWorld")
+    assert read_argument(word) == ServiceRow(
+        "/world/w/control", "ros_gz_interfaces/srv/ControlWorld"
+    )
 
 
 @pytest.mark.parametrize("word", ["/clock", "/a@std_msgs/String", "@x@y", "/a@b@c@d"])
 def test_other_words_show_the_usage(word: str) -> None:
     with pytest.raises(LaunchError, match=r"is no bridge\nusage: parameter_bridge"):
-        read_word(word)
+        read_argument(word)
 
 
 def test_names_of_a_file_stand_for_each_other(tmp_path: Path) -> None:

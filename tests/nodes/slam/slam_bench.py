@@ -16,7 +16,7 @@ from gazelle.interfaces import message_type
 from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.slam.mapper import Mapper
 from gazelle.nodes.slam.options import SlamOptions, options_of
-from gazelle.nodes.slam.ros_packages import FLAVOURS
+from gazelle.nodes.slam.ros_packages import SLAM_NODES
 from gazelle.parameters.trees import nested
 
 POSES = [(0.1 * k - 1, 0.05 * k - 0.5, 0.05 * k) for k in range(20)]
@@ -26,8 +26,8 @@ STEP_NS = 50_000_000
 def told(family: str, values: Mapping[str, Any]) -> SlamOptions:
     """Options of a flavour with some parameters set; none of them may be complained of."""
     found = Diagnostics()
-    settings = node_reader(FLAVOURS[family].table, nested(values), "/slam", found)
-    options = options_of(FLAVOURS[family], settings)
+    settings = node_reader(SLAM_NODES[family].table, nested(values), "/slam", found)
+    options = options_of(SLAM_NODES[family], settings)
     settings.report_unknown()
     assert not list(found)
     return options

@@ -18,7 +18,7 @@ from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.slam.cartographer.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.docs import page
 from gazelle.nodes.slam.options import SlamOptions
-from gazelle.nodes.slam.ros_packages import FLAVOURS
+from gazelle.nodes.slam.ros_packages import SLAM_NODES
 from gazelle.parameters.trees import nested
 
 ROOT = Path(__file__).parents[3]
@@ -37,10 +37,10 @@ def _bench() -> Any:
 
 
 b = _bench()
-USED = [(family, key) for family, one in FLAVOURS.items() for key in one.uses]
+USED = [(family, key) for family, one in SLAM_NODES.items() for key in one.uses]
 IDLE = [
     (family, row)
-    for family, one in FLAVOURS.items()
+    for family, one in SLAM_NODES.items()
     for row in one.table.rows
     if row.kind == "refused"
 ]
@@ -73,8 +73,8 @@ def test_the_page_is_generated_from_the_tables() -> None:
 
 @pytest.mark.parametrize(("family", "key"), USED)
 def test_a_parameter_arrives_under_its_name(family: str, key: str) -> None:
-    flavour = FLAVOURS[family]
-    option, default = flavour.uses[key], flavour.table.row(key).default
+    slam_node = SLAM_NODES[family]
+    option, default = slam_node.uses[key], slam_node.table.row(key).default
     other = _other(default)
     expected = tuple(other) if isinstance(other, list) else other
     assert _value(b.told(family, {key: other}), option) == expected
@@ -85,7 +85,7 @@ def test_a_parameter_arrives_under_its_name(family: str, key: str) -> None:
 @pytest.mark.parametrize(("family", "row"), IDLE, ids=lambda one: getattr(one, "key", one))
 def test_a_parameter_without_effect_is_refused_with_its_reason(family: str, row: Any) -> None:
     found = Diagnostics()
-    settings = node_reader(FLAVOURS[family].table, nested({row.key: 1}), "/slam", found)
+    settings = node_reader(SLAM_NODES[family].table, nested({row.key: 1}), "/slam", found)
     settings.report_unknown()
     assert [row.meaning in str(one) and row.key in str(one) for one in found] == [True]
 
@@ -240,7 +240,7 @@ def test_an_option_does_what_it_says(option: str) -> None:
 
 
 def test_every_option_has_its_behaviour_tested() -> None:
-    used = {option for one in FLAVOURS.values() for option in one.uses.values()}
+    used = {option for one in SLAM_NODES.values() for option in one.uses.values()}
     assert used == set(BEHAVIOUR) | RUNNING
 
 
@@ -300,7 +300,7 @@ def test_cartographers_file_is_read_and_what_has_no_effect_is_told(tmp_path: Pat
     words = ("-configuration_directory", str(tmp_path), "-configuration_basename", "robot.lua")
     given = read_configuration(flags_of(words))
     found = Diagnostics()
-    settings = node_reader(FLAVOURS["cartographer"].table, nested(given), "/cartographer", found)
+    settings = node_reader(SLAM_NODES["cartographer"].table, nested(given), "/cartographer", found)
     settings.report_unknown()
     assert given["tracking_frame"] == "imu_link"
     assert given["max_range"] == 3.5

@@ -14,7 +14,7 @@ from gazelle.graph import Node
 from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.kinematics import Solver, link_poses
 from gazelle.motion.model import JointGroup, RobotModel
-from gazelle.nodes.move_group.planning_scene_monitor import StateMonitor
+from gazelle.nodes.move_group.planning_scene_monitor import CurrentStateMonitor
 from gazelle.workspace import Workspace
 
 __all__ = ["RobotInterface"]
@@ -30,7 +30,7 @@ class RobotInterface:
         states: listens to joint states.
     """
 
-    def __init__(self, model: RobotModel, states: StateMonitor) -> None:
+    def __init__(self, model: RobotModel, states: CurrentStateMonitor) -> None:
         self.model = model
         self.states = states
 
@@ -52,7 +52,7 @@ class RobotInterface:
             texts["_semantic"], robot=models[0], workspace=workspace, diagnostics=diagnostics
         )
         model = RobotModel.build(models[0], srdf, diagnostics=diagnostics)
-        return cls(model, StateMonitor(node))
+        return cls(model, CurrentStateMonitor(node))
 
     def group(self, name: str) -> JointGroup:
         """Return a planning group.

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import gazelle.interfaces
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
 from gazelle.doctor.packages.source import SourcePackage
-from gazelle.node_specs.unavailable_packages import packages_elsewhere
+from gazelle.node_specs.unavailable_packages import unavailable_packages
 from gazelle.workspace import Workspace
 from gazelle.workspace.environment_paths import builtin_package_names
 
@@ -55,7 +55,7 @@ def known_packages() -> frozenset[str]:
     """Return packages of ROS distributions: those elsewhere, stood in for, and of messages."""
     definitions = Path(gazelle.interfaces.__file__).parent / "definitions"
     messages = {path.stem for path in definitions.rglob("*.txt")}
-    return packages_elsewhere() | builtin_package_names() | messages
+    return unavailable_packages() | builtin_package_names() | messages
 
 
 def is_ros_package(name: str) -> bool:

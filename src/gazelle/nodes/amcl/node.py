@@ -37,7 +37,7 @@ from gazelle.nodes.parameters import (
 )
 from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["AmclNode", "Outputs", "SpawnHint", "run", "run_ros2", "scan_of_message"]
+__all__ = ["AmclNode", "AmclPublisher", "InitialPoseHint", "run", "run_ros2", "scan_of_message"]
 
 
 _FAR_M, _FAR_RAD = 0.3, math.radians(20)
@@ -50,7 +50,7 @@ _JUMP_M_S = 5.0
 _SENSOR_MODELS = ("beam", "likelihood_field", "likelihood_field_prob")
 
 
-class Outputs:
+class AmclPublisher:
     """``amcl_pose``, ``particlecloud`` or ``particle_cloud``, and the transform."""
 
     def __init__(self, node: Node, frame_id: str, odom_frame: str, ros_version: int) -> None:
@@ -107,7 +107,7 @@ class Outputs:
         self._tf.send(StampedPose(self._frame_id, self._odom_frame, stamp_ns, pose))
 
 
-class SpawnHint:
+class InitialPoseHint:
     """Tells once where a simulated robot stands when that is not where amcl begins."""
 
     def __init__(self, node: Node, begins: PlanePose, *, is_ros2: bool) -> None:
@@ -182,13 +182,13 @@ class AmclNode:
         self._filter = Amcl(self._options, zlib.crc32(node.name.encode()))
         self._lock = threading.RLock()
         self._frames = Frames(node)
-        self._out = Outputs(node, self._map_frame, self._odom_frame, ros_version)
+        self._out = AmclPublisher(node, self._map_frame, self._odom_frame, ros_version)
         self._running = False
         self._placed = ros_version == 1 or s.flag("set_initial_pose")
         self._T_map_odom: PlanePose | None = None
         self._odometry: tuple[PlanePose, int] | None = None
         self._saved_ns = 0
-        self._hint: SpawnHint | None = None
+        self._hint: InitialPoseHint | None = None
         offer_dynamic_reconfigure(node, node.resolve_name("~"), self._settings, self._reconfigure)
         log_findings(node, found)
 
@@ -204,7 +204,7 @@ class AmclNode:
             self._options.initial_pose_a,
         )
         if not self._was_given():
-            self._hint = SpawnHint(node, begins, is_ros2=self._ros_version == 2)
+            self._hint = InitialPoseHint(node, begins, is_ros2=self._ros_version == 2)
         empty = service_type("std_srvs/srv/Empty")
         ros2 = self._ros_version == 2
         everywhere = "reinitialize_global_localization" if ros2 else "global_localization"

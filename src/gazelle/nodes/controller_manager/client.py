@@ -115,7 +115,7 @@ class ManagerClient:
                 late()
         return False
 
-    def elsewhere(self) -> str:
+    def other_managers_text(self) -> str:
         """Return a sentence about the controller managers that there are."""
         found = self.managers()
         if not found:
@@ -162,7 +162,7 @@ class ManagerClient:
                 _tell(f"there is no {self.name}; {there[0]}, the only one there is, is used")
                 self.name = there[0]
                 return True
-            text = f"waiting for {self.name}; {self.elsewhere()}"
+            text = f"waiting for {self.name}; {self.other_managers_text()}"
             if text != said and time.monotonic() - start_s > _LATE_S:
                 said = text
                 _tell(text)

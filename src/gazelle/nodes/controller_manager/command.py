@@ -50,7 +50,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 def command(
     node: Node,
-    words: Sequence[str],
+    argv: Sequence[str],
     stop: threading.Event,
     *,
     late: Callable[[], None] = lambda: None,
@@ -59,14 +59,14 @@ def command(
 
     Args:
         node: a started node of the graph.
-        words: the command, its controllers and options.
+        argv: the command, its controllers and options.
         stop: ends waiting for the manager.
         late: called when the manager lets itself be waited for.
 
     Returns:
         0, 1 for a failure, 2 for wrong words.
     """
-    rest = list(words)
+    rest = list(argv)
     namespace = _option(rest, "--namespace")
     restore = "--restore" in rest
     names = [word for word in rest[1:] if not word.startswith("-")]
@@ -91,14 +91,14 @@ def command(
         return 1
 
 
-def _option(words: list[str], name: str) -> str:
+def _option(argv: list[str], name: str) -> str:
     """Take an option with its value out of the words."""
-    for place, word in enumerate(words):
+    for index, word in enumerate(argv):
         if word.startswith(f"{name}="):
-            return words.pop(place).partition("=")[2]
-        if word == name and place + 1 < len(words):
-            del words[place]
-            return words.pop(place)
+            return argv.pop(index).partition("=")[2]
+        if word == name and index + 1 < len(argv):
+            del argv[index]
+            return argv.pop(index)
     return ""
 
 

@@ -35,7 +35,9 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     try:
         if not client.wait("list_hardware_components", timeout_s, late=late, late_s=LATE_S):
             service = f"{client.name}/list_hardware_components"
-            node.log("fatal", f"Could not contact service {service}; {client.elsewhere()}")
+            node.log(
+                "fatal", f"Could not contact service {service}; {client.other_managers_text()}"
+            )
             return 1
         _spawn(node, client, options)
     except GraphError as error:
@@ -46,7 +48,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     return 0
 
 
-def _options(words: Sequence[str]) -> Namespace:
+def _options(argv: Sequence[str]) -> Namespace:
     parser = SpawnerParser(prog="hardware_spawner")
     parser.add_argument("hardware_component_names", nargs="+")
     parser.add_argument("-c", "--controller-manager", default="controller_manager")
@@ -54,7 +56,7 @@ def _options(words: Sequence[str]) -> Namespace:
     group = parser.add_mutually_exclusive_group(required=True)
     group.add_argument("--activate", action="store_true")
     group.add_argument("--configure", action="store_true")
-    return parser.parse_args(split_arguments(words).own)
+    return parser.parse_args(split_arguments(argv).own)
 
 
 def _spawn(node: Node, client: ManagerClient, options: Namespace) -> None:

@@ -93,9 +93,9 @@ def run_unspawner(arguments: NodeArguments, graph: Graph, stop: threading.Event)
         node.shutdown()
 
 
-def is_ros2(words: Sequence[str]) -> bool:
+def is_ros2(argv: Sequence[str]) -> bool:
     """Tell whether these are the arguments of ROS 2's spawner."""
-    return any(word.partition("=")[0] in _ROS2_WORDS for word in words if word.startswith("-"))
+    return any(word.partition("=")[0] in _ROS2_WORDS for word in argv if word.startswith("-"))
 
 
 def _start(arguments: NodeArguments, graph: Graph, stop: threading.Event, default: str) -> Node:
@@ -191,7 +191,7 @@ class _Spawner:
                 if not self._stop.is_set():
                     text = "Controller Spawner couldn't find the expected controller_manager ROS "
                     text += f"interface ({self._client.name}/{service}); "
-                    self._say("warn", text + self._client.elsewhere())
+                    self._say("warn", text + self._client.other_managers_text())
                 return False
         return True
 
@@ -204,7 +204,7 @@ class _Spawner:
         clock = self._node.clock
         if clock.use_sim_time and clock.now_ns() == 0:
             self._say("info", "Waiting for /clock to be available...")
-        text = f"{self._client.name} is not there yet; {self._client.elsewhere()}"
+        text = f"{self._client.name} is not there yet; {self._client.other_managers_text()}"
         self._node.log("warn" if clock.now_ns() else "info", f"Controller Spawner: {text}")
 
     def _wait_for_topic(self, topic: str) -> bool:

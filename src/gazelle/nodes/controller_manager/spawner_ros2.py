@@ -100,13 +100,13 @@ def spawn(node: Node, arguments: NodeArguments, stop: threading.Event) -> int:
     return 0
 
 
-def unspawn(node: Node, words: Sequence[str], stop: threading.Event) -> int:
+def unspawn(node: Node, argv: Sequence[str], stop: threading.Event) -> int:
     """Do what ros2_control's unspawner does, over a node that is there."""
     parser = SpawnerParser(prog="unspawner")
     parser.add_argument("controller_names", nargs="+")
     parser.add_argument("-c", "--controller-manager", default="controller_manager")
     parser.add_argument("--switch-timeout", type=float, default=5.0)
-    options = parser.parse_args(split_arguments(words).own)
+    options = parser.parse_args(split_arguments(argv).own)
     client = ManagerClient(node, options.controller_manager, stop, ros_version=2)
     late = manager_teller(node, client, "switch_controller")
     if not client.wait("switch_controller", late=late, late_s=LATE_S):
@@ -125,13 +125,13 @@ def unspawn(node: Node, words: Sequence[str], stop: threading.Event) -> int:
     return 0
 
 
-def spawner_options(words: Sequence[str]) -> Namespace:
+def spawner_options(argv: Sequence[str]) -> Namespace:
     """Read the spawner's arguments; those for ROS itself are left out.
 
     Raises:
         LaunchError: they are wrong.
     """
-    return _spawner_parser().parse_args(split_arguments(words).own)
+    return _spawner_parser().parse_args(split_arguments(argv).own)
 
 
 def _spawner_parser() -> SpawnerParser:
@@ -223,7 +223,7 @@ class _Spawner:
         timeout_s = self._options.controller_manager_timeout or None
         late = manager_teller(self._node, self._client, "list_controllers", self._arguments.ready)
         if not self._client.wait("list_controllers", timeout_s, late=late, late_s=LATE_S):
-            text = f"Could not contact service {service}; {self._client.elsewhere()}"
+            text = f"Could not contact service {service}; {self._client.other_managers_text()}"
             self._check(False, text, level="fatal")
 
     def _load(self, name: str, loaded: set[str]) -> None:
@@ -240,9 +240,9 @@ class _Spawner:
     def _parameters(self, name: str) -> dict[str, Any]:
         """Return what the manager is to know of a controller before it loads it."""
         values: dict[str, Any] = {}
-        words = [word for text in self._options.controller_ros_args for word in text.split()]
-        if words:
-            values[f"{name}.node_options_args"] = words
+        argv = [word for text in self._options.controller_ros_args for word in text.split()]
+        if argv:
+            values[f"{name}.node_options_args"] = argv
         chosen = self._options.controller_type
         if self._files:
             values[f"{name}.params_file"] = [str(one.resolve()) for one in self._files]
@@ -273,7 +273,7 @@ def manager_teller(node: Node, client: ManagerClient, service: str, ready: Any =
     """Return what to do while a manager is not there yet."""
 
     def tell() -> None:
-        text = f"Could not contact service {client.name}/{service}; {client.elsewhere()}"
+        text = f"Could not contact service {client.name}/{service}; {client.other_managers_text()}"
         node.log("warn", text)
         if ready is not None:
             # Whoever holds time back for this node must not wait for ever.

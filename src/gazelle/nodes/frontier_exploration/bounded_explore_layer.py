@@ -16,7 +16,7 @@ from gazelle.interfaces.stamps import set_header
 from gazelle.mapping.frontiers import Frontier, are_inside, find_frontiers
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.costmap import CostGrid, ObstacleLayer, occupancy_of_costs
-from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 from gazelle.nodes.navigation.costmap_parameters import assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
@@ -26,7 +26,13 @@ from gazelle.parameters import Parameter, ParameterTable
 if TYPE_CHECKING:
     from gazelle.graph import Node
 
-__all__ = ["BOUNDED_EXPLORE", "EXPLORE_SERVER", "LAYER_TYPE", "Area", "Services"]
+__all__ = [
+    "BOUNDED_EXPLORE",
+    "EXPLORE_SERVER",
+    "LAYER_TYPE",
+    "BoundedExploreLayer",
+    "BoundedExploreServices",
+]
 
 
 LAYER_TYPE = "frontier_exploration::BoundedExploreLayer"
@@ -74,7 +80,7 @@ _CHOSEN, _OTHERS = 100.0, 50.0
 _FLOAT32 = 7
 
 
-class Area:
+class BoundedExploreLayer:
     """What is explored.
 
     Attributes:
@@ -181,18 +187,18 @@ class Area:
         self.settings.report("parameter.bad-value", text, f"there are {known}")
         return "closest"
 
-    def _made(self, tree: Mapping[str, Any], diagnostics: Diagnostics) -> LiveCostmap:
+    def _made(self, tree: Mapping[str, Any], diagnostics: Diagnostics) -> Costmap2DRos:
         name = f"{self._node.name}/{_NAME}"
         made = assemble({**tree}, name, diagnostics, above=self._above)
         frame = made.costmap.options.global_frame.removeprefix("/")
         publisher = CostmapPublisher(self._node, f"~/{_NAME}", frame)
-        return LiveCostmap(self._node, self._frames, made, publisher)
+        return Costmap2DRos(self._node, self._frames, made, publisher)
 
 
-class Services:
+class BoundedExploreServices:
     """``update_boundary_polygon``, ``get_next_frontier`` and ``frontiers`` of the layer."""
 
-    def __init__(self, node: Node, area: Area) -> None:
+    def __init__(self, node: Node, area: BoundedExploreLayer) -> None:
         """Offer them."""
         self._node, self._area = node, area
         below = f"~/explore_costmap/{area.layer}"

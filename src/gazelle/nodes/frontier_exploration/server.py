@@ -18,17 +18,17 @@ from gazelle.mapping.frontiers import Frontier
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.frontier_exploration.bounded_explore_layer import (
     EXPLORE_SERVER,
-    Area,
+    BoundedExploreLayer,
+    BoundedExploreServices,
     Corners,
-    Services,
 )
 from gazelle.nodes.navigation.robot_pose import PlanePose
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node
 from gazelle.parameters.reader import ParameterReader
 
 if TYPE_CHECKING:
-    from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+    from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 
 __all__ = ["run"]
 
@@ -46,7 +46,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     tree = parameter_tree(node, arguments)
     found = Diagnostics()
     settings = node_reader(EXPLORE_SERVER, tree, node.name, found)
-    area = Area(node, tree, found)
+    area = BoundedExploreLayer(node, tree, found)
     explorer = _Explorer(node, settings, area, stop)
     settings.report_unknown()
     log_findings(node, found)
@@ -61,15 +61,19 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 class _Explorer:
     def __init__(
-        self, node: Node, settings: ParameterReader, area: Area, stop: threading.Event
+        self,
+        node: Node,
+        settings: ParameterReader,
+        area: BoundedExploreLayer,
+        stop: threading.Event,
     ) -> None:
         self._node, self._area, self._stop = node, area, stop
         self._frequency_hz = settings.number("frequency")
         self._same_m = settings.number("goal_aliasing") / 2
-        self._goals = SingleGoal(
+        self._goals = SimpleActionServer(
             node, node.name.rpartition("/")[2], "frontier_exploration/ExploreTask"
         )
-        self._services = Services(node, area)
+        self._services = BoundedExploreServices(node, area)
         self._client = ActionClient(node, "move_base", "move_base_msgs/MoveBase")
         self._move: ClientGoal | None = None
         self._to: PlanePose | None = None
@@ -79,7 +83,7 @@ class _Explorer:
         self._feedback = message_type("frontier_exploration/action/ExploreTask_Feedback")()
 
     @property
-    def _costmap(self) -> LiveCostmap:
+    def _costmap(self) -> Costmap2DRos:
         return self._area.costmap
 
     def work(self) -> None:

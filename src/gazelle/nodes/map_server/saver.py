@@ -21,7 +21,7 @@ from gazelle.parameters import Parameter, ParameterTable, refused
 __all__ = [
     "CLI_PARAMETERS",
     "SERVER_PARAMETERS",
-    "Wanted",
+    "SaveRequest",
     "parse_cli",
     "parse_saver",
     "run",
@@ -80,7 +80,7 @@ _POLL_S = 0.2
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class SaveRequest:
     """What is saved where.
 
     Attributes:
@@ -96,14 +96,14 @@ class Wanted:
     help: bool = False
 
 
-def parse_saver(words: Sequence[str]) -> Wanted:
+def parse_saver(argv: Sequence[str]) -> SaveRequest:
     """Read the command line of ``map_server map_saver``.
 
     Raises:
         LaunchError: it is wrong.
     """
-    wanted = Wanted("map", "map", SaveOptions())
-    rest = list(words)
+    wanted = SaveRequest("map", "map", SaveOptions())
+    rest = list(argv)
     while rest:
         word = rest.pop(0)
         if word == "-h":
@@ -126,15 +126,15 @@ def parse_saver(words: Sequence[str]) -> Wanted:
     return wanted
 
 
-def parse_cli(words: Sequence[str]) -> Wanted:
+def parse_cli(argv: Sequence[str]) -> SaveRequest:
     """Read the command line of ``nav2_map_server map_saver_cli``.
 
     Raises:
         LaunchError: it is wrong.
     """
     # Without -f the original names the file by the time, in seconds.
-    wanted = Wanted("", "map", SaveOptions(ros_version=2))
-    rest = list(words)
+    wanted = SaveRequest("", "map", SaveOptions(ros_version=2))
+    rest = list(argv)
     while rest:
         word = rest.pop(0)
         if word in ("-h", "--help"):
@@ -148,7 +148,7 @@ def parse_cli(words: Sequence[str]) -> Wanted:
     return wanted
 
 
-def _taken(wanted: Wanted, word: str, value: str) -> Wanted:
+def _taken(wanted: SaveRequest, word: str, value: str) -> SaveRequest:
     if word == "-t":
         return replace(wanted, topic=value)
     if word == "-f":
@@ -164,7 +164,7 @@ def _taken(wanted: Wanted, word: str, value: str) -> Wanted:
     return _with_threshold(wanted, word, share)
 
 
-def _with_threshold(wanted: Wanted, word: str, share: float) -> Wanted:
+def _with_threshold(wanted: SaveRequest, word: str, share: float) -> SaveRequest:
     if word == "--occ":
         return replace(wanted, options=replace(wanted.options, occupied_thresh=share))
     return replace(wanted, options=replace(wanted.options, free_thresh=share))
@@ -196,7 +196,7 @@ def run_cli(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> in
 
 
 def _save_once(
-    node: Node, stop: threading.Event, wanted: Wanted, usage: str, timeout_s: float | None
+    node: Node, stop: threading.Event, wanted: SaveRequest, usage: str, timeout_s: float | None
 ) -> int:
     if wanted.help:
         node.log("info", usage)
@@ -236,7 +236,7 @@ def _one_map(node: Node, topic: str, stop: threading.Event, timeout_s: float | N
     return got[0] if got else None
 
 
-def _write(node: Node, message: Any, wanted: Wanted) -> bool:
+def _write(node: Node, message: Any, wanted: SaveRequest) -> bool:
     try:
         grid = grid_of_message(message)
         size = f"{grid.width} X {grid.height}"
@@ -284,7 +284,7 @@ def run_server(arguments: NodeArguments, graph: Graph, stop: threading.Event) ->
         )
         node.log("info", f"Saving map from '{topic}' topic to '{request.map_url}' file")
         message = _one_map(node, topic, stop, timeout_s)
-        wanted = Wanted(request.map_url, topic, options)
+        wanted = SaveRequest(request.map_url, topic, options)
         response.result = message is not None and _write(node, message, wanted)
         return response
 

@@ -50,13 +50,13 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     Raises:
         LaunchError: the command line is wrong.
     """
-    words = arguments.rest
-    if len(words) not in (1, 2):
-        raise LaunchError(f"map_server takes a map's YAML, got {len(words)} words\n{_USAGE}")
+    argv = arguments.rest
+    if len(argv) not in (1, 2):
+        raise LaunchError(f"map_server takes a map's YAML, got {len(argv)} words\n{_USAGE}")
     node = start_node(arguments, graph)
     found = Diagnostics()
     with private_parameters(node, arguments, PARAMETERS) as own:
-        grid = _first_map(node, own, words, found)
+        grid = _first_map(node, own, argv, found)
     log_findings(node, found)
     if grid is None:
         node.shutdown()
@@ -77,30 +77,30 @@ def result_of(found: Diagnostics) -> int:
 
 
 def _first_map(
-    node: Node, own: ParameterReader, words: tuple[str, ...], found: Diagnostics
+    node: Node, own: ParameterReader, argv: tuple[str, ...], found: Diagnostics
 ) -> OccupancyGrid | None:
-    if len(words) == 1:
-        node.log("info", f'Loading map from "{words[0]}"')
-        return read_map(words[0], found)
+    if len(argv) == 1:
+        node.log("info", f'Loading map from "{argv[0]}"')
+        return read_map(argv[0], found)
     node.log("warn", "Using deprecated map server interface. Please switch to new interface.")
-    return _from_parameters(own, words, found)
+    return _from_parameters(own, argv, found)
 
 
 def _from_parameters(
-    own: ParameterReader, words: tuple[str, ...], found: Diagnostics
+    own: ParameterReader, argv: tuple[str, ...], found: Diagnostics
 ) -> OccupancyGrid | None:
     """Read a picture with a resolution on the command line, the form before the YAML."""
     try:
-        resolution_m = float(words[1])
+        resolution_m = float(argv[1])
     except ValueError:
         resolution_m = math.nan
     if not (math.isfinite(resolution_m) and resolution_m > 0):
-        text = f"'{words[1]}' is no resolution in metres per cell"
+        text = f"'{argv[1]}' is no resolution in metres per cell"
         found.report("map.bad-value", text, fix="such as `map_server map.pgm 0.05`")
         return None
     described = MapFile(
-        path=Path(words[0]),
-        image=Path(words[0]),
+        path=Path(argv[0]),
+        image=Path(argv[0]),
         resolution_m=resolution_m,
         origin=(0.0, 0.0, 0.0),
         negate=own.number("negate") != 0,

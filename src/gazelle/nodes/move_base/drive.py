@@ -13,11 +13,11 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_plane_pose
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.move_base.local_planner import LocalPlanner
-from gazelle.nodes.move_base.recovery_behaviors import Behaviour, Surroundings
+from gazelle.nodes.move_base.recovery_behaviors import Behaviour, RecoveryContext
 from gazelle.nodes.move_base.state_machine import Plan, Trigger
-from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 from gazelle.nodes.navigation.robot_pose import PlanePose
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.nodes.twist_publisher import TwistPublisher
 
 if TYPE_CHECKING:
@@ -39,16 +39,16 @@ class Driver:
     def __init__(
         self,
         node: Node,
-        near: LiveCostmap,
-        whole: LiveCostmap,
+        local_costmap: Costmap2DRos,
+        global_costmap: Costmap2DRos,
         local: LocalPlanner,
-        goals: SingleGoal,
+        goals: SimpleActionServer,
     ) -> None:
         """Offer ``cmd_vel`` and ``recovery_status``."""
         self.behaviours: list[Behaviour] = []
         self.stopping = threading.Event()
         self._node = node
-        self._near, self._whole = near, whole
+        self._local_costmap, self._global_costmap = local_costmap, global_costmap
         self._local = local
         self._goals = goals
         self._out = TwistPublisher(node, is_stamped=False)
@@ -61,11 +61,11 @@ class Driver:
         """How many recovery behaviours there are."""
         return len(self.behaviours)
 
-    def surroundings(self) -> Surroundings:
+    def recovery_context(self) -> RecoveryContext:
         """Return what recovery behaviours act on."""
-        return Surroundings(
-            self._whole,
-            self._near,
+        return RecoveryContext(
+            self._global_costmap,
+            self._local_costmap,
             self.drive,
             self.sleep,
             self._limit_speed,
@@ -74,14 +74,16 @@ class Driver:
 
     def is_current(self) -> bool:
         """Tell whether the local costmap is up to date; why not is said."""
-        stale = self._near.stale()
+        stale = self._local_costmap.stale()
         for text in stale:
-            self._near.frames.say("warn", f"{self._near.name}: {text}", every_s=1.0)
+            self._local_costmap.frames.say(
+                "warn", f"{self._local_costmap.name}: {text}", every_s=1.0
+            )
         return not stale
 
     def set_plan(self, plan: Plan) -> bool:
         """Give a plan in the global costmap's frame to the local planner."""
-        return self._local.set_plan(np.array(plan, float), self._whole.global_frame)
+        return self._local.set_plan(np.array(plan, float), self._global_costmap.global_frame)
 
     def is_goal_reached(self) -> bool:
         """Ask the local planner."""
@@ -91,7 +93,7 @@ class Driver:
         """Send the next velocity; return why there is none."""
         found = self._local.compute()
         if isinstance(found, str):
-            self._near.frames.say("warn", found, key="no velocity", every_s=1.0)
+            self._local_costmap.frames.say("warn", found, key="no velocity", every_s=1.0)
             return found
         x, y, turn = found.velocity
         self._out.publish(x, y, turn)
@@ -114,7 +116,7 @@ class Driver:
 
     def log(self, level: str, text: str) -> None:
         """Say something, the same thing at most once a second."""
-        self._near.frames.say(level, text, every_s=1.0)
+        self._local_costmap.frames.say(level, text, every_s=1.0)
 
     def now_ns(self) -> int:
         """Tell the time."""
@@ -122,7 +124,7 @@ class Driver:
 
     def rest(self, rests: bool) -> None:
         """Let costmaps rest, or wake them."""
-        for costmap in (self._near, self._whole):
+        for costmap in (self._local_costmap, self._global_costmap):
             costmap.rests = rests
 
     def sleep(self, duration_s: float) -> bool:
@@ -158,8 +160,8 @@ class Driver:
             total_number_of_recoveries=len(self.behaviours),
             recovery_behavior_name=behaviour.name,
         )
-        pose = self._whole.pose()
+        pose = self._global_costmap.pose()
         if pose is not None:
-            set_header(message.pose_stamped, self.now_ns(), self._whole.global_frame)
+            set_header(message.pose_stamped, self.now_ns(), self._global_costmap.global_frame)
             set_plane_pose(message.pose_stamped.pose, pose)
         self._status_out.publish(message)

@@ -10,7 +10,7 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.interfaces import message_type, service_type
 from gazelle.interfaces.poses import unit_pose_of
 from gazelle.navigation.planners import PLANNERS, REFUSED_PLANNERS, NoPlan, Plan, make_plan
-from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 from gazelle.nodes.navigation.robot_pose import PlanePose, path_message
 from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import ParameterTable
@@ -46,7 +46,7 @@ class GlobalPlanner:
     def __init__(
         self,
         node: Node,
-        costmap: LiveCostmap,
+        costmap: Costmap2DRos,
         plugin: str,
         tree: Mapping[str, Any],
         diagnostics: Diagnostics,

@@ -20,7 +20,7 @@ from gazelle.navigation.controllers import (
     RobotState,
 )
 from gazelle.nodes.move_base.global_planner import short_name
-from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 from gazelle.nodes.navigation.robot_pose import Odometry, PlanePose, path_message
 from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import Parameter, ParameterTable
@@ -55,7 +55,7 @@ class LocalPlanner:
     def __init__(
         self,
         node: Node,
-        costmap: LiveCostmap,
+        costmap: Costmap2DRos,
         plugin: str,
         tree: Mapping[str, Any],
         period_s: float,

@@ -19,12 +19,18 @@ from gazelle.nodes.move_base.global_planner import GlobalPlanner
 from gazelle.nodes.move_base.local_planner import LocalPlanner
 from gazelle.nodes.move_base.parameters import MOVE_BASE
 from gazelle.nodes.move_base.recovery_behaviors import make_behaviours
-from gazelle.nodes.move_base.state_machine import Executive, Outcome, PlanPose, State, Timing
-from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.move_base.state_machine import (
+    MoveBaseStateMachine,
+    Outcome,
+    PlanPose,
+    State,
+    Timing,
+)
+from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 from gazelle.nodes.navigation.costmap_parameters import INHERITED, assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.nodes.parameters import (
     log_findings,
     node_reader,
@@ -35,7 +41,7 @@ from gazelle.nodes.parameters import (
 )
 from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["MoveBase", "Services", "run"]
+__all__ = ["MoveBase", "MoveBaseServices", "run"]
 
 
 _NANO = 1_000_000_000
@@ -43,15 +49,15 @@ _PLANNER_REST_S = 0.05
 _COSTMAPS = ("global_costmap", "local_costmap")
 
 
-class Services:
+class MoveBaseServices:
     """``make_plan`` and ``clear_costmaps``."""
 
     def __init__(
         self,
         node: Node,
         planner: GlobalPlanner,
-        costmaps: Mapping[str, LiveCostmap],
-        goals: SingleGoal,
+        costmaps: Mapping[str, Costmap2DRos],
+        goals: SimpleActionServer,
         settings: ParameterReader,
     ) -> None:
         """Offer them below the node's name."""
@@ -68,29 +74,29 @@ class Services:
             raise ServiceRefusedError(
                 "move_base must be in an inactive state to make a plan for an external user"
             )
-        whole = self._costmaps["global_costmap"]
-        if not whole.is_ready:
+        global_costmap = self._costmaps["global_costmap"]
+        if not global_costmap.is_ready:
             raise ServiceRefusedError(
                 "move_base cannot make a plan for you because it doesn't have a costmap"
             )
         if self._settings.flag("make_plan_clear_costmap"):
-            self._clear_start(whole, request.start)
+            self._clear_start(global_costmap, request.start)
         response = self._planner.answer(request)
         if response.plan.poses and self._settings.flag("make_plan_add_unreachable_goal"):
-            self._add_goal(response.plan, request.goal, whole)
+            self._add_goal(response.plan, request.goal, global_costmap)
         return response
 
-    def _clear_start(self, whole: LiveCostmap, start: Any) -> None:
-        radius = self._settings.number("clearing_radius", whole.footprint.circumscribed_m)
+    def _clear_start(self, global_costmap: Costmap2DRos, start: Any) -> None:
+        radius = self._settings.number("clearing_radius", global_costmap.footprint.circumscribed_m)
         centre = None
         if start.header.frame_id:
-            found = whole.frames.message_in(start, whole.global_frame)
+            found = global_costmap.frames.message_in(start, global_costmap.global_frame)
             centre = None if isinstance(found, str) else unit_pose_of(found.pose).xy_yaw
-        whole.clear_around(2 * radius, inside=True, centre=centre)
+        global_costmap.clear_around(2 * radius, inside=True, centre=centre)
 
-    def _add_goal(self, plan: Any, goal: Any, whole: LiveCostmap) -> None:
+    def _add_goal(self, plan: Any, goal: Any, global_costmap: Costmap2DRos) -> None:
         """Let a plan that ends near the goal end in it."""
-        found = whole.frames.message_in(goal, whole.global_frame)
+        found = global_costmap.frames.message_in(goal, global_costmap.global_frame)
         if isinstance(found, str):
             return
         last = plan.poses[-1].pose
@@ -126,15 +132,15 @@ class MoveBase:
         number, text = self.settings.number, self.settings.text
         self._period_s = 1.0 / number("controller_frequency")
         self.planner = GlobalPlanner(
-            node, self.whole, text("base_global_planner"), tree, diagnostics
+            node, self.global_costmap, text("base_global_planner"), tree, diagnostics
         )
         self.local = LocalPlanner(
-            node, self.near, text("base_local_planner"), tree, self._period_s, diagnostics
+            node, self.local_costmap, text("base_local_planner"), tree, self._period_s, diagnostics
         )
-        self.goals = SingleGoal(node, "move_base", "move_base_msgs/MoveBase")
-        self.driver = Driver(node, self.near, self.whole, self.local, self.goals)
+        self.goals = SimpleActionServer(node, "move_base", "move_base_msgs/MoveBase")
+        self.driver = Driver(node, self.local_costmap, self.global_costmap, self.local, self.goals)
         self.driver.behaviours = self._behaviours(tree, diagnostics)
-        self.executive = Executive(self.driver, self._timing())
+        self.executive = MoveBaseStateMachine(self.driver, self._timing())
         self._goal: PlanePose | None = None
         self._goal_message: Any = None
         self._wake = threading.Condition()
@@ -142,17 +148,19 @@ class MoveBase:
         kind = message_type("geometry_msgs/msg/PoseStamped")
         self._goal_out = node.create_publisher("~/current_goal", kind, queue_size=1)
         node.create_subscription("move_base_simple/goal", kind, self._on_simple_goal, queue_size=1)
-        self.services = Services(node, self.planner, self.costmaps, self.goals, self.settings)
+        self.services = MoveBaseServices(
+            node, self.planner, self.costmaps, self.goals, self.settings
+        )
         self._report_rest(tree)
         self._offer_changes()
 
     @property
-    def whole(self) -> LiveCostmap:
+    def global_costmap(self) -> Costmap2DRos:
         """The global costmap."""
         return self.costmaps["global_costmap"]
 
     @property
-    def near(self) -> LiveCostmap:
+    def local_costmap(self) -> Costmap2DRos:
         """The local costmap."""
         return self.costmaps["local_costmap"]
 
@@ -193,7 +201,7 @@ class MoveBase:
             self._begin()
         if self.goals.current is None or self._goal is None:
             return
-        pose = self.whole.pose()
+        pose = self.global_costmap.pose()
         if pose is None and not self._has_begun:
             return
         if pose is not None:
@@ -224,7 +232,7 @@ class MoveBase:
             return
         target = goal.request.target_pose
         why = _problem(target.pose.orientation)
-        found: Any = why or self.frames.message_in(target, self.whole.global_frame)
+        found: Any = why or self.frames.message_in(target, self.global_costmap.global_frame)
         if isinstance(found, str):
             self._goal = None
             self.executive.end()
@@ -244,7 +252,9 @@ class MoveBase:
         goal = self.goals.current
         if goal is not None and goal.is_feedback_wanted:
             feedback = message_type("move_base_msgs/msg/MoveBaseFeedback")()
-            set_header(feedback.base_position, self.node.clock.now_ns(), self.whole.global_frame)
+            set_header(
+                feedback.base_position, self.node.clock.now_ns(), self.global_costmap.global_frame
+            )
             set_plane_pose(feedback.base_position.pose, pose)
             goal.publish_feedback(feedback)
 
@@ -252,14 +262,14 @@ class MoveBase:
         """Plan whenever a plan is wanted; runs in the planner's thread."""
         for _ in self._wanted_plans(stop):
             goal = self._goal
-            pose = self.whole.pose_or_why()
+            pose = self.global_costmap.pose_or_why()
             if goal is None or (isinstance(pose, str) and not self._has_begun):
                 continue
             if isinstance(pose, str):
                 text = "Unable to get starting pose of robot, unable to create global plan"
                 self.executive.planned(None, f"{text}: {pose}")
                 continue
-            if not self.whole.is_ready:
+            if not self.global_costmap.is_ready:
                 continue
             found = self.planner.plan(pose, goal)
             if self._goal is not goal:
@@ -286,7 +296,9 @@ class MoveBase:
     def _on_simple_goal(self, message: Any) -> None:
         self.goals.submit(self.goals.goal_class(target_pose=message))
 
-    def _costmap(self, name: str, tree: Mapping[str, Any], diagnostics: Diagnostics) -> LiveCostmap:
+    def _costmap(
+        self, name: str, tree: Mapping[str, Any], diagnostics: Diagnostics
+    ) -> Costmap2DRos:
         below = tree.get(name)
         own: dict[str, Any] = dict(below) if isinstance(below, Mapping) else {}
         if not own:
@@ -297,17 +309,17 @@ class MoveBase:
         made = assemble(own, f"{self.node.name}/{name}", diagnostics, above=tree)
         frame = made.costmap.options.global_frame.removeprefix("/")
         publisher = CostmapPublisher(self.node, f"~/{name}", frame)
-        return LiveCostmap(self.node, self.frames, made, publisher)
+        return Costmap2DRos(self.node, self.frames, made, publisher)
 
     def _behaviours(self, tree: Mapping[str, Any], diagnostics: Diagnostics) -> Any:
         return make_behaviours(
             tree,
             self.node.name,
-            self.driver.surroundings(),
+            self.driver.recovery_context(),
             diagnostics,
             clearing_rotation=self.settings.flag("clearing_rotation_allowed"),
             conservative_m=self.settings.number("conservative_reset_dist"),
-            aggressive_m=4 * self.near.footprint.circumscribed_m,
+            aggressive_m=4 * self.local_costmap.footprint.circumscribed_m,
         )
 
     def _timing(self) -> Timing:

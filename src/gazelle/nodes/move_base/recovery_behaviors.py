@@ -10,18 +10,18 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.navigation.costmap import footprint_cost
 from gazelle.nodes.move_base.parameters import CLEAR, ROTATE, SLOW
-from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 from gazelle.nodes.parameters import node_reader
 from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["Behaviour", "Surroundings", "make_behaviours"]
+__all__ = ["Behaviour", "RecoveryContext", "make_behaviours"]
 
 _CLEAR, _ROTATE, _SLOW = (table.types[0] for table in (CLEAR, ROTATE, SLOW))
 _HALF_TURN = math.pi
 
 
 @dataclass(frozen=True, slots=True)
-class Surroundings:
+class RecoveryContext:
     """What behaviours act on.
 
     Attributes:
@@ -32,8 +32,8 @@ class Surroundings:
         log: says something.
     """
 
-    global_costmap: LiveCostmap
-    local_costmap: LiveCostmap
+    global_costmap: Costmap2DRos
+    local_costmap: Costmap2DRos
     drive: Callable[[float, float], None]
     sleep: Callable[[float], bool]
     limit_speed: Callable[[float, float], None]
@@ -58,7 +58,7 @@ class Behaviour:
 def make_behaviours(
     tree: Mapping[str, Any],
     name: str,
-    around: Surroundings,
+    around: RecoveryContext,
     diagnostics: Diagnostics,
     *,
     clearing_rotation: bool,
@@ -85,7 +85,7 @@ def make_behaviours(
 def _defaults(
     tree: Mapping[str, Any],
     name: str,
-    around: Surroundings,
+    around: RecoveryContext,
     diagnostics: Diagnostics,
     clearing_rotation: bool,
     conservative_m: float,
@@ -114,7 +114,7 @@ def _defaults(
 
 
 def _make(
-    key: str, kind: str, own: Any, name: str, around: Surroundings, diagnostics: Diagnostics
+    key: str, kind: str, own: Any, name: str, around: RecoveryContext, diagnostics: Diagnostics
 ) -> Behaviour | None:
     makers = {_CLEAR: (CLEAR, _clearing), _ROTATE: (ROTATE, _turning), _SLOW: (SLOW, _slowing)}
     if kind not in makers:
@@ -130,7 +130,7 @@ def _make(
     return Behaviour(key, kind, make(settings, around))
 
 
-def _clearing(settings: ParameterReader, around: Surroundings) -> Callable[[], None]:
+def _clearing(settings: ParameterReader, around: RecoveryContext) -> Callable[[], None]:
     size_m = settings.number("reset_distance")
     inside, updates = settings.flag("invert_area_to_clear"), settings.flag("force_updating")
     which = settings.text("affected_maps")
@@ -155,7 +155,7 @@ def _clearing(settings: ParameterReader, around: Surroundings) -> Callable[[], N
     return run
 
 
-def _turning(settings: ParameterReader, around: Surroundings) -> Callable[[], None]:
+def _turning(settings: ParameterReader, around: RecoveryContext) -> Callable[[], None]:
     step_rad = settings.number("sim_granularity")
     period_s = 1.0 / settings.number("frequency")
     tolerance_rad = settings.number("yaw_goal_tolerance")
@@ -186,7 +186,10 @@ def _turning(settings: ParameterReader, around: Surroundings) -> Callable[[], No
 
 
 def _blocked(
-    around: Surroundings, pose: tuple[float, float, float] | None, turn_rad: float, step_rad: float
+    around: RecoveryContext,
+    pose: tuple[float, float, float] | None,
+    turn_rad: float,
+    step_rad: float,
 ) -> str:
     """Return what is in the way of a turn, empty when nothing is."""
     costmap = around.local_costmap
@@ -203,7 +206,7 @@ def _blocked(
     return ""
 
 
-def _slowing(settings: ParameterReader, around: Surroundings) -> Callable[[], None]:
+def _slowing(settings: ParameterReader, around: RecoveryContext) -> Callable[[], None]:
     radius_m = settings.number("clearing_distance")
     speed, distance_m = settings.number("limited_trans_speed"), settings.number("limited_distance")
 

@@ -15,7 +15,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
-__all__ = ["Drive", "End", "Executive", "Outcome", "Plan", "PlanPose", "State", "Timing", "Trigger"]
+__all__ = [
+    "Drive",
+    "End",
+    "MoveBaseStateMachine",
+    "Outcome",
+    "Plan",
+    "PlanPose",
+    "State",
+    "Timing",
+    "Trigger",
+]
 
 _NANO = 1_000_000_000
 # What counts as getting on: so far away, or so far round; not more than once around on the spot.
@@ -125,7 +135,7 @@ class Drive(Protocol):
         ...
 
 
-class _Way:
+class _Progress:
     """When a robot that has commands last got on."""
 
     def __init__(self, now_ns: int, pose: PlanPose) -> None:
@@ -148,7 +158,7 @@ class _Way:
         self.last_ns, self._pose = now_ns, pose
 
 
-class Executive:
+class MoveBaseStateMachine:
     """One goal after another: what comes next.
 
     `cycle` is called by the control loop, `wants_plan` and `planned` by the planner's thread.
@@ -173,7 +183,7 @@ class Executive:
         self._retries = 0
         self._last_plan_ns = self._last_control_ns = self._last_reset_ns = 0
         self._rest_pose: PlanPose | None = None
-        self._way: _Way | None = None
+        self._way: _Progress | None = None
 
     @property
     def wants_plan(self) -> bool:
@@ -288,7 +298,7 @@ class Executive:
 
     def _watch_way(self, now_ns: int, pose: PlanPose) -> None:
         if self._way is None:
-            self._way = _Way(now_ns, pose)
+            self._way = _Progress(now_ns, pose)
         self._way.look(now_ns, pose)
         patience_s = self.timing.controller_patience_s
         if now_ns > self._way.last_ns + int(patience_s * _NANO):

@@ -12,7 +12,7 @@ from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.goals import Goal
-from gazelle.nodes.move_group.plan_execution import Attempt, Mover
+from gazelle.nodes.move_group.plan_execution import Attempt, PlanExecution
 from gazelle.nodes.move_group.trajectory_execution_manager import ExecutionStatus
 
 __all__ = ["OneAtATime", "offer_execute_action", "offer_move_action"]
@@ -79,7 +79,7 @@ class OneAtATime:
 
 def offer_move_action(context: MoveGroupContext) -> OneAtATime:
     """Offer planning and executing."""
-    mover = Mover(context)
+    mover = PlanExecution(context)
 
     def work(goal: ServerGoal, stop: threading.Event) -> None:
         options = goal.request.planning_options

@@ -22,7 +22,11 @@ from gazelle.nodes.move_group.fake_controller_manager import FakeControllers, in
 from gazelle.nodes.move_group.parameters import MOVE_GROUP
 from gazelle.nodes.move_group.planning_problem import ProblemMaker
 from gazelle.nodes.move_group.planning_scene_messages import apply_scene
-from gazelle.nodes.move_group.planning_scene_monitor import SceneMonitor, StateMonitor, told_topics
+from gazelle.nodes.move_group.planning_scene_monitor import (
+    CurrentStateMonitor,
+    PlanningSceneMonitor,
+    told_topics,
+)
 from gazelle.nodes.move_group.request_planner import RequestPlanner
 from gazelle.nodes.move_group.robot_state_messages import robot_state_message
 from gazelle.nodes.move_group.simple_controller_manager import FAKE_TYPES, controller_specs
@@ -54,7 +58,7 @@ class MoveGroupContext:
     ros_version: Literal[1, 2]
     config: MoveItConfig
     robot: RobotModel
-    monitor: SceneMonitor
+    monitor: PlanningSceneMonitor
     maker: ProblemMaker
     planner: RequestPlanner
     executor: TrajectoryExecutor | None
@@ -129,8 +133,8 @@ def make_context(
     """
     found = Diagnostics()
     own = node_reader(MOVE_GROUP, parameters, node.name, found, ros_version=ros_version)
-    states = StateMonitor(node, own.text("joint_state_topic"))
-    monitor = SceneMonitor(node, robot, states, ros_version=ros_version)
+    states = CurrentStateMonitor(node, own.text("joint_state_topic"))
+    monitor = PlanningSceneMonitor(node, robot, states, ros_version=ros_version)
     maker = ProblemMaker(config, robot)
     executor = None
     if own.flag("allow_trajectory_execution"):
@@ -148,7 +152,7 @@ def make_context(
 
 
 def _executor(
-    node: Node, config: MoveItConfig, robot: RobotModel, states: StateMonitor
+    node: Node, config: MoveItConfig, robot: RobotModel, states: CurrentStateMonitor
 ) -> TrajectoryExecutor:
     try:
         specs = controller_specs(config)

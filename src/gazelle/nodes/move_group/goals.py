@@ -44,8 +44,8 @@ class Goal:
     @property
     def is_exact(self) -> bool:
         """Whether it says where each joint shall be, and nothing else."""
-        places = {one.index for one in self.joints}
-        return len(places) == self.size and len(self.joints) == len(self.constraints)
+        indices = {one.index for one in self.joints}
+        return len(indices) == self.size and len(self.joints) == len(self.constraints)
 
     @property
     def centre(self) -> FloatArray:
@@ -110,10 +110,10 @@ class GoalSampler:
         if turn is not None:
             target[:3, :3] = _rotation(turn, count, rng)
         if positions:
-            place = positions[0]
-            region = place.regions[count % len(place.regions)]
-            point = region.pose[:3, 3] if count < len(place.regions) else region.sample(rng)
-            target[:3, 3] = point - target[:3, :3] @ np.array(place.offset_m)
+            at = positions[0]
+            region = at.regions[count % len(at.regions)]
+            point = region.pose[:3, 3] if count < len(at.regions) else region.sample(rng)
+            target[:3, 3] = point - target[:3, :3] @ np.array(at.offset_m)
         else:
             some = self.solver.group.space.sample(rng)
             target[:3, 3] = self.solver.fk(self.seed_q if not count else some, link)[:3, 3]

@@ -18,7 +18,7 @@ from gazelle.nodes.move_group.request_planner import Planned
 from gazelle.nodes.move_group.robot_state_messages import joint_trajectory, robot_trajectory
 from gazelle.nodes.move_group.trajectory_execution_manager import ExecutionStatus
 
-__all__ = ["Attempt", "Mover"]
+__all__ = ["Attempt", "PlanExecution"]
 
 _LOOK_S = 0.1
 _STEP = 0.02
@@ -63,7 +63,7 @@ class Attempt:
         return robot_trajectory(self.planned.trajectory if self.planned else None, frame=frame)
 
 
-class Mover:
+class PlanExecution:
     """Plans, executes and watches on behalf of actions."""
 
     def __init__(self, context: MoveGroupContext) -> None:

@@ -25,14 +25,14 @@ from gazelle.nodes.move_group.planning_scene_messages import (
     scene_message,
 )
 
-__all__ = ["SceneMonitor", "StateMonitor", "told_topics"]
+__all__ = ["CurrentStateMonitor", "PlanningSceneMonitor", "told_topics"]
 
 
 _NAME = "(noname)"
 _PERIOD_S = 0.25
 
 
-class StateMonitor:
+class CurrentStateMonitor:
     """Collects joint states; several publishers may each tell some of the joints."""
 
     def __init__(self, node: Node, topic: str = "joint_states") -> None:
@@ -117,7 +117,7 @@ class StateMonitor:
             self._stamps_ns = dict.fromkeys(self._stamps_ns, 0)
 
 
-class SceneMonitor:
+class PlanningSceneMonitor:
     """Holds the scene, takes changes of it from topics and tells others of it.
 
     Attributes:
@@ -127,7 +127,7 @@ class SceneMonitor:
     """
 
     def __init__(
-        self, node: Node, robot: RobotModel, states: StateMonitor, *, ros_version: int = 2
+        self, node: Node, robot: RobotModel, states: CurrentStateMonitor, *, ros_version: int = 2
     ) -> None:
         """Begin with an empty scene.
 

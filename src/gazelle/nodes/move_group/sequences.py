@@ -19,7 +19,7 @@ from gazelle.nodes.move_group.action_servers import OneAtATime
 from gazelle.nodes.move_group.context import MoveGroupContext
 from gazelle.nodes.move_group.error_codes import MoveGroupError, code_message
 from gazelle.nodes.move_group.pilz_pipeline import PILZ
-from gazelle.nodes.move_group.plan_execution import Attempt, Mover
+from gazelle.nodes.move_group.plan_execution import Attempt, PlanExecution
 from gazelle.nodes.move_group.planning_pipeline import PlanningPipeline, SequenceJob
 from gazelle.nodes.move_group.planning_scene_messages import apply_robot_state
 from gazelle.nodes.move_group.request_planner import Planned
@@ -32,7 +32,7 @@ _MOVE = "moveit_msgs/MoveGroupSequence"
 
 
 @dataclass(frozen=True)
-class _Stretch:
+class _Segment:
     """Items of one group that are planned together."""
 
     plans: PlanningPipeline
@@ -44,7 +44,7 @@ def offer_sequences(context: MoveGroupContext) -> None:
     context.node.create_service(
         "plan_sequence_path", service_type(_PLAN), lambda request: _answer(context, request)
     )
-    mover = Mover(context)
+    mover = PlanExecution(context)
 
     def work(goal: ServerGoal, stop: threading.Event) -> None:
         goal.publish_feedback({"state": "PLANNING"})
@@ -71,7 +71,7 @@ def _answer(context: MoveGroupContext, request: Any) -> Any:
     return service_type(_PLAN).Response(response=response)
 
 
-def _executed(mover: Mover, plans: Sequence[Planned], stop: threading.Event) -> Attempt:
+def _executed(mover: PlanExecution, plans: Sequence[Planned], stop: threading.Event) -> Attempt:
     attempt = Attempt()
     for planned in plans:
         attempt = Attempt(planned=planned)
@@ -88,7 +88,7 @@ def _planned(context: MoveGroupContext, items: Sequence[Any]) -> tuple[list[Plan
     try:
         scene = context.fresh_scene()
         response.sequence_start = context.state_message(scene.positions)
-        for stretch in _stretches(context, items):
+        for stretch in _segments(context, items):
             for planned in _plan(context, scene, stretch):
                 plans.append(planned)
                 scene = scene.with_positions(_end(context, planned))
@@ -109,7 +109,7 @@ def _planned(context: MoveGroupContext, items: Sequence[Any]) -> tuple[list[Plan
     return plans, response
 
 
-def _stretches(context: MoveGroupContext, items: Sequence[Any]) -> Iterator[_Stretch]:
+def _segments(context: MoveGroupContext, items: Sequence[Any]) -> Iterator[_Segment]:
     """Yield what is planned together; only items of one group can be blended."""
 
     def kind(item: Any) -> tuple[str, PlanningPipeline]:
@@ -123,14 +123,14 @@ def _stretches(context: MoveGroupContext, items: Sequence[Any]) -> Iterator[_Str
         text = "the last blend radius must be zero: there is nothing to blend with"
         raise MoveGroupError(ErrorCode.INVALID_MOTION_PLAN, text)
     for (_, plans), rows in groupby(items, kind):
-        stretch = _Stretch(plans, tuple(rows))
+        stretch = _Segment(plans, tuple(rows))
         if plans.plan_sequence is None and any(item.blend_radius for item in stretch.items):
             text = f"only motions of {PILZ.name} can be blended"
             raise MoveGroupError(ErrorCode.INVALID_MOTION_PLAN, text)
         yield stretch
 
 
-def _plan(context: MoveGroupContext, scene: PlanningScene, stretch: _Stretch) -> Iterator[Planned]:
+def _plan(context: MoveGroupContext, scene: PlanningScene, stretch: _Segment) -> Iterator[Planned]:
     frame_of = context.monitor.frame_of
     plan_sequence = stretch.plans.plan_sequence
     if plan_sequence is None:

@@ -151,9 +151,9 @@ def choose_controllers(
 
 def part_of(trajectory: Any, spec: ControllerSpec) -> Any:
     """Return the ``JointTrajectory`` of a controller's own joints, in the trajectory's order."""
-    places = [i for i, name in enumerate(trajectory.joint_names) if name in spec.joints]
+    indices = [i for i, name in enumerate(trajectory.joint_names) if name in spec.joints]
     part = message_type("trajectory_msgs/msg/JointTrajectory")(
-        joint_names=[trajectory.joint_names[i] for i in places]
+        joint_names=[trajectory.joint_names[i] for i in indices]
     )
     part.header = trajectory.header
     for point in trajectory.points:
@@ -162,7 +162,7 @@ def part_of(trajectory: Any, spec: ControllerSpec) -> Any:
         for field in ("positions", "velocities", "accelerations", "effort"):
             values = getattr(point, field)
             if len(values):
-                setattr(row, field, [float(values[i]) for i in places])
+                setattr(row, field, [float(values[i]) for i in indices])
         part.points.append(row)
     return part
 
@@ -175,13 +175,13 @@ def controller_goal(part: Any, spec: ControllerSpec) -> Any:
     """
     if spec.kind is ControllerKind.FOLLOW_JOINT_TRAJECTORY:
         return action_type(spec.kind.action_type).Goal(trajectory=part)
-    places = _gripper_places(part, spec)
+    indices = _gripper_indices(part, spec)
     last = part.points[-1] if part.points else None
-    if last is None or len(last.positions) <= max(places):
+    if last is None or len(last.positions) <= max(indices):
         text = f"controller '{spec.name}' needs a point with a position of '{spec.command_joint}'"
         raise MoveGroupError(ErrorCode.CONTROL_FAILED, text)
-    position = sum(float(last.positions[i]) for i in places)
-    efforts = [float(last.effort[i]) for i in places if i < len(last.effort)]
+    position = sum(float(last.positions[i]) for i in indices)
+    efforts = [float(last.effort[i]) for i in indices if i < len(last.effort)]
     effort = efforts[-1] if efforts else spec.max_effort
     if spec.kind is ControllerKind.GRIPPER_COMMAND:
         return {"command": {"position": position, "max_effort": effort}}
@@ -196,7 +196,7 @@ def goal_end(goal: ClientGoal, spec: ControllerSpec) -> GoalEnd:
     status = goal.status.name
     if status == "SUCCEEDED" or (spec.allow_failure and status == "ABORTED"):
         return GoalEnd(is_good=True)
-    return GoalEnd(is_good=False, why=f"controller '{spec.name}' {_story(goal, status)}")
+    return GoalEnd(is_good=False, why=f"controller '{spec.name}' {_failure_text(goal, status)}")
 
 
 def _fits(chosen: tuple[ControllerSpec, ...], wanted: frozenset[str]) -> bool:
@@ -273,31 +273,33 @@ def _listed(names: Iterable[str]) -> str:
     return ", ".join(f"'{name}'" for name in names) or "none"
 
 
-def _story(goal: ClientGoal, status: str) -> str:
+def _failure_text(goal: ClientGoal, status: str) -> str:
     if status in {"REJECTED", "RECALLED"}:
-        return f"rejected the goal{_said(goal.text)}"
+        return f"rejected the goal{_suffix(goal.text)}"
     if status in {"UNKNOWN", "LOST"}:
-        return f"is gone{_said(goal.text)}"
+        return f"is gone{_suffix(goal.text)}"
     result = goal.result
     code = getattr(result, "error_code", None)
     if code is not None:
         name = _code_name(result, int(code))
-        return f"failed with error {name}{_said(getattr(result, 'error_string', '') or goal.text)}"
+        return (
+            f"failed with error {name}{_suffix(getattr(result, 'error_string', '') or goal.text)}"
+        )
     if getattr(result, "stalled", False):
         text = f"stalled at {result.position:.4g}" if hasattr(result, "position") else "stalled"
         return f"{text}; allow_failure: true takes that as done, as with something in the gripper"
-    return f"ended with {status}{_said(goal.text)}"
+    return f"ended with {status}{_suffix(goal.text)}"
 
 
 def _code_name(result: Any, code: int) -> str:
     return next((name for name in _CODES if getattr(result, name, None) == code), str(code))
 
 
-def _said(text: str) -> str:
+def _suffix(text: str) -> str:
     return f": {text}" if text else ""
 
 
-def _gripper_places(part: Any, spec: ControllerSpec) -> list[int]:
+def _gripper_indices(part: Any, spec: ControllerSpec) -> list[int]:
     wanted = spec.joints if spec.is_parallel else (spec.command_joint,)
     found = [i for i, name in enumerate(part.joint_names) if name in wanted]
     return found or [0]

@@ -16,7 +16,7 @@ from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.interfaces.stamps import ns_of
 from gazelle.motion.planning.error_codes import ErrorCode
 from gazelle.nodes.move_group.error_codes import MoveGroupError
-from gazelle.nodes.move_group.planning_scene_monitor import StateMonitor
+from gazelle.nodes.move_group.planning_scene_monitor import CurrentStateMonitor
 from gazelle.nodes.move_group.simple_controller_manager import (
     ControllerSpec,
     choose_controllers,
@@ -80,7 +80,7 @@ class TrajectoryExecutor:
         node: Node,
         specs: Sequence[ControllerSpec],
         settings: ExecutionSettings,
-        states: StateMonitor,
+        states: CurrentStateMonitor,
         *,
         endless_joints: Collection[str] = (),
     ) -> None:

@@ -19,7 +19,7 @@ from gazelle.nodes.nav2.costmap_node import grid_of_costmap, outline_in_base
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import BEHAVIOR_SERVER
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.nodes.parameters import ticks
 from gazelle.nodes.twist_publisher import TwistPublisher
 from gazelle.parameters.reader import ParameterReader
@@ -89,9 +89,9 @@ class _BehaviorServer(ManagedServer):
         bare = plugin.replace("::", "/").rpartition("/")[2]
         return bare or defaults.get(name, name)
 
-    def _behave(self, kind: str, action: SingleGoal, goal: ServerGoal) -> None:
+    def _behave(self, kind: str, action: SimpleActionServer, goal: ServerGoal) -> None:
         """Work on a goal of a behaviour."""
-        runs: dict[str, Callable[[SingleGoal, ServerGoal], None]] = {
+        runs: dict[str, Callable[[SimpleActionServer, ServerGoal], None]] = {
             "Spin": self._spin, "BackUp": self._drive, "DriveOnHeading": self._drive,
             "Wait": self._wait,
         }  # fmt: skip
@@ -107,7 +107,9 @@ class _BehaviorServer(ManagedServer):
         set_stamp(result.total_elapsed_time, max(self._node.clock.now_ns() - began_ns, 0))
         self._finish(action, kind, result, word, reason)
 
-    def _finish(self, action: SingleGoal, kind: str, result: Any, word: str, reason: str) -> None:
+    def _finish(
+        self, action: SimpleActionServer, kind: str, result: Any, word: str, reason: str
+    ) -> None:
         if action.is_cancelled:
             action.cancel(result)
         elif word == "NONE":
@@ -118,7 +120,7 @@ class _BehaviorServer(ManagedServer):
             self._node.log("warn", f"{action.name}: {reason}")
             action.abort(result, reason)
 
-    def _spin(self, action: SingleGoal, goal: ServerGoal) -> None:
+    def _spin(self, action: SimpleActionServer, goal: ServerGoal) -> None:
         """Turn by an angle."""
         wanted = float(goal.request.target_yaw)
         number = self._settings.number
@@ -139,7 +141,7 @@ class _BehaviorServer(ManagedServer):
             feedback.angular_distance_traveled = turned
             action.feedback(feedback)
 
-    def _drive(self, action: SingleGoal, goal: ServerGoal) -> None:
+    def _drive(self, action: SimpleActionServer, goal: ServerGoal) -> None:
         """Drive along a line; `BackUp` goes backwards whatever the signs are."""
         request = goal.request
         if request.target.y or request.target.z:
@@ -163,7 +165,7 @@ class _BehaviorServer(ManagedServer):
             feedback.distance_traveled = gone
             action.feedback(feedback)
 
-    def _wait(self, action: SingleGoal, goal: ServerGoal) -> None:
+    def _wait(self, action: SimpleActionServer, goal: ServerGoal) -> None:
         """Do nothing for a time."""
         end_ns = self._node.clock.now_ns() + ns_of(goal.request.time)
         for now_ns in self._rounds(action, None):
@@ -174,7 +176,7 @@ class _BehaviorServer(ManagedServer):
             set_stamp(left, end_ns - now_ns)
             action.feedback(feedback)
 
-    def _rounds(self, action: SingleGoal, goal: ServerGoal | None) -> Iterator[int]:
+    def _rounds(self, action: SimpleActionServer, goal: ServerGoal | None) -> Iterator[int]:
         """Yield the time at each round; ends with the goal."""
         allowance_ns = 0 if goal is None else ns_of(goal.request.time_allowance)
         end_ns = self._node.clock.now_ns() + allowance_ns

@@ -18,14 +18,14 @@ from gazelle.interfaces import action_type, message_type
 from gazelle.interfaces.poses import set_plane_pose
 from gazelle.interfaces.stamps import set_header, set_stamp
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.behavior_trees.graph_interface import GraphWorld
+from gazelle.nodes.nav2.behavior_trees.graph_interface import GraphInterface
 from gazelle.nodes.nav2.behavior_trees.ros_interface import path_length_m, plane_pose
 from gazelle.nodes.nav2.behavior_trees.tree_node import Blackboard, Status, TreeNode
 from gazelle.nodes.nav2.behavior_trees.xml_parsing import TreeFile, build_tree, read_trees
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import BT_NAVIGATOR
 from gazelle.nodes.navigation.robot_pose import Frames, Odometry
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.parameters.reader import ParameterReader
 from gazelle.workspace.environment_paths import BUILTIN
 
@@ -56,7 +56,7 @@ class _Navigator(ManagedServer):
         self._turns = threading.Lock()
         node = self._node
         self._frames = Frames(node)
-        self._world: GraphWorld | None = None
+        self._ros: GraphInterface | None = None
         self._files: dict[str, TreeFile] = {}
         kind = message_type("nav2_msgs/msg/BehaviorTreeLog")
         self._log_out = node.create_publisher("behavior_tree_log", kind)
@@ -65,7 +65,7 @@ class _Navigator(ManagedServer):
 
     def _configured(self, settings: ParameterReader, diagnostics: Diagnostics) -> bool:
         settings.report_unknown(*settings.texts("navigators"))
-        self._world = GraphWorld(
+        self._ros = GraphInterface(
             self._node,
             self._frames,
             Odometry(self._node, settings.text("odom_topic")),
@@ -107,7 +107,7 @@ class _Navigator(ManagedServer):
             return read_trees(own, diagnostics)
         return found
 
-    def _navigate(self, kind: str, action: SingleGoal, goal: ServerGoal) -> None:
+    def _navigate(self, kind: str, action: SimpleActionServer, goal: ServerGoal) -> None:
         """Run a goal's tree to its end."""
         result = action.result_class()
         try:
@@ -144,7 +144,7 @@ class _Navigator(ManagedServer):
                 return
             self._ending.wait(max(period_s - (time.monotonic() - began), 0.0))
 
-    def _finish(self, action: SingleGoal, trip: _Trip, status: Status, result: Any) -> None:
+    def _finish(self, action: SimpleActionServer, trip: _Trip, status: Status, result: Any) -> None:
         trip.tree.halt()
         if status is Status.FAILURE:
             board = trip.blackboard
@@ -161,14 +161,14 @@ class _Navigator(ManagedServer):
 
     def _trip(self, kind: str, goal: ServerGoal) -> _Trip:
         """Return tree and blackboard of a goal."""
-        assert self._world is not None
+        assert self._ros is not None
         file = self._files[kind]
         if goal.request.behavior_tree:
             diagnostics = Diagnostics()
             found = self._file(kind, str(goal.request.behavior_tree), diagnostics)
             diagnostics.raise_if_errors()
             file = found or file
-        trip = _Trip(self._world, self._log_out)
+        trip = _Trip(self._ros, self._log_out)
         trip.blackboard.set("goal_reached_tol", self._settings.number("goal_reached_tol"))
         trip.tree = build_tree(file, trip.blackboard, trip)
         trip.listen(trip.tree)
@@ -203,23 +203,23 @@ class _Navigator(ManagedServer):
             trip.words = f"through {len(found)} poses"
         trip.blackboard.set("number_recoveries", 0)
 
-    def _feedback(self, action: SingleGoal, trip: _Trip) -> None:
+    def _feedback(self, action: SimpleActionServer, trip: _Trip) -> None:
         goal = action.current
         if goal is None or not goal.is_feedback_wanted:
             return
         made: Any = action_type(f"nav2_msgs/{_kind_of(action.name)}").Feedback()
-        assert self._world is not None
-        pose = self._world.pose()
+        assert self._ros is not None
+        pose = self._ros.pose()
         if pose is not None:
-            set_header(made.current_pose, self._world.now_ns(), self._settings.text("global_frame"))
+            set_header(made.current_pose, self._ros.now_ns(), self._settings.text("global_frame"))
             set_plane_pose(made.current_pose.pose, (pose.x_m, pose.y_m, pose.yaw_rad))
-        took_ns = max(self._world.now_ns() - trip.began_ns, 0)
+        took_ns = max(self._ros.now_ns() - trip.began_ns, 0)
         set_stamp(made.navigation_time, took_ns)
         made.number_of_recoveries = int(trip.blackboard.get("number_recoveries", 0))
         path = trip.blackboard.get("path")
         if path is not None:
             made.distance_remaining = path_length_m(path)
-            speed = self._world.speed_m_s()
+            speed = self._ros.speed_m_s()
             if speed > 0.01:
                 left_ns = int(made.distance_remaining / speed * _NANO)
                 left = made.estimated_time_remaining
@@ -243,23 +243,23 @@ class _Trip:
 
     tree: TreeNode
 
-    def __init__(self, world: GraphWorld, log_out: Any) -> None:
+    def __init__(self, ros: GraphInterface, log_out: Any) -> None:
         self.blackboard = Blackboard()
         self.why = ""
         self.words = ""
-        self.began_ns = world.now_ns()
-        self._world = world
+        self.began_ns = ros.now_ns()
+        self._ros = ros
         self._log_out = log_out
         self._changes: list[Any] = []
 
     def __getattr__(self, name: str) -> Any:
         # Everything that is not told apart here is the graph's.
-        return getattr(self._world, name)
+        return getattr(self._ros, name)
 
     def log(self, level: str, text: str) -> None:
         """Keep why leaves fail, and say it."""
         self.why = text
-        self._world.log("info" if level == "debug" else level, text)
+        self._ros.log("info" if level == "debug" else level, text)
 
     def listen(self, node: TreeNode) -> None:
         """Hear of each change of a status in the tree."""
@@ -272,7 +272,7 @@ class _Trip:
         changes, self._changes = self._changes, []
         if changes and self._log_out.matched:
             message = self._log_out.message_class(event_log=changes)
-            now_ns = self._world.now_ns()
+            now_ns = self._ros.now_ns()
             set_stamp(message.timestamp, now_ns)
             self._log_out.publish(message)
 
@@ -284,7 +284,7 @@ class _Trip:
                 previous_status=before.value,
                 current_status=node.status.value,
             )
-            set_stamp(change.timestamp, self._world.now_ns())
+            set_stamp(change.timestamp, self._ros.now_ns())
             self._changes.append(change)
 
 

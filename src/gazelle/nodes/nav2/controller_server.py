@@ -33,7 +33,7 @@ from gazelle.nodes.nav2.parameters import (
     controller_table,
 )
 from gazelle.nodes.navigation.robot_pose import Odometry, PlanePose, path_message
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.nodes.parameters import ticks
 from gazelle.nodes.twist_publisher import TwistPublisher
 from gazelle.parameters import ParameterTable
@@ -200,7 +200,7 @@ class _ControllerServer(ManagedServer):
         setting = ControllerSetting(period_s, critics, tolerance)
         return kind.make(settings.fill(kind.options), setting)
 
-    def _answer(self, action: SingleGoal, goal: ServerGoal) -> None:
+    def _answer(self, action: SimpleActionServer, goal: ServerGoal) -> None:
         try:
             self._follow(action, goal, self._ending)
         except _EndError as end:
@@ -212,7 +212,9 @@ class _ControllerServer(ManagedServer):
             self._out.stop()
             action.abort(result, reason)
 
-    def _follow(self, action: SingleGoal, goal: ServerGoal, ending: threading.Event) -> None:
+    def _follow(
+        self, action: SimpleActionServer, goal: ServerGoal, ending: threading.Event
+    ) -> None:
         """Follow paths until one is at its end; a newer one takes the place of an older."""
         drive = self._begin(goal)
         last_ns = self._node.clock.now_ns()

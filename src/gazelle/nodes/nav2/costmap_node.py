@@ -16,16 +16,16 @@ from gazelle.interfaces import service_type
 from gazelle.navigation.costmap import CostGrid
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_output import print_ros2
-from gazelle.nodes.navigation.costmap_2d_ros import LiveCostmap
+from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 from gazelle.nodes.navigation.costmap_parameters import assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames
 from gazelle.nodes.parameters import offer_parameters, tree_of_node
 
-__all__ = ["Nav2Costmap", "grid_of_costmap", "outline_in_base"]
+__all__ = ["CostmapNode", "grid_of_costmap", "outline_in_base"]
 
 
-class Nav2Costmap:
+class CostmapNode:
     """``/local_costmap/local_costmap`` or its global sister, with topics and services.
 
     Attributes:
@@ -36,7 +36,7 @@ class Nav2Costmap:
     def __init__(
         self, name: str, arguments: NodeArguments, graph: Graph, diagnostics: Diagnostics
     ) -> None:
-        """Make node and costmap; it is updated from `LiveCostmap.start` on."""
+        """Make node and costmap; it is updated from `Costmap2DRos.start` on."""
         space = f"{arguments.namespace.rstrip('/')}/{name}"
         self.node: Node = graph.create_node(
             name,
@@ -53,7 +53,7 @@ class Nav2Costmap:
         publisher = CostmapPublisher(
             self.node, space, frame, raw=True, footprint="published_footprint"
         )
-        self.live = LiveCostmap(
+        self.live = Costmap2DRos(
             self.node, Frames(self.node), made, publisher,
             topics_in=arguments.namespace, refuses_late=False,
         )  # fmt: skip

@@ -13,13 +13,13 @@ from gazelle.graph import Graph, Node
 from gazelle.graph.actions import ServerGoal
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import serve
-from gazelle.nodes.nav2.costmap_node import Nav2Costmap
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.nav2.costmap_node import CostmapNode
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.nodes.parameters import log_findings, node_reader, offer_parameters, start_ros2_node
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["Managed", "ManagedServer", "ServedAction", "ServerSetup", "run_server"]
+__all__ = ["ManagedNode", "ManagedServer", "ServedAction", "ServerSetup", "run_server"]
 
 _WAIT_S = 0.2
 
@@ -50,10 +50,10 @@ class ServedAction(NamedTuple):
 
     name: str
     kind: str
-    answer: Callable[[SingleGoal, ServerGoal], None]
+    answer: Callable[[SimpleActionServer, ServerGoal], None]
 
 
-class Managed(Protocol):
+class ManagedNode(Protocol):
     """What the states of a managed node do; each tells whether it went well."""
 
     def configure(self) -> bool:
@@ -70,7 +70,7 @@ class Managed(Protocol):
 
 
 def run_server(
-    make: Callable[[ServerSetup], Managed],
+    make: Callable[[ServerSetup], ManagedNode],
     arguments: NodeArguments,
     graph: Graph,
     stop: threading.Event,
@@ -105,8 +105,8 @@ class ManagedServer(ABC):
         self._setup, self._costmap_name = setup, costmap
         self._parameters = offer_parameters(setup.node, setup.tree)
         self._settings = node_reader(table, setup.tree, setup.node.name, Diagnostics())
-        self._costmap: Nav2Costmap | None = None
-        self._actions: dict[str, SingleGoal] = {}
+        self._costmap: CostmapNode | None = None
+        self._actions: dict[str, SimpleActionServer] = {}
         # Who works takes it along, so that the next activation does not wake the last one's.
         self._ending = threading.Event()
         self._turns: contextlib.AbstractContextManager[Any] = contextlib.nullcontext()
@@ -130,7 +130,7 @@ class ManagedServer(ABC):
         diagnostics = Diagnostics()
         if self._costmap_name:
             setup = self._setup
-            self._costmap = Nav2Costmap(
+            self._costmap = CostmapNode(
                 self._costmap_name, setup.arguments, setup.graph, diagnostics
             )
         table = self._settings.table
@@ -145,7 +145,7 @@ class ManagedServer(ABC):
             self._costmap.live.start()
         self._ending = threading.Event()
         for name, kind, answer in self._served():
-            action = SingleGoal(self._node, name, f"nav2_msgs/{kind}", ros_version=2)
+            action = SimpleActionServer(self._node, name, f"nav2_msgs/{kind}", ros_version=2)
             self._actions[name] = action
             words = (action, answer, self._ending)
             threading.Thread(target=self._work, args=words, name=name, daemon=True).start()
@@ -172,8 +172,8 @@ class ManagedServer(ABC):
 
     def _work(
         self,
-        action: SingleGoal,
-        answer: Callable[[SingleGoal, ServerGoal], None],
+        action: SimpleActionServer,
+        answer: Callable[[SimpleActionServer, ServerGoal], None],
         ending: threading.Event,
     ) -> None:
         while not ending.is_set() and not self._node.closed:

@@ -27,7 +27,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import PLANNER_SERVER, planner_table
 from gazelle.nodes.navigation.robot_pose import PlanePose, path_message
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
@@ -72,7 +72,9 @@ class _PlannerServer(ManagedServer):
         ):
             yield ServedAction(name, kind, partial(self._answer, kind, work))
 
-    def _answer(self, type_name: str, work: Any, action: SingleGoal, goal: ServerGoal) -> None:
+    def _answer(
+        self, type_name: str, work: Any, action: SimpleActionServer, goal: ServerGoal
+    ) -> None:
         if action.is_cancelled:
             action.cancel()
             return

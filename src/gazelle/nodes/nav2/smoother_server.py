@@ -21,7 +21,7 @@ from gazelle.nodes.nav2.costmap_node import grid_of_costmap
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import SMOOTHER, SMOOTHER_SERVER
 from gazelle.nodes.navigation.robot_pose import path_message
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run", "smoothed"]
@@ -92,7 +92,7 @@ class _SmootherServer(ManagedServer):
     def _on_costs(self, message: Any) -> None:
         self._grid = grid_of_costmap(message)
 
-    def _answer(self, action: SingleGoal, goal: ServerGoal) -> None:
+    def _answer(self, action: SimpleActionServer, goal: ServerGoal) -> None:
         result = action.result_class()
         codes: Any = action_type("nav2_msgs/SmoothPath").Result
         name = goal.request.smoother_id or next(iter(self._smoothers))

@@ -14,7 +14,7 @@ from gazelle.interfaces import action_type, message_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import WAYPOINT_FOLLOWER
-from gazelle.nodes.navigation.simple_action_server import SingleGoal
+from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = ["run"]
@@ -56,7 +56,7 @@ class _Follower(ManagedServer):
     def _served(self) -> Iterable[ServedAction]:
         return (ServedAction("follow_waypoints", "FollowWaypoints", self._follow),)
 
-    def _follow(self, action: SingleGoal, goal: ServerGoal) -> None:
+    def _follow(self, action: SimpleActionServer, goal: ServerGoal) -> None:
         """Drive to all poses of a goal, as often as it says."""
         result = action.result_class()
         poses = list(goal.request.poses)
@@ -81,7 +81,9 @@ class _Follower(ManagedServer):
                     return
         action.succeed(result, f"Completed all {len(poses)} waypoints requested.")
 
-    def _missed(self, action: SingleGoal, result: Any, index: int, pose: Any, why: str) -> bool:
+    def _missed(
+        self, action: SimpleActionServer, result: Any, index: int, pose: Any, why: str
+    ) -> bool:
         """Note a pose that was not reached; tells whether that is the end."""
         self._node.log("warn", f"Failed to process waypoint {index}: {why}")
         missed: Any = result.missed_waypoints
@@ -93,7 +95,7 @@ class _Follower(ManagedServer):
         action.abort(result, f"{text}: {why}")
         return True
 
-    def _drive(self, action: SingleGoal, pose: Any) -> str:
+    def _drive(self, action: SimpleActionServer, pose: Any) -> str:
         """Drive to one pose and wait there; returns why it was not reached."""
         if not self._client.wait_for_server(_SERVER_S):
             return "the action server navigate_to_pose is not there"

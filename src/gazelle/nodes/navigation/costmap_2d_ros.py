@@ -31,7 +31,7 @@ from gazelle.nodes.parameters import ticks
 if TYPE_CHECKING:
     from gazelle.graph import Node, Subscription
 
-__all__ = ["LiveCostmap"]
+__all__ = ["Costmap2DRos"]
 
 # As many wait for a lock, and, as in the originals, for tf.
 _WAITING, _WAIT_FOR_TF = 20, 50
@@ -40,7 +40,7 @@ _LONG_WAIT_NS = _NANO
 _LAST_UPDATE_S = 2.0
 
 
-class LiveCostmap:
+class Costmap2DRos:
     """Layers with their topics, updated by a thread of their own.
 
     Attributes:

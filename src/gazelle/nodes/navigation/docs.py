@@ -13,7 +13,12 @@ from gazelle.nodes.move_base.local_planner import local_planner_tables
 from gazelle.nodes.move_base.parameters import CLEAR, MOVE_BASE, ROTATE, SLOW
 from gazelle.nodes.nav2 import parameters as nav2
 from gazelle.nodes.nav2.behavior_trees.xml_parsing import NODE_TYPES
-from gazelle.nodes.nav2.collision_monitor.parameters import BAND, COLLISION_MONITOR, SOURCE, ZONE
+from gazelle.nodes.nav2.collision_monitor.parameters import (
+    COLLISION_MONITOR,
+    POLYGON,
+    SOURCE,
+    SUB_POLYGON,
+)
 from gazelle.nodes.navigation.costmap_parameters import COSTMAP_TABLES
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.markdown import table_section
@@ -47,7 +52,8 @@ def _nav2_tables() -> list[ParameterTable]:
         nav2.PLANNER_SERVER, nav2.CONTROLLER_SERVER, *nav2.GOAL_CHECKERS.values(),
         *nav2.PROGRESS_CHECKERS.values(), nav2.BEHAVIOR_SERVER, nav2.BT_NAVIGATOR,
         nav2.WAYPOINT_FOLLOWER, nav2.SMOOTHER_SERVER, nav2.SMOOTHER,
-        nav2.VELOCITY_SMOOTHER, COLLISION_MONITOR, ZONE, BAND, SOURCE, nav2.LIFECYCLE_MANAGER,
+        nav2.VELOCITY_SMOOTHER, COLLISION_MONITOR, POLYGON, SUB_POLYGON, SOURCE,
+        nav2.LIFECYCLE_MANAGER,
     ]  # fmt: skip
     planners = [nav2.planner_table(name) for name in PLANNERS if "::" in name]
     controllers = [nav2.controller_table(name) for name in CONTROLLERS if "::" in name]

@@ -11,13 +11,13 @@ from gazelle.graph.actions import ActionServer, GoalStateError, LocalGoal, Serve
 if TYPE_CHECKING:
     from gazelle.graph import Node
 
-__all__ = ["SingleGoal"]
+__all__ = ["SimpleActionServer"]
 
 _ACCEPTED = "This goal has been accepted by the simple action server"
 _REPLACED = "This goal was canceled because another goal was received by the simple action server"
 
 
-class SingleGoal:
+class SimpleActionServer:
     """The newest goal is worked on; those before it end.
 
     Attributes:

@@ -15,7 +15,7 @@ from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.errors import LaunchError
 from gazelle.parameters.coercion import flag_of
 
-__all__ = ["Direction", "ServiceRow", "TopicRow", "read_file", "read_word"]
+__all__ = ["Direction", "ServiceRow", "TopicRow", "read_argument", "read_file"]
 
 _USAGE = """\
 usage: parameter_bridge [TOPIC@ROS_TYPE@GZ_TYPE …] [SERVICE@ROS_TYPE[@GZ_REQUEST@GZ_RESPONSE] …]
@@ -69,7 +69,7 @@ class ServiceRow:
     ros_type: str
 
 
-def read_word(word: str) -> TopicRow | ServiceRow:
+def read_argument(word: str) -> TopicRow | ServiceRow:
     """Read a word of the command line.
 
     Raises:

@@ -42,8 +42,8 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     file, text = own.text("world_sdf_file"), own.text("world_sdf_string")
     own.report_unknown()
 
-    def serve(*words: str, falls_back: bool) -> int:
-        named = replace(arguments, rest=(*words, "--gz"))
+    def serve(*argv: str, falls_back: bool) -> int:
+        named = replace(arguments, rest=(*argv, "--gz"))
         return run_gzserver(named, graph, stop, falls_back=falls_back, found=found)
 
     if file or not text:

@@ -21,7 +21,13 @@ from gazelle.graph.gazebo_names import SHOWN_SPACE, offered_name
 from gazelle.interfaces import service_type
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private_parameters, start_node
-from gazelle.nodes.ros_gz.bridge_config import Direction, ServiceRow, TopicRow, read_file, read_word
+from gazelle.nodes.ros_gz.bridge_config import (
+    Direction,
+    ServiceRow,
+    TopicRow,
+    read_argument,
+    read_file,
+)
 from gazelle.nodes.ros_gz.mappings import full_ros_type, is_pair, pair_error
 from gazelle.nodes.ros_gz.relay import End, Relay
 from gazelle.parameters import Parameter, ParameterTable, refused
@@ -88,7 +94,7 @@ def offer(node: Node, row: ServiceRow) -> None:
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Bridge what the words and the file say until told to stop."""
-    rows = [read_word(word) for word in arguments.rest]
+    rows = [read_argument(word) for word in arguments.rest]
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
         file, gz, lazy = own.text("config_file"), _gazebo_side(node, own), own.flag("lazy")

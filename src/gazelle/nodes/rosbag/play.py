@@ -41,20 +41,20 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     return play(node, options, paths, controls)
 
 
-def play_options(words: list[str]) -> tuple[Values, list[str]]:
+def play_options(argv: list[str]) -> tuple[Values, list[str]]:
     """Return the options and the bags; ends the process when they are wrong."""
-    for place, word in enumerate(words):
+    for index, word in enumerate(argv):
         if word in ("--topics", "--pause-topics", "--bags"):
             # These take all words up to the next option.
             end = next(
-                (k for k, item in enumerate(words[place + 1 :], place + 1) if item[:1] == "-"),
-                len(words),
+                (k for k, item in enumerate(argv[index + 1 :], index + 1) if item[:1] == "-"),
+                len(argv),
             )
-            values = ",".join(words[place + 1 : end])
-            words = [*words[:place], f"{word}={values}", *words[end:]]
-            return play_options(words)
+            values = ",".join(argv[index + 1 : end])
+            argv = [*argv[:index], f"{word}={values}", *argv[end:]]
+            return play_options(argv)
     parser = _parser()
-    options, paths = parser.parse_args(words)
+    options, paths = parser.parse_args(argv)
     paths += [one for one in (options.bags or "").split(",") if one]
     if not paths:
         parser.error("You must specify at least one bag file to play back.")

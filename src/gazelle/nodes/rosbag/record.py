@@ -31,10 +31,10 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     return record(graph, node, options, args, stop)
 
 
-def main_options(words: list[str]) -> tuple[Values, list[str]]:
+def main_options(argv: list[str]) -> tuple[Values, list[str]]:
     """Return the options and the topics; ends the process when they are wrong."""
     parser = _parser()
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if not args and not options.all and not options.node and not options.exclude:
         parser.error("You must specify a topic name or else use the '-a' option.")
     if options.prefix is not None and options.name is not None:

@@ -6,7 +6,7 @@ import sys
 
 from gazelle.nodes.frontier_exploration.bounded_explore_layer import BOUNDED_EXPLORE, EXPLORE_SERVER
 from gazelle.nodes.slam.explore import EXPLORE
-from gazelle.nodes.slam.ros_packages import FLAVOURS
+from gazelle.nodes.slam.ros_packages import SLAM_NODES
 from gazelle.parameters.markdown import table_section
 
 __all__ = ["page"]
@@ -21,7 +21,7 @@ _INTRODUCTION = (
 
 def page() -> str:
     """Return the page."""
-    tables = [one.table for one in FLAVOURS.values()]
+    tables = [one.table for one in SLAM_NODES.values()]
     tables += [EXPLORE, EXPLORE_SERVER, BOUNDED_EXPLORE]
     return "\n\n".join([_INTRODUCTION, *map(table_section, tables)]) + "\n"
 

@@ -22,8 +22,8 @@ from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, 
 from gazelle.nodes.slam.cartographer.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.explore import run_explore
 from gazelle.nodes.slam.mapper import Mapper
-from gazelle.nodes.slam.options import Flavour, SlamOptions, options_of
-from gazelle.nodes.slam.ros_packages import FLAVOURS
+from gazelle.nodes.slam.options import SlamNode, SlamOptions, options_of
+from gazelle.nodes.slam.ros_packages import SLAM_NODES
 from gazelle.nodes.slam.toolbox import ToolboxServices
 from gazelle.parameters.trees import nested
 from gazelle.workspace.ament_index import known_workspace
@@ -51,30 +51,30 @@ _GRID_FLAGS: dict[str, Kind] = {
 
 def run_gmapping(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """``gmapping/slam_gmapping``."""
-    return _run(FLAVOURS["gmapping"], arguments, graph, stop)
+    return _run(SLAM_NODES["gmapping"], arguments, graph, stop)
 
 
 def run_karto(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """``slam_karto/slam_karto``."""
-    return _run(FLAVOURS["slam_karto"], arguments, graph, stop)
+    return _run(SLAM_NODES["slam_karto"], arguments, graph, stop)
 
 
 def run_hector(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """``hector_mapping/hector_mapping``; it uses odometry, which the original does not need."""
-    return _run(FLAVOURS["hector_mapping"], arguments, graph, stop)
+    return _run(SLAM_NODES["hector_mapping"], arguments, graph, stop)
 
 
 def run_toolbox(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """slam_toolbox's mapping nodes."""
-    return _run(FLAVOURS["slam_toolbox"], arguments, graph, stop)
+    return _run(SLAM_NODES["slam_toolbox"], arguments, graph, stop)
 
 
 def run_localization(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """slam_toolbox's localization node: in the map of ``map_file_name``."""
-    flavour = FLAVOURS["slam_toolbox"]
-    base = replace(flavour.base, mode="localization")
-    uses = {key: option for key, option in flavour.uses.items() if option != "mode"}
-    return _run(replace(flavour, base=base, uses=uses), arguments, graph, stop)
+    slam_node = SLAM_NODES["slam_toolbox"]
+    base = replace(slam_node.base, mode="localization")
+    uses = {key: option for key, option in slam_node.uses.items() if option != "mode"}
+    return _run(replace(slam_node, base=base, uses=uses), arguments, graph, stop)
 
 
 def run_cartographer(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -84,7 +84,7 @@ def run_cartographer(arguments: NodeArguments, graph: Graph, stop: threading.Eve
     folders = (package.path / "configuration_files",) if package else ()
     given = read_configuration(flags, folders)
     idle = sorted(set(flags) - {"configuration_directory", "configuration_basename"})
-    return _run(FLAVOURS["cartographer"], arguments, graph, stop, given, idle)
+    return _run(SLAM_NODES["cartographer"], arguments, graph, stop, given, idle)
 
 
 def run_occupancy_grid(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -101,7 +101,7 @@ def run_occupancy_grid(arguments: NodeArguments, graph: Graph, stop: threading.E
 
 
 def _run(
-    flavour: Flavour,
+    slam_node: SlamNode,
     arguments: NodeArguments,
     graph: Graph,
     stop: threading.Event,
@@ -111,16 +111,16 @@ def _run(
     node = start_node(arguments, graph)
     if idle_flags:
         node.log("warn", f"options that have no effect here: -{', -'.join(idle_flags)}")
-    options = _options(flavour, arguments, node, given)
+    options = _options(slam_node, arguments, node, given)
     mapper = Mapper(node, options)
-    _offer(node, mapper, flavour, options)
+    _offer(node, mapper, slam_node, options)
     done = threading.Event()
     # Costmaps and displays wait for the map's frame, which needs no scan.
     if options.publishes_tf and options.tf_period_s > 0:
-        threading.Thread(target=_place, args=(node, mapper, done), daemon=True).start()
+        threading.Thread(target=_publish_transforms, args=(node, mapper, done), daemon=True).start()
     warm_up(lambda text: node.log("info", text))
     mapper.listen()
-    threading.Thread(target=_draw, args=(node, mapper, done), daemon=True).start()
+    threading.Thread(target=_publish_maps, args=(node, mapper, done), daemon=True).start()
     arguments.ready()
     while not stop.wait(_POLL_S):
         mapper.settle()
@@ -130,12 +130,12 @@ def _run(
 
 
 def _options(
-    flavour: Flavour, arguments: NodeArguments, node: Node, given: Mapping[str, Any]
+    slam_node: SlamNode, arguments: NodeArguments, node: Node, given: Mapping[str, Any]
 ) -> SlamOptions:
     tree = {**nested(given), **parameter_tree(node, arguments)}
     found = Diagnostics()
-    settings = node_reader(flavour.table, tree, node.resolve_name("~"), found)
-    options = options_of(flavour, settings)
+    settings = node_reader(slam_node.table, tree, node.resolve_name("~"), found)
+    options = options_of(slam_node, settings)
     settings.report_unknown()
     log_findings(node, found)
     if options.mode not in _MODES:
@@ -144,7 +144,7 @@ def _options(
     return options
 
 
-def _offer(node: Node, mapper: Mapper, flavour: Flavour, options: SlamOptions) -> None:
+def _offer(node: Node, mapper: Mapper, slam_node: SlamNode, options: SlamOptions) -> None:
     get_map: Any = service_type("nav_msgs/srv/GetMap")
 
     def on_get_map(_request: Any) -> Any:
@@ -155,7 +155,7 @@ def _offer(node: Node, mapper: Mapper, flavour: Flavour, options: SlamOptions) -
             response.map = message_of_grid(grid, options.map_frame, now_ns)
         return response
 
-    if not flavour.services:
+    if not slam_node.services:
         node.create_service("dynamic_map", get_map, on_get_map)
         return
     node.create_service("~/dynamic_map", get_map, on_get_map)
@@ -170,7 +170,7 @@ def _offer(node: Node, mapper: Mapper, flavour: Flavour, options: SlamOptions) -
                          "until then a map is made")  # fmt: skip
 
 
-def _draw(node: Node, mapper: Mapper, done: threading.Event) -> None:
+def _publish_maps(node: Node, mapper: Mapper, done: threading.Event) -> None:
     drawn: tuple[int, Poses] | None = None
     period_ns = max(int(mapper.options.map_period_s * _NANO), _NANO // 10)
     for _now_ns in ticks(node, period_ns, done):
@@ -183,6 +183,6 @@ def _draw(node: Node, mapper: Mapper, done: threading.Event) -> None:
             drawn = state
 
 
-def _place(node: Node, mapper: Mapper, done: threading.Event) -> None:
+def _publish_transforms(node: Node, mapper: Mapper, done: threading.Event) -> None:
     for now_ns in ticks(node, int(mapper.options.tf_period_s * _NANO), done):
         mapper.publish_transform(now_ns)

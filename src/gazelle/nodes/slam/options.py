@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from gazelle.mapping.slam import SlamParameters
-from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["Flavour", "SlamOptions", "options_of", "used", "why_not"]
+__all__ = ["SlamNode", "SlamOptions", "options_of", "used"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ class SlamOptions:
 
 
 @dataclass(frozen=True, slots=True)
-class Flavour:
+class SlamNode:
     """One package's SLAM node.
 
     Attributes:
@@ -84,17 +84,12 @@ def used(
     return Parameter(key, kind, default, meaning, unit, low), option  # type: ignore[arg-type]
 
 
-def why_not(why: str, *keys: str) -> tuple[Parameter, ...]:
-    """Return rows of parameters that have no effect, for one reason."""
-    return refused(why, *keys)
-
-
-def options_of(flavour: Flavour, settings: ParameterReader) -> SlamOptions:
+def options_of(slam_node: SlamNode, settings: ParameterReader) -> SlamOptions:
     """Return the options that parameters name; others keep the engine's values."""
     own: dict[str, Any] = {}
     engine: dict[str, Any] = {}
-    for key, option in flavour.uses.items():
-        row = flavour.table.row(key)
+    for key, option in slam_node.uses.items():
+        row = slam_node.table.row(key)
         value = settings.value(row)
         (engine if option in _ENGINE else own)[option] = value
     for frame in ("base_frame", "odom_frame", "map_frame"):
@@ -102,5 +97,5 @@ def options_of(flavour: Flavour, settings: ParameterReader) -> SlamOptions:
             own[frame] = str(own[frame]).removeprefix("/")
     if "max_range_m" in engine:
         engine["max_range_m"] = min(_MAX_DISTANCE_M, engine["max_range_m"])
-    slam = replace(flavour.base.slam, **engine)
-    return replace(flavour.base, slam=slam, **own)
+    slam = replace(slam_node.base.slam, **engine)
+    return replace(slam_node.base, slam=slam, **own)

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from gazelle.nodes.slam.options import Flavour, SlamOptions, used, why_not
-from gazelle.parameters import Parameter, ParameterTable
+from gazelle.nodes.slam.options import SlamNode, SlamOptions, used
+from gazelle.parameters import Parameter, ParameterTable, refused
 
-__all__ = ["CARTOGRAPHER", "FLAVOURS", "GMAPPING", "HECTOR", "KARTO", "TOOLBOX"]
+__all__ = ["CARTOGRAPHER", "GMAPPING", "HECTOR", "KARTO", "SLAM_NODES", "TOOLBOX"]
 
 _DEFAULTS = SlamOptions()
 _NO_PARTICLES = "the map is a graph of poses, not a filter with particles"
@@ -21,7 +21,7 @@ _GROWS = "the map grows where the robot goes"
 _SHOWS = "drawings and timings of the original's inside"
 
 
-def _flavour(
+def _slam_node(
     family: str,
     types: tuple[str, ...],
     uses: tuple[tuple[Parameter, str], ...],
@@ -29,13 +29,13 @@ def _flavour(
     base: SlamOptions = _DEFAULTS,
     *,
     services: bool = False,
-) -> Flavour:
+) -> SlamNode:
     rows = (*(row for row, _ in uses), *idle)
     table = ParameterTable(family, f"SLAM under the names of {family}.", types, rows)
-    return Flavour(table, {row.key: option for row, option in uses}, base, services)
+    return SlamNode(table, {row.key: option for row, option in uses}, base, services)
 
 
-_GMAPPING = _flavour(
+_GMAPPING = _slam_node(
     "gmapping",
     ("gmapping/slam_gmapping",),
     (
@@ -57,12 +57,12 @@ _GMAPPING = _flavour(
         used("str", 0.1, "odometry_rad_per_m", "of the heading, per way", 0.0, "rad/m"),
     ),
     (
-        *why_not(_NO_PARTICLES, "particles", "resampleThreshold", "llsamplerange",
+        *refused(_NO_PARTICLES, "particles", "resampleThreshold", "llsamplerange",
                  "llsamplestep", "lasamplerange", "lasamplestep", "temporalUpdate"),
-        *why_not(_OWN_MATCHER, "sigma", "kernelSize", "lstep", "astep", "iterations", "lsigma",
+        *refused(_OWN_MATCHER, "sigma", "kernelSize", "lstep", "astep", "iterations", "lsigma",
                  "ogain", "lskip", "minimumScore", "srt"),
-        *why_not(_GROWS, "xmin", "ymin", "xmax", "ymax"),
-        *why_not("the scan's frame tells how the lidar is mounted", "inverted_laser"),
+        *refused(_GROWS, "xmin", "ymin", "xmax", "ymax"),
+        *refused("the scan's frame tells how the lidar is mounted", "inverted_laser"),
     ),
 )  # fmt: skip
 
@@ -77,14 +77,14 @@ _KARTO_USES = (
     used("scan_buffer_size", 70, "submap_scans", "scans are matched with so many kept ones", 1),
 )
 _KARTO_IDLE = (
-    *why_not(_OWN_MATCHER, "use_scan_matching", "use_scan_barycenter",
+    *refused(_OWN_MATCHER, "use_scan_matching", "use_scan_barycenter",
              "scan_buffer_maximum_scan_distance", "link_match_minimum_response_fine",
              "link_scan_maximum_distance", "correlation_search_space_dimension",
              "correlation_search_space_resolution", "correlation_search_space_smear_deviation",
              "distance_variance_penalty", "angle_variance_penalty", "fine_search_angle_offset",
              "coarse_search_angle_offset", "coarse_angle_resolution", "minimum_angle_penalty",
              "minimum_distance_penalty", "use_response_expansion"),
-    *why_not("places are found by branch and bound and believed when several agree",
+    *refused("places are found by branch and bound and believed when several agree",
              "loop_search_maximum_distance",
              "loop_match_minimum_chain_size", "loop_match_maximum_variance_coarse",
              "loop_match_minimum_response_coarse", "loop_match_minimum_response_fine",
@@ -92,7 +92,7 @@ _KARTO_IDLE = (
              "loop_search_space_smear_deviation"),
 )  # fmt: skip
 
-_KARTO = _flavour(
+_KARTO = _slam_node(
     "slam_karto",
     ("slam_karto/slam_karto",),
     (
@@ -104,7 +104,7 @@ _KARTO = _flavour(
     _KARTO_IDLE,
 )
 
-_HECTOR = _flavour(
+_HECTOR = _slam_node(
     "hector_mapping",
     ("hector_mapping/hector_mapping",),
     (
@@ -120,17 +120,17 @@ _HECTOR = _flavour(
         used("pub_map_odom_transform", True, "publishes_tf", "whether the transform is sent"),
     ),
     (
-        *why_not(_GROWS, "map_size", "map_start_x", "map_start_y", "map_multi_res_levels"),
-        *why_not(_OWN_MATCHER, "use_tf_scan_transformation", "use_tf_pose_start_estimate",
+        *refused(_GROWS, "map_size", "map_start_x", "map_start_y", "map_multi_res_levels"),
+        *refused(_OWN_MATCHER, "use_tf_scan_transformation", "use_tf_pose_start_estimate",
                  "update_factor_free", "update_factor_occupied", "laser_z_min_value",
                  "laser_z_max_value", "laser_min_dist", "scan_subscriber_queue_size"),
-        *why_not(_SHOWS, "pub_map_scanmatch_transform", "tf_map_scanmatch_transform_frame_name",
+        *refused(_SHOWS, "pub_map_scanmatch_transform", "tf_map_scanmatch_transform_frame_name",
                  "output_timing", "pub_drawings", "pub_debug_output", "pub_odometry",
                  "advertise_map_service"),
     ),
 )  # fmt: skip
 
-_TOOLBOX = _flavour(
+_TOOLBOX = _slam_node(
     "slam_toolbox",
     tuple(
         f"slam_toolbox/{name}_slam_toolbox_node"
@@ -151,14 +151,14 @@ _TOOLBOX = _flavour(
     ),
     (
         *_KARTO_IDLE,
-        *why_not(_OWN_SOLVER, "solver_plugin", "ceres_linear_solver", "ceres_preconditioner",
+        *refused(_OWN_SOLVER, "solver_plugin", "ceres_linear_solver", "ceres_preconditioner",
                  "ceres_trust_strategy", "ceres_dogleg_type", "ceres_loss_function"),
-        *why_not("no graph is drawn for editing", "enable_interactive_mode",
+        *refused("no graph is drawn for editing", "enable_interactive_mode",
                  "interactive_mode", "debug_logging"),
-        *why_not("tf is kept as long as scans wait", "tf_buffer_duration", "stack_size_to_use"),
-        *why_not("the robot begins where map_start_pose says", "map_start_at_dock"),
-        *why_not("save_map is always offered", "use_map_saver"),
-        *why_not(_OWN_MATCHER, "min_laser_range", "min_pass_through", "occupancy_threshold",
+        *refused("tf is kept as long as scans wait", "tf_buffer_duration", "stack_size_to_use"),
+        *refused("the robot begins where map_start_pose says", "map_start_at_dock"),
+        *refused("save_map is always offered", "use_map_saver"),
+        *refused(_OWN_MATCHER, "min_laser_range", "min_pass_through", "occupancy_threshold",
                  "scan_queue_size", "lifelong_search_use_tree",
                  "lifelong_minimum_score", "lifelong_iou_match", "lifelong_node_removal_score",
                  "lifelong_overlap_score_scale", "lifelong_constraint_multiplier",
@@ -170,7 +170,7 @@ _TOOLBOX = _flavour(
     services=True,
 )  # fmt: skip
 
-_CARTOGRAPHER = _flavour(
+_CARTOGRAPHER = _slam_node(
     "cartographer",
     ("cartographer_ros/cartographer_node",),
     (
@@ -184,18 +184,18 @@ _CARTOGRAPHER = _flavour(
         used("pose_publish_period_sec", 5e-3, "tf_period_s", "between two transforms", 0.0, "s"),
     ),
     (
-        *why_not(
+        *refused(
             _OWN_MATCHER, "TRAJECTORY_BUILDER_2D", "TRAJECTORY_BUILDER", "use_pose_extrapolator"
         ),
-        *why_not(_OWN_SOLVER, "POSE_GRAPH", "MAP_BUILDER"),
-        *why_not(
+        *refused(_OWN_SOLVER, "POSE_GRAPH", "MAP_BUILDER"),
+        *refused(
             "odometry comes by tf from published_frame to tracking_frame; without any, let "
             "both be the robot's frame",
             "use_odometry",
             "provide_odom_frame",
             "odom_frame",
         ),
-        *why_not(
+        *refused(
             "one lidar in the plane is used, on the topic scan",
             "use_nav_sat",
             "use_landmarks",
@@ -204,7 +204,7 @@ _CARTOGRAPHER = _flavour(
             "num_subdivisions_per_laser_scan",
             "num_point_clouds",
         ),
-        *why_not(
+        *refused(
             "every scan is used as soon as tf knows where it was taken",
             "lookup_transform_timeout_sec",
             "rangefinder_sampling_ratio",
@@ -213,13 +213,13 @@ _CARTOGRAPHER = _flavour(
             "imu_sampling_ratio",
             "landmarks_sampling_ratio",
         ),
-        *why_not("the transform lies in the plane always", "publish_frame_projected_to_2d"),
-        *why_not(_SHOWS, "trajectory_publish_period_sec", "publish_tracked_pose"),
+        *refused("the transform lies in the plane always", "publish_frame_projected_to_2d"),
+        *refused(_SHOWS, "trajectory_publish_period_sec", "publish_tracked_pose"),
     ),
     replace(_DEFAULTS, map_period_s=1.0),
 )
 
-FLAVOURS = {
+SLAM_NODES = {
     "gmapping": _GMAPPING,
     "slam_karto": _KARTO,
     "hector_mapping": _HECTOR,

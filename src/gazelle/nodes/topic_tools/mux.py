@@ -36,8 +36,8 @@ _STRING = "std_msgs/msg/String"
 
 def run_mux(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish what comes on the selected of several topics: ``mux OUT IN1 [IN2 …]``."""
-    words = list(arguments.rest) or _by_parameters(arguments)
-    target, *sources = _checked(words, "mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 [...]]")
+    argv = list(arguments.rest) or _by_parameters(arguments)
+    target, *sources = _checked(argv, "mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 [...]]")
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
         first = own.text("initial_topic")
@@ -97,10 +97,10 @@ class _Output:
 class _Choice:
     """Which of some topics is selected; told on ``NAME/selected``."""
 
-    def __init__(self, node: Node, name: str, words: Sequence[str], first: str) -> None:
+    def __init__(self, node: Node, name: str, argv: Sequence[str], first: str) -> None:
         self.node = node
         self.name = name
-        self.topics = list(dict.fromkeys(node.resolve_name(word) for word in words))
+        self.topics = list(dict.fromkeys(node.resolve_name(word) for word in argv))
         self._publisher = node.create_publisher(f"{name}/selected", _STRING, latch=True)
         self.selected = _NONE
         self.select(first or self.topics[0])
@@ -178,7 +178,7 @@ def _by_parameters(arguments: NodeArguments) -> list[str]:
     return [*output, *own.texts("input_topics")] if output and own.has("input_topics") else []
 
 
-def _checked(words: list[str], usage: str) -> list[str]:
-    if len(words) < 2:
-        raise LaunchError(f"{len(words)} arguments given\nusage: {usage}")
-    return words
+def _checked(argv: list[str], usage: str) -> list[str]:
+    if len(argv) < 2:
+        raise LaunchError(f"{len(argv)} arguments given\nusage: {usage}")
+    return argv

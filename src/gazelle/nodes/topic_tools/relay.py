@@ -58,11 +58,11 @@ _THROTTLE = """throttle messages IN_TOPIC MSGS_PER_SEC [OUT_TOPIC]
 def run_relay(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Publish every message again: ``relay IN [OUT]``."""
     given = _given(arguments, "input_topic", "output_topic")
-    words = _checked(given, 1, "relay IN_TOPIC [OUT_TOPIC]")
+    argv = _checked(given, 1, "relay IN_TOPIC [OUT_TOPIC]")
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
         lazy = own.flag("lazy")
-    tool = _Tool(node, lazy, words, "_relay", lambda _size: True)
+    tool = _Tool(node, lazy, argv, "_relay", lambda _size: True)
     return tool.run(stop, lambda text: node.log("info", text))
 
 
@@ -73,15 +73,15 @@ def run_throttle(arguments: NodeArguments, graph: Graph, stop: threading.Event) 
     """
     by_parameters = next(iter(_given(arguments, "throttle_type")), "")
     limits_of = ("bytes_per_sec", "window") if by_parameters == "bytes" else ("msgs_per_sec",)
-    words = _given(arguments, "throttle_type", "input_topic", *limits_of, "output_topic")
-    kind = next(iter(words), "")
+    argv = _given(arguments, "throttle_type", "input_topic", *limits_of, "output_topic")
+    kind = next(iter(argv), "")
     if kind not in ("messages", "bytes"):
         raise LaunchError(f"'{kind}' is neither 'messages' nor 'bytes'\nusage: {_THROTTLE}")
     if kind == "messages":
-        _, topic, rate, *out = _checked(words, 3, _THROTTLE)
+        _, topic, rate, *out = _checked(argv, 3, _THROTTLE)
         limits = (_number(rate, _THROTTLE), 0.0)
     else:
-        _, topic, rate, window, *out = _checked(words, 4, _THROTTLE)
+        _, topic, rate, window, *out = _checked(argv, 4, _THROTTLE)
         limits = (_number(rate, _THROTTLE), _number(window, _THROTTLE))
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
@@ -94,15 +94,15 @@ def run_throttle(arguments: NodeArguments, graph: Graph, stop: threading.Event) 
 def run_drop(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Leave out X of every Y messages: ``drop IN X Y [OUT]``."""
     usage = "drop IN_TOPIC X Y [OUT_TOPIC]"
-    words = _given(arguments, "input_topic", "X", "Y", "output_topic")
-    topic, x, y, *out = _checked(words, 3, usage)
+    argv = _given(arguments, "input_topic", "X", "Y", "output_topic")
+    topic, x, y, *out = _checked(argv, 3, usage)
     dropped, cycle = int(_number(x, usage)), int(_number(y, usage))
     count = [0]
 
     def passes(_size: int) -> bool:
-        place = count[0] % cycle
+        index = count[0] % cycle
         count[0] += 1
-        return place >= dropped
+        return index >= dropped
 
     node = start_node(arguments, graph)
     with private_parameters(node, arguments, PARAMETERS) as own:
@@ -212,10 +212,10 @@ def _given(arguments: NodeArguments, *names: str) -> list[str]:
     return [own.text(name) for name in names if own.has(name)]
 
 
-def _checked(words: list[str], least: int, usage: str) -> list[str]:
-    if not least <= len(words) <= least + 1:
-        raise LaunchError(f"{len(words)} arguments given\nusage: {usage}")
-    return words
+def _checked(argv: list[str], least: int, usage: str) -> list[str]:
+    if not least <= len(argv) <= least + 1:
+        raise LaunchError(f"{len(argv)} arguments given\nusage: {usage}")
+    return argv
 
 
 def _number(word: str, usage: str) -> float:

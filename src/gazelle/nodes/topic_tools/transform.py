@@ -69,7 +69,7 @@ def field_getter(kind: Any, path: str) -> Callable[[Any], Any]:
     """
     steps = [_step(part) for part in path.split("/") if part]
     owner, names = kind, []
-    for name, place in steps:
+    for name, index in steps:
         names.append(name)
         if name not in getattr(owner, "_names", ()):
             fields = tuple(getattr(owner, "_names", ()))
@@ -77,14 +77,14 @@ def field_getter(kind: Any, path: str) -> Callable[[Any], Any]:
             text = f"no field named {name} in {getattr(owner, '_type', owner)}"
             raise LaunchError(f"ERROR: Wrong input topic (or topic field): {text}\n  {near}")
         slot = owner._slot_types[owner._names.index(name)]
-        base = slot.partition("[")[0] if place is not None else slot
+        base = slot.partition("[")[0] if index is not None else slot
         owner = ros1_message_type(base) if "/" in base and "[" not in base else base
 
     def get(message: Any) -> Any:
-        for name, place in steps:
+        for name, index in steps:
             message = getattr(message, name)
-            if place is not None:
-                message = message[place]
+            if index is not None:
+                message = message[index]
         return message
 
     return get

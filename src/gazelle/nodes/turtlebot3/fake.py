@@ -104,10 +104,10 @@ class FakeBase:
     @property
     def wheel_speeds_rad_s(self) -> tuple[float, float]:
         """Left and right."""
-        outward = self.angular_rad_s * self.separation_m / 2
+        rim_m_s = self.angular_rad_s * self.separation_m / 2
         return (
-            (self.linear_m_s - outward) / self.radius_m,
-            (self.linear_m_s + outward) / self.radius_m,
+            (self.linear_m_s - rim_m_s) / self.radius_m,
+            (self.linear_m_s + rim_m_s) / self.radius_m,
         )
 
     def command(self, linear_m_s: float, angular_rad_s: float, now_ns: int) -> None:

@@ -121,19 +121,19 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     def model_of(beside: ParameterReader) -> str:
         return beside.text("model")
 
-    words = "currently:\tlinear vel %s\t angular vel %s "
-    return _drive(arguments, graph, stop, model_of, words, is_stamped=False)
+    text = "currently:\tlinear vel %s\t angular vel %s "
+    return _drive(arguments, graph, stop, model_of, text, is_stamped=False)
 
 
 def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """ROS 2: the same with its words and, from Jazzy on, stamps."""
     is_stamped = os.environ.get("ROS_DISTRO", "") in _STAMPED
-    words = "currently:\tlinear velocity %s\t angular velocity %s "
+    text = "currently:\tlinear velocity %s\t angular velocity %s "
 
     def model_of(_beside: ParameterReader) -> str:
         return os.environ.get("TURTLEBOT3_MODEL", "burger")
 
-    return _drive(arguments, graph, stop, model_of, words, is_stamped=is_stamped)
+    return _drive(arguments, graph, stop, model_of, text, is_stamped=is_stamped)
 
 
 def _drive(
@@ -141,7 +141,7 @@ def _drive(
     graph: Graph,
     stop: threading.Event,
     model_of: Callable[[ParameterReader], str],
-    words: str,
+    text: str,
     *,
     is_stamped: bool,
 ) -> int:
@@ -161,7 +161,7 @@ def _drive(
                 break
             if speeds.press(key):
                 lines += key in _STEPS
-                say(words % (speeds.linear_m_s, speeds.angular_rad_s))
+                say(text % (speeds.linear_m_s, speeds.angular_rad_s))
             if lines == _LINES_PER_HELP:
                 say(_HELP)
                 lines = 0

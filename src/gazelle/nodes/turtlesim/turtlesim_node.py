@@ -29,7 +29,7 @@ from gazelle.nodes.turtlesim.turtle import (
     single,
 )
 
-__all__ = ["Member", "Simulator", "all_finite", "run"]
+__all__ = ["NamedTurtle", "Simulator", "all_finite", "run"]
 
 
 _WALL = "Oh no! I hit the wall! (Clamping from [x=%f, y=%f])"
@@ -44,7 +44,7 @@ _AGAIN_S = 1.0
 _STEPS_PER_PICTURE = 2
 
 
-class Member:
+class NamedTurtle:
     """A turtle with its name, offered to others from the start to `close`.
 
     Attributes:
@@ -236,7 +236,7 @@ class Simulator:
         self._png = Path(png or "turtlesim.png")
         self._is_ros2 = arguments.ros_version == 2
         self._lock = threading.RLock()
-        self._members: dict[str, Member] = {}
+        self._members: dict[str, NamedTurtle] = {}
         self._count = 0
         self._kinds = 0
         self._canvas = Canvas()
@@ -369,7 +369,7 @@ class Simulator:
             if name in self._members:
                 return ""
             self._node.resolve_name(name)
-            self._members[name] = Member(
+            self._members[name] = NamedTurtle(
                 self._node,
                 name,
                 Turtle.at(x_m, y_m, theta_rad),

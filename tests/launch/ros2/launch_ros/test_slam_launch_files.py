@@ -10,7 +10,7 @@ import yaml
 from gazelle.launch.ros2 import LaunchContext
 from gazelle.launch.ros2.launch_description_sources import PythonLaunchDescriptionSource
 from gazelle.launch.ros2.launch_ros.node_executable import node_command
-from gazelle.nodes.slam.ros_packages import FLAVOURS
+from gazelle.nodes.slam.ros_packages import SLAM_NODES
 from gazelle.workspace.ament_index import get_package_share_directory
 
 
@@ -31,6 +31,6 @@ def test_launch_file_of_slam_toolbox(name: str, context: LaunchContext) -> None:
     assert node_command(context, "slam_toolbox", node.node_executable) is not None  # type: ignore[attr-defined]
     file = Path(context.launch_configurations["slam_params_file"])
     values = yaml.safe_load(file.read_text())["slam_toolbox"]["ros__parameters"]
-    known = {one.key for one in FLAVOURS["slam_toolbox"].table.rows}
+    known = {one.key for one in SLAM_NODES["slam_toolbox"].table.rows}
     assert set(values) <= known
     assert values["mode"] == ("localization" if name == "localization" else "mapping")

@@ -10,8 +10,8 @@ import pytest
 from gazelle.diagnostics import Diagnostics
 from gazelle.nodes.nav2.collision_monitor.parameters import (
     COLLISION_MONITOR,
+    read_polygons,
     read_sources,
-    read_zones,
 )
 from gazelle.nodes.nav2.collision_monitor.polygons import Action
 from gazelle.nodes.parameters import node_reader
@@ -35,9 +35,9 @@ def _said(diagnostics: Diagnostics) -> str:
     ids=["Iron and later", "Humble"],
 )
 def test_points_of_both_forms(points: Any) -> None:
-    zone = {"type": "polygon", "action_type": "slowdown", "points": points}
-    settings, diagnostics = _settings(polygons=["slow"], slow=zone)
-    ((found, _),) = read_zones(settings)
+    polygon = {"type": "polygon", "action_type": "slowdown", "points": points}
+    settings, diagnostics = _settings(polygons=["slow"], slow=polygon)
+    ((found, _),) = read_polygons(settings)
     assert not list(diagnostics)
     assert found.outline is not None
     np.testing.assert_array_equal(found.outline, [[0.3, 0.2], [0.3, -0.2], [-0.3, 0.0]])
@@ -46,20 +46,23 @@ def test_points_of_both_forms(points: Any) -> None:
 
 def test_max_points_of_humble_is_one_less_than_min_points() -> None:
     settings, _ = _settings(polygons=["stop"], stop={**_CIRCLE, "max_points": 7})
-    assert read_zones(settings)[0][0].least == 8
+    assert read_polygons(settings)[0][0].least == 8
 
 
 def test_bands_are_read_in_their_order() -> None:
     box = "[[0.3, 0.3], [0.3, -0.3], [-0.3, -0.3], [-0.3, 0.3]]"
     limits = {"linear_min": 0.0, "linear_max": 1.0, "theta_min": -1.0, "theta_max": 1.0}
-    zone = {
+    polygon = {
         "type": "velocity_polygon", "action_type": "stop", "holonomic": False,
         "velocity_polygons": ["on", "back"], "on": {"points": box, **limits},
         "back": {"points": box, **limits, "linear_min": -1.0, "linear_max": 0.0},
     }  # fmt: skip
-    settings, diagnostics = _settings(polygons=["v"], v=zone)
-    bands = read_zones(settings)[0][0].bands
-    assert [band.linear for band in bands] == [(0.0, 1.0), (-1.0, 0.0)]
+    settings, diagnostics = _settings(polygons=["v"], v=polygon)
+    sub_polygons = read_polygons(settings)[0][0].sub_polygons
+    assert [sub_polygon.linear for sub_polygon in sub_polygons] == [
+        (0.0, 1.0),
+        (-1.0, 0.0),
+    ]
     assert not list(diagnostics)
 
 
@@ -75,9 +78,9 @@ def test_bands_are_read_in_their_order() -> None:
         ),
     ],
 )
-def test_wrong_zones_are_told_and_left_out(zone: dict[str, Any], says: str) -> None:
-    settings, diagnostics = _settings(polygons=["bad", "stop"], bad=zone, stop=_CIRCLE)
-    assert [one.name for one, _ in read_zones(settings)] == ["stop"]
+def test_wrong_zones_are_told_and_left_out(polygon: dict[str, Any], says: str) -> None:
+    settings, diagnostics = _settings(polygons=["bad", "stop"], bad=polygon, stop=_CIRCLE)
+    assert [one.name for one, _ in read_polygons(settings)] == ["stop"]
     assert says in _said(diagnostics)
 
 

@@ -37,7 +37,9 @@ def main(argv: list[str]) -> int:
             others = options.controller_manager == _MANAGER
             if not client.find(may_be_another=others, timeout_s=_PATIENCE_S):
                 service = f"{client.name}/list_controllers"
-                raise ToolError(f"Could not contact service {service}; {client.elsewhere()}")
+                raise ToolError(
+                    f"Could not contact service {service}; {client.other_managers_text()}"
+                )
             _refuse_ros1(client)
             return int(getattr(module, options.verb)(client, options))
     except (ToolError, GraphError) as error:

@@ -45,7 +45,7 @@ class _Action(Leaf):
                 board = self.ports.blackboard.root
                 board.set("number_recoveries", int(board.get("number_recoveries", 0)) + 1)
             server = str(self.ports.get("server_name", self.SERVER))
-            self.call = self.world.action(server, f"nav2_msgs/action/{self.KIND}", self.goal())
+            self.call = self.ros.action(server, f"nav2_msgs/action/{self.KIND}", self.goal())
         if not self.call.is_done:
             return _S.RUNNING
         call = self.call
@@ -55,7 +55,7 @@ class _Action(Leaf):
                 if hasattr(call.result, field):
                     self.ports.set(port, getattr(call.result, field))
         if not call.succeeded and call.why:
-            self.world.log("debug", f"{self.name}: {call.why}")
+            self.ros.log("debug", f"{self.name}: {call.why}")
         return _S.SUCCESS if call.succeeded else _S.FAILURE
 
     def goal(self) -> dict[str, Any]:
@@ -114,18 +114,18 @@ class _Service(Leaf):
 
     def tick(self) -> Status:
         if self.call is None:
-            request = self.world.message(self.KIND)
+            request = self.ros.message(self.KIND)
             for field, (port, kind, default) in self.FIELDS.items():
                 setattr(request, field, _read(self.ports, port, kind, default))
             name = str(self.ports.get("service_name", self.SERVICE))
-            self.call = self.world.service(name, self.KIND, request)
+            self.call = self.ros.service(name, self.KIND, request)
             board = self.ports.blackboard.root
             board.set("number_recoveries", int(board.get("number_recoveries", 0)) + 1)
         if not self.call.is_done:
             return _S.RUNNING
         call, self.call = self.call, None
         if not call.succeeded and call.why:
-            self.world.log("warn", f"{self.name}: {call.why}")
+            self.ros.log("warn", f"{self.name}: {call.why}")
         return _S.SUCCESS if call.succeeded else _S.FAILURE
 
 
@@ -138,7 +138,7 @@ class _Cancel(Leaf):
 
     def tick(self) -> Status:
         server = str(self.ports.get("server_name", self.SERVER))
-        self.world.cancel_all(server, f"nav2_msgs/action/{self.KIND}")
+        self.ros.cancel_all(server, f"nav2_msgs/action/{self.KIND}")
         return _S.SUCCESS
 
 

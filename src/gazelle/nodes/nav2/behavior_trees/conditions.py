@@ -20,7 +20,7 @@ _S = Status
 _FRAMES = ("global_frame", "robot_base_frame")
 
 
-def _said(value: bool) -> Status:
+def _status_of(value: bool) -> Status:
     return _S.SUCCESS if value else _S.FAILURE
 
 
@@ -76,7 +76,7 @@ class _ScriptCondition(Leaf):
     INPUTS = ("code",)
 
     def tick(self) -> Status:
-        return _said(bool(evaluate(self.ports.get("code"), self.ports.blackboard)))
+        return _status_of(bool(evaluate(self.ports.get("code"), self.ports.blackboard)))
 
 
 class _Sleep(Leaf):
@@ -91,7 +91,7 @@ class _Sleep(Leaf):
         self.begin()
 
     def tick(self) -> Status:
-        now_ns = self.world.now_ns()
+        now_ns = self.ros.now_ns()
         self.since_ns = now_ns if self.since_ns is None else self.since_ns
         if (now_ns - self.since_ns) / 1e6 < self.ports.number("msec"):
             return _S.RUNNING
@@ -105,13 +105,13 @@ class _GoalReached(Leaf):
     INPUTS = ("goal", *_FRAMES)
 
     def tick(self) -> Status:
-        pose = self.world.pose(*(str(self.ports.get(name, "")) for name in _FRAMES))
-        goal = self.world.in_frame(self.ports.get("goal"))
+        pose = self.ros.pose(*(str(self.ports.get(name, "")) for name in _FRAMES))
+        goal = self.ros.in_frame(self.ports.get("goal"))
         if pose is None or goal is None:
             return _S.FAILURE
         at = plane_pose(goal.pose)
         away = math.hypot(at.x_m - pose.x_m, at.y_m - pose.y_m)
-        return _said(away <= float(self.ports.blackboard.root.get("goal_reached_tol", 0.25)))
+        return _status_of(away <= float(self.ports.blackboard.root.get("goal_reached_tol", 0.25)))
 
 
 class _GoalUpdated(Leaf):
@@ -127,7 +127,7 @@ class _GoalUpdated(Leaf):
         # Nav2 starts to compare at the first tick after a pause.
         changed = self.status is not _S.IDLE and goal != self.goal
         self.goal = goal
-        return _said(changed)
+        return _status_of(changed)
 
 
 class _GloballyUpdatedGoal(Leaf):
@@ -143,7 +143,7 @@ class _GloballyUpdatedGoal(Leaf):
         goal = (self.ports.get("goal", None), self.ports.get("goals", None))
         changed = not self.first and goal != self.goal
         self.goal, self.first = goal, False
-        return _said(changed)
+        return _status_of(changed)
 
 
 class _InitialPoseReceived(Leaf):
@@ -152,7 +152,7 @@ class _InitialPoseReceived(Leaf):
     INPUTS = ("initial_pose_received",)
 
     def tick(self) -> Status:
-        return _said(bool(self.ports.blackboard.root.get("initial_pose_received", False)))
+        return _status_of(bool(self.ports.blackboard.root.get("initial_pose_received", False)))
 
 
 class _TransformAvailable(Leaf):
@@ -165,8 +165,8 @@ class _TransformAvailable(Leaf):
 
     def tick(self) -> Status:
         ends = (str(self.ports.get("parent")), str(self.ports.get("child")))
-        self.was_there = self.was_there or self.world.can_transform(*ends)
-        return _said(self.was_there)
+        self.was_there = self.was_there or self.ros.can_transform(*ends)
+        return _status_of(self.was_there)
 
 
 class _TimeExpired(Leaf):
@@ -178,7 +178,7 @@ class _TimeExpired(Leaf):
         self.since_ns = 0
 
     def tick(self) -> Status:
-        now_ns = self.world.now_ns()
+        now_ns = self.ros.now_ns()
         if self.status is _S.IDLE:
             self.since_ns = now_ns
             return _S.FAILURE
@@ -200,7 +200,7 @@ class _PathExpiringTimer(_TimeExpired):
     def tick(self) -> Status:
         path = self.ports.get("path", None)
         if path is not self.path:
-            self.path, self.since_ns = path, self.world.now_ns()
+            self.path, self.since_ns = path, self.ros.now_ns()
         return super().tick()
 
 
@@ -213,7 +213,7 @@ class _DistanceTraveled(Leaf):
         self.start: Any = None
 
     def tick(self) -> Status:
-        pose = self.world.pose(*(str(self.ports.get(name, "")) for name in _FRAMES))
+        pose = self.ros.pose(*(str(self.ports.get(name, "")) for name in _FRAMES))
         if pose is None:
             return _S.FAILURE
         if self.status is _S.IDLE or self.start is None:
@@ -247,13 +247,13 @@ class _IsPathValid(Leaf):
     def tick(self) -> Status:
         kind = "nav2_msgs/srv/IsPathValid"
         if self.call is None:
-            request = self.world.message(kind)
+            request = self.ros.message(kind)
             request.path = self.ports.get("path")
-            self.call = self.world.service("is_path_valid", kind, request)
+            self.call = self.ros.service("is_path_valid", kind, request)
         if not self.call.is_done:
             return _S.RUNNING
         call, self.call = self.call, None
-        return _said(call.succeeded and bool(call.result.is_valid))
+        return _status_of(call.succeeded and bool(call.result.is_valid))
 
 
 class _Battery(Leaf):
@@ -263,7 +263,7 @@ class _Battery(Leaf):
 
     def state(self) -> Any:
         topic = str(self.ports.get("battery_topic", "/battery_status"))
-        return self.world.latest(topic, "sensor_msgs/msg/BatteryState")
+        return self.ros.latest(topic, "sensor_msgs/msg/BatteryState")
 
 
 class _IsBatteryLow(_Battery):
@@ -274,7 +274,7 @@ class _IsBatteryLow(_Battery):
         if state is None:
             return _S.FAILURE
         value = state.voltage if self.ports.flag("is_voltage", False) else state.percentage
-        return _said(value <= self.ports.number("min_battery"))
+        return _status_of(value <= self.ports.number("min_battery"))
 
 
 class _IsBatteryCharging(_Battery):
@@ -282,7 +282,7 @@ class _IsBatteryCharging(_Battery):
 
     def tick(self) -> Status:
         state = self.state()
-        return _said(state is not None and state.power_supply_status == 1)
+        return _status_of(state is not None and state.power_supply_status == 1)
 
 
 class _ErrorCodes(Leaf):
@@ -297,7 +297,7 @@ class _ErrorCodes(Leaf):
             text = str(self.ports.get("error_codes_to_check", ""))
             wanted = {int(word) for word in text.replace(",", ";").split(";") if word.strip()}
         code = self.ports.get("error_code", None)
-        return _said(code is not None and int(code) in wanted)
+        return _status_of(code is not None and int(code) in wanted)
 
 
 class _ControllerRecovery(_ErrorCodes):
@@ -327,7 +327,7 @@ class _IsPoseNear(Leaf):
         path = self.ports.get("path", None)
         if path is None or not path.poses:
             return _S.FAILURE
-        return _said(path_length_m(path) < self.ports.number("proximity_threshold", 3.0))
+        return _status_of(path_length_m(path) < self.ports.number("proximity_threshold", 3.0))
 
 
 class _RemovePassedGoals(Leaf):
@@ -339,7 +339,7 @@ class _RemovePassedGoals(Leaf):
     def tick(self) -> Status:
         given = self.ports.get("input_goals")
         goals = goals_of(given)
-        pose = self.world.pose(*(str(self.ports.get(name, "")) for name in _FRAMES))
+        pose = self.ros.pose(*(str(self.ports.get(name, "")) for name in _FRAMES))
         if pose is None:
             return _S.FAILURE
         radius = self.ports.number("radius", 0.5)
@@ -382,7 +382,7 @@ class _TruncatePathLocal(Leaf):
 
     def tick(self) -> Status:
         path = self.ports.get("input_path")
-        pose = self.world.pose(path.header.frame_id, str(self.ports.get("robot_frame", "")))
+        pose = self.ros.pose(path.header.frame_id, str(self.ports.get("robot_frame", "")))
         if pose is None or not path.poses:
             return _S.FAILURE
         at = [plane_pose(one.pose) for one in path.poses]
@@ -413,7 +413,7 @@ class _Selector(Leaf):
 
     def tick(self) -> Status:
         topic = str(self.ports.get("topic_name", self.TOPIC))
-        said = self.world.latest(topic, "std_msgs/msg/String", latched=True)
+        said = self.ros.latest(topic, "std_msgs/msg/String", latched=True)
         default = next((p for p in self.INPUTS if p.startswith("default_")), "")
         name = said.data if said is not None else str(self.ports.get(default, ""))
         if not name:

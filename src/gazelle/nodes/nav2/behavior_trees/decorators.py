@@ -132,7 +132,7 @@ class _Timed(Decorator):
 
     def elapsed_s(self) -> float:
         """Return for how long, from the first question on."""
-        now_ns = self.world.now_ns()
+        now_ns = self.ros.now_ns()
         if self.since_ns is None or self.since_ns > now_ns:
             self.since_ns = now_ns
         return (now_ns - self.since_ns) / _NANO
@@ -232,7 +232,7 @@ class _RateController(_Timed):
         self.first = False
         status = self.child.execute()
         if status is _S.SUCCESS:
-            self.since_ns = self.world.now_ns()
+            self.since_ns = self.ros.now_ns()
         return status
 
     def period_s(self) -> float:
@@ -260,7 +260,7 @@ class _SpeedController(_RateController):
         number = self.ports.number
         low, high = number("min_speed", 0.0), number("max_speed", 0.5)
         slow, fast = number("min_rate", 0.1), number("max_rate", 1.0)
-        share = min(max((self.world.speed_m_s() - low) / max(high - low, 1e-9), 0.0), 1.0)
+        share = min(max((self.ros.speed_m_s() - low) / max(high - low, 1e-9), 0.0), 1.0)
         return 1.0 / max(slow + share * (fast - slow), 1e-6)
 
 
@@ -280,7 +280,7 @@ class _DistanceController(Decorator):
         if self.status is _S.IDLE:
             self.begin()
         frames = (self.ports.get("global_frame", ""), self.ports.get("robot_base_frame", ""))
-        pose = self.world.pose(*frames)
+        pose = self.ros.pose(*frames)
         if pose is None:
             return _S.FAILURE
         self.start = self.start or pose
@@ -303,7 +303,7 @@ class _GoalUpdater(Decorator):
 
     def tick(self) -> Status:
         goal = self.ports.get("input_goal", None)
-        newest = self.world.latest("goal_update", "geometry_msgs/msg/PoseStamped")
+        newest = self.ros.latest("goal_update", "geometry_msgs/msg/PoseStamped")
         if newest is not None and (
             goal is None or ns_of(newest.header.stamp) > ns_of(goal.header.stamp)
         ):

@@ -16,14 +16,14 @@ from gazelle.nodes.navigation.robot_pose import Frames, Odometry
 if TYPE_CHECKING:
     from gazelle.graph import Node
 
-__all__ = ["GraphWorld"]
+__all__ = ["GraphInterface"]
 
 _SERVER_S = 10.0
 _SERVICE_S = 10.0
 
 
-class GraphWorld:
-    """What the leaves of trees ask for; see `World`."""
+class GraphInterface:
+    """What the leaves of trees ask for; see `RosInterface`."""
 
     def __init__(
         self,

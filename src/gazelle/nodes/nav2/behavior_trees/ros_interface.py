@@ -11,7 +11,7 @@ from gazelle.interfaces.poses import pose_of
 __all__ = [
     "Call",
     "Pose2",
-    "World",
+    "RosInterface",
     "distance_m",
     "goals_of",
     "path_length_m",
@@ -61,7 +61,7 @@ class Call(Protocol):
         ...
 
 
-class World(Protocol):
+class RosInterface(Protocol):
     """Robot, time, actions, services and topics."""
 
     def now_ns(self) -> int:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, ClassVar
 
 from gazelle.errors import GazelleError
-from gazelle.nodes.nav2.behavior_trees.ros_interface import World
+from gazelle.nodes.nav2.behavior_trees.ros_interface import RosInterface
 
 __all__ = ["Blackboard", "Decorator", "Leaf", "Ports", "Status", "SubTree", "TreeError", "TreeNode"]
 
@@ -187,7 +187,7 @@ class TreeNode:
         status: of the last tick; IDLE before the first one and after a halt.
         children: nodes below.
         ports: its attributes.
-        world: robot, actions and services.
+        ros: robot, actions and services.
         on_change: hears each change of the status.
     """
 
@@ -195,13 +195,15 @@ class TreeNode:
     OUTPUTS: ClassVar[tuple[str, ...]] = ()
     CHILDREN: ClassVar[tuple[int, int | None]] = (0, 0)
 
-    def __init__(self, name: str, ports: Ports, children: Sequence[TreeNode], world: World) -> None:
+    def __init__(
+        self, name: str, ports: Ports, children: Sequence[TreeNode], ros: RosInterface
+    ) -> None:
         """Stand still."""
         self.name = name
         self.status = Status.IDLE
         self.children = tuple(children)
         self.ports = ports
-        self.world = world
+        self.ros = ros
         self.on_change: Callable[[TreeNode, Status], None] | None = None
         self.begin()
 

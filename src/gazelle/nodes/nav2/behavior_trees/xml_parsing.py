@@ -12,7 +12,7 @@ from gazelle.nodes.nav2.behavior_trees.actions import ACTIONS
 from gazelle.nodes.nav2.behavior_trees.conditions import CONDITIONS
 from gazelle.nodes.nav2.behavior_trees.controls import CONTROLS
 from gazelle.nodes.nav2.behavior_trees.decorators import DECORATORS
-from gazelle.nodes.nav2.behavior_trees.ros_interface import World
+from gazelle.nodes.nav2.behavior_trees.ros_interface import RosInterface
 from gazelle.nodes.nav2.behavior_trees.script import Conditioned, check_script, conditions_of
 from gazelle.nodes.nav2.behavior_trees.tree_node import Blackboard, Ports, SubTree, TreeNode
 
@@ -53,9 +53,9 @@ def parse_trees(text: str, name: str, diagnostics: Diagnostics) -> TreeFile | No
     return None if root is None else _checked(root, None, diagnostics)
 
 
-def build_tree(file: TreeFile, blackboard: Blackboard, world: World) -> TreeNode:
+def build_tree(file: TreeFile, blackboard: Blackboard, ros: RosInterface) -> TreeNode:
     """Make the nodes of a file's main tree."""
-    return _build(file.trees[file.main], file, blackboard, world)
+    return _build(file.trees[file.main], file, blackboard, ros)
 
 
 def _checked(root: Tag, folder: Path | None, diagnostics: Diagnostics) -> TreeFile | None:
@@ -172,21 +172,21 @@ def _kind(tag: Tag) -> str:
     return tag.attributes.get("ID", tag.name) if tag.name in _GENERIC else tag.name
 
 
-def _build(tag: Tag, file: TreeFile, blackboard: Blackboard, world: World) -> TreeNode:
+def _build(tag: Tag, file: TreeFile, blackboard: Blackboard, ros: RosInterface) -> TreeNode:
     kind = _kind(tag)
     name = tag.attributes.get("name", tag.attributes.get("ID", kind))
     ports = Ports(name, tag.attributes, blackboard)
     made: TreeNode
     if tag.name in _SUBTREES:
         inner = _inner_blackboard(tag, file, blackboard)
-        below = _build(file.trees[tag.attributes["ID"]], file, inner, world)
-        made = SubTree(name, ports, (below,), world)
+        below = _build(file.trees[tag.attributes["ID"]], file, inner, ros)
+        made = SubTree(name, ports, (below,), ros)
     else:
-        children = [_build(child, file, blackboard, world) for child in tag.children]
-        made = NODE_TYPES[kind](name, ports, children, world)
+        children = [_build(child, file, blackboard, ros) for child in tag.children]
+        made = NODE_TYPES[kind](name, ports, children, ros)
     conditions = conditions_of(tag.attributes)
     if file.version == 4 and conditions:
-        made = Conditioned(name, ports, (made,), world)
+        made = Conditioned(name, ports, (made,), ros)
         made.conditions = conditions
     return made
 

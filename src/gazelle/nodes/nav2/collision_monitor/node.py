@@ -13,16 +13,16 @@ from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.collision_monitor.parameters import (
     COLLISION_MONITOR,
+    read_polygons,
     read_sources,
-    read_zones,
     report_others,
 )
 from gazelle.nodes.nav2.collision_monitor.polygons import (
     Action,
     Points,
+    Polygon,
     Velocity,
     Verdict,
-    Zone,
     guarded,
 )
 from gazelle.nodes.nav2.collision_monitor.sources import Source, WorldFrames
@@ -60,9 +60,9 @@ class _Monitor:
         self._frames = Frames(node)
         self._stamped = self._settings.flag("enable_stamped_cmd_vel")
         self._base = self._settings.text("base_frame_id").removeprefix("/")
-        self._zones: list[Zone] = []
+        self._polygons: list[Polygon] = []
         self._sources: list[Source] = []
-        self._shown: list[tuple[Zone, Any]] = []
+        self._shown: list[tuple[Polygon, Any]] = []
         self._open: list[Any] = []
         self._out: TwistPublisher | None = None
         self._state_out: Any = None
@@ -76,7 +76,7 @@ class _Monitor:
         diagnostics = Diagnostics()
         settings = node_reader(COLLISION_MONITOR, self._tree, self._node.name, diagnostics)
         self._settings, text = settings, settings.text
-        zones = read_zones(settings)
+        polygons = read_polygons(settings)
         fixed = text("odom_frame_id") if settings.flag("base_shift_correction") else ""
         frames = WorldFrames(
             self._frames, self._base, fixed.removeprefix("/"),
@@ -84,9 +84,9 @@ class _Monitor:
         )  # fmt: skip
         self._sources = [Source(self._node, one, frames) for one in read_sources(settings)]
         report_others(settings)
-        self._zones = [zone for zone, _ in zones]
-        for zone, own in zones:
-            self._connect(zone, own)
+        self._polygons = [polygon for polygon, _ in polygons]
+        for polygon, own in polygons:
+            self._connect(polygon, own)
         self._out = TwistPublisher(
             self._node, is_stamped=self._stamped, topic=text("cmd_vel_out_topic")
         )
@@ -116,27 +116,27 @@ class _Monitor:
         for each in (*self._open, *(out for _, out in self._shown), self._state_out):
             if each is not None:
                 each.unregister()
-        self._sources, self._open, self._shown, self._zones = [], [], [], []
+        self._sources, self._open, self._shown, self._polygons = [], [], [], []
         self._out = self._state_out = None
         return True
 
-    def _connect(self, zone: Zone, own: ParameterReader) -> None:
+    def _connect(self, polygon: Polygon, own: ParameterReader) -> None:
         """Let a topic give a zone's outline, and show it, where that is asked for."""
-        if zone.radius_m is None and zone.outline is None and not zone.bands:
+        if polygon.radius_m is None and polygon.outline is None and not polygon.sub_polygons:
             topic = own.text("polygon_sub_topic")
-            if not topic and zone.action is Action.APPROACH:
+            if not topic and polygon.action is Action.APPROACH:
                 topic = own.text("footprint_topic")
 
             def take(message: Any) -> None:
                 found = outline_in_base(self._frames, message, self._base)
                 if found is not None:
-                    zone.outline = found
+                    polygon.outline = found
 
             self._open.append(self._node.create_subscription(topic, _POLYGON, take))
         if own.flag("visualize"):
-            topic = own.text("polygon_pub_topic") or zone.name
+            topic = own.text("polygon_pub_topic") or polygon.name
             out = self._node.create_publisher(topic, message_type(_POLYGON))
-            self._shown.append((zone, out))
+            self._shown.append((polygon, out))
 
     def _hear(self, message: Any) -> None:
         twist = message.twist if self._stamped else message
@@ -151,10 +151,10 @@ class _Monitor:
     def _guard(self, command: Velocity) -> None:
         now_ns = self._node.clock.now_ns()
         verdict = self._verdict(command, now_ns)
-        if (verdict.zone, verdict.action) != (self._last.zone, self._last.action):
+        if (verdict.polygon, verdict.action) != (self._last.polygon, self._last.action):
             self._tell(verdict)
-        for zone, out in self._shown:
-            self._show(zone, out, now_ns)
+        for polygon, out in self._shown:
+            self._show(polygon, out, now_ns)
         if verdict.velocity == _STAND:
             if self._last.velocity != _STAND or not self._stopped_ns:
                 self._stopped_ns = now_ns
@@ -180,28 +180,28 @@ class _Monitor:
             self._frames.say("warn", f"[{source.options.name}]: {found}", source.options.name)
             if source.options.timeout_s > 0:
                 return Verdict(_STAND, Action.STOP, _BLIND)
-        return guarded(command, self._zones, seen)
+        return guarded(command, self._polygons, seen)
 
     def _tell(self, verdict: Verdict) -> None:
         """Say what happens now, once."""
         words = _WORDS[verdict.action]
-        zone = next((one for one in self._zones if one.name == verdict.zone), None)
-        name = f"{verdict.zone} polygon" if zone is not None else verdict.zone
-        ratio = f"{100 * zone.ratio:.3g} %" if zone is not None else ""
+        polygon = next((one for one in self._polygons if one.name == verdict.polygon), None)
+        name = f"{verdict.polygon} polygon" if polygon is not None else verdict.polygon
+        ratio = f"{100 * polygon.ratio:.3g} %" if polygon is not None else ""
         values = (ratio, name) if verdict.action is Action.SLOWDOWN else (name,)
         self._node.log("info", words.format(*values))
         if self._state_out is not None:
             kind = self._state_out.message_class
-            state = kind(action_type=verdict.action.value, polygon_name=verdict.zone)
+            state = kind(action_type=verdict.action.value, polygon_name=verdict.polygon)
             self._state_out.publish(state)
 
-    def _show(self, zone: Zone, out: Any, now_ns: int) -> None:
+    def _show(self, polygon: Polygon, out: Any, now_ns: int) -> None:
         if not out.matched:
             return
         message = out.message_class()
         set_header(message, now_ns, self._base)
         point: Any = message_type("geometry_msgs/msg/Point32")
-        message.polygon.points = [point(x=x, y=y) for x, y in zone.corners()]
+        message.polygon.points = [point(x=x, y=y) for x, y in polygon.corners()]
         out.publish(message)
 
     def _toggle(self, request: Any) -> Any:
@@ -214,7 +214,7 @@ class _Monitor:
 
     def _change(self, changes: dict[str, Any]) -> str:
         """Take ``<zone>.enabled`` and ``<sensor>.enabled`` while the node runs."""
-        named: dict[str, Any] = {zone.name: zone for zone in self._zones}
+        named: dict[str, Any] = {polygon.name: polygon for polygon in self._polygons}
         named.update((source.options.name, source) for source in self._sources)
         for key, value in changes.items():
             name, _, word = key.partition(".")

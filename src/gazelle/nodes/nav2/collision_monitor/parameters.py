@@ -10,18 +10,18 @@ import numpy as np
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.navigation.costmap import Footprint
-from gazelle.nodes.nav2.collision_monitor.polygons import Action, Band, Points, Zone
+from gazelle.nodes.nav2.collision_monitor.polygons import Action, Points, Polygon, SubPolygon
 from gazelle.nodes.nav2.collision_monitor.sources import SOURCE_TYPES, SourceOptions
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.reader import ParameterReader
 
 __all__ = [
-    "BAND",
     "COLLISION_MONITOR",
+    "POLYGON",
     "SOURCE",
-    "ZONE",
+    "SUB_POLYGON",
+    "read_polygons",
     "read_sources",
-    "read_zones",
     "report_others",
 ]
 
@@ -57,7 +57,7 @@ COLLISION_MONITOR = ParameterTable(
     ),
 )  # fmt: skip
 
-ZONE = ParameterTable(
+POLYGON = ParameterTable(
     "zone of collision_monitor",
     "An area around the robot and what happens when something is in it.",
     (),
@@ -92,7 +92,7 @@ ZONE = ParameterTable(
     ),
 )  # fmt: skip
 
-BAND = ParameterTable(
+SUB_POLYGON = ParameterTable(
     "outline of a velocity_polygon",
     "The outline of a zone for a range of commands; the first that fits counts.",
     (),
@@ -131,17 +131,17 @@ _ACTIONS = {one.name.lower(): one for one in Action}
 _SHAPES = ("polygon", "circle", "velocity_polygon")
 
 
-def read_zones(settings: ParameterReader) -> list[tuple[Zone, ParameterReader]]:
+def read_polygons(settings: ParameterReader) -> list[tuple[Polygon, ParameterReader]]:
     """Return the zones of ``polygons`` with their settings; wrong ones are reported and left out.
 
     A polygon that a topic gives has no outline yet.
     """
     found = []
-    for name, own in _below(settings, "polygons", ZONE):
-        zone = _zone(name, own)
+    for name, own in _below(settings, "polygons", POLYGON):
+        polygon = _polygon(name, own)
         own.report_unknown(*own.texts("velocity_polygons"))
-        if zone is not None:
-            found.append((zone, own))
+        if polygon is not None:
+            found.append((polygon, own))
     return found
 
 
@@ -191,7 +191,7 @@ def _below(
         yield name, settings.with_table(table, tree, name)
 
 
-def _zone(name: str, own: ParameterReader) -> Zone | None:
+def _polygon(name: str, own: ParameterReader) -> Polygon | None:
     shape, word = own.text("type"), own.text("action_type")
     for what, given, known in (("type", shape, _SHAPES), ("action_type", word, _ACTIONS)):
         if given not in known:
@@ -202,34 +202,34 @@ def _zone(name: str, own: ParameterReader) -> Zone | None:
     least = own.integer("min_points")
     if own.has("max_points") and not own.has("min_points"):
         least = own.integer("max_points") + 1
-    zone = Zone(
+    polygon = Polygon(
         name, _ACTIONS[word], least=least, ratio=own.number("slowdown_ratio"),
         limits=(own.number("linear_limit"), own.number("angular_limit")),
         horizon_s=own.number("time_before_collision"), step_s=own.number("simulation_time_step"),
         sources=own.texts("sources_names"), enabled=own.flag("enabled"),
     )  # fmt: skip
     if shape == "circle":
-        zone.radius_m = own.number("radius")
-        return zone
+        polygon.radius_m = own.number("radius")
+        return polygon
     if shape == "velocity_polygon":
-        zone.bands = tuple(_bands(own))
-        return zone
+        polygon.sub_polygons = tuple(_sub_polygons(own))
+        return polygon
     if own.has("points"):
-        zone.outline = _outline(own)
-        return None if zone.outline is None else zone
-    if not own.text("polygon_sub_topic") and zone.action is not Action.APPROACH:
+        polygon.outline = _outline(own)
+        return None if polygon.outline is None else polygon
+    if not own.text("polygon_sub_topic") and polygon.action is not Action.APPROACH:
         text = "neither 'points' nor 'polygon_sub_topic' is given; the zone is left out"
         own.report("parameter.bad-value", text, "write points: '[[x1, y1], [x2, y2], [x3, y3]]'")
         return None
-    return zone
+    return polygon
 
 
-def _bands(own: ParameterReader) -> Iterator[Band]:
-    for _, below in _below(own, "velocity_polygons", BAND):
+def _sub_polygons(own: ParameterReader) -> Iterator[SubPolygon]:
+    for _, below in _below(own, "velocity_polygons", SUB_POLYGON):
         outline, number = _outline(below), below.number
         below.report_unknown()
         if outline is not None:
-            yield Band(
+            yield SubPolygon(
                 outline,
                 (number("linear_min"), number("linear_max")),
                 (number("theta_min"), number("theta_max")),

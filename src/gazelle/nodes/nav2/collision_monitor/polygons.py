@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.frontiers import are_inside
 
-__all__ = ["Action", "Band", "Points", "Velocity", "Verdict", "Zone", "guarded"]
+__all__ = ["Action", "Points", "Polygon", "SubPolygon", "Velocity", "Verdict", "guarded"]
 
 Points = NDArray[np.float64]
 """x, y in the robot's frame, m; shape (n, 2)."""
@@ -33,8 +33,8 @@ class Action(enum.Enum):
     LIMIT = 4
 
 
-class Band(NamedTuple):
-    """A range of commands and the outline that counts for them (``velocity_polygon``).
+class SubPolygon(NamedTuple):
+    """A range of commands and the outline that counts for them (``sub_polygon``).
 
     Attributes:
         outline: corners.
@@ -67,7 +67,7 @@ class Band(NamedTuple):
 
 
 @dataclass(slots=True)
-class Zone:
+class Polygon:
     """An area around the robot and what happens when something is in it.
 
     Attributes:
@@ -75,7 +75,7 @@ class Zone:
         action: what happens.
         radius_m: of a circle; None for a polygon.
         outline: corners of a polygon; None until it is known.
-        bands: outlines by command, see `Band`.
+        sub_polygons: outlines by command, see `SubPolygon`.
         least: so many points in it count as something.
         ratio: of the speed that is left, of `Action.SLOWDOWN`.
         limits: speed (m/s) and turn (rad/s) that are left, of `Action.LIMIT`.
@@ -88,7 +88,7 @@ class Zone:
     action: Action
     radius_m: float | None = None
     outline: Points | None = None
-    bands: tuple[Band, ...] = ()
+    sub_polygons: tuple[SubPolygon, ...] = ()
     least: int = 4
     ratio: float = 0.5
     limits: tuple[float, float] = (0.5, 0.5)
@@ -99,7 +99,10 @@ class Zone:
 
     def choose(self, command: Velocity) -> None:
         """Take the outline that belongs to a command; without one the last stays."""
-        found = next((band for band in self.bands if band.holds(command)), None)
+        found = next(
+            (sub_polygon for sub_polygon in self.sub_polygons if sub_polygon.holds(command)),
+            None,
+        )
         if found is not None:
             self.outline = found.outline
 
@@ -149,55 +152,57 @@ class Verdict(NamedTuple):
     Attributes:
         velocity: to send.
         action: why it is that.
-        zone: whose action that is, empty without one.
+        polygon: whose action that is, empty without one.
     """
 
     velocity: Velocity
     action: Action
-    zone: str
+    polygon: str
 
 
-def guarded(command: Velocity, zones: Sequence[Zone], seen: Mapping[str, Points]) -> Verdict:
+def guarded(command: Velocity, polygons: Sequence[Polygon], seen: Mapping[str, Points]) -> Verdict:
     """Return what zones leave of a command: the slowest of what each of them leaves.
 
     Args:
         command: what was asked for.
-        zones: in the order of the parameters; the first that stops is the last one looked at.
+        polygons: in the order of the parameters; the first that stops is the last one looked at.
         seen: points by the names of sensors.
     """
     verdict = Verdict(command, Action.NONE, "")
-    for zone in zones:
-        if not zone.enabled or zone.action is Action.NONE:
+    for polygon in polygons:
+        if not polygon.enabled or polygon.action is Action.NONE:
             continue
-        zone.choose(command)
+        polygon.choose(command)
         named = [
-            points for name, points in seen.items() if not zone.sources or name in zone.sources
+            points
+            for name, points in seen.items()
+            if not polygon.sources or name in polygon.sources
         ]
         points = np.concatenate(named) if named else np.empty((0, 2))
-        share = _share(zone, points, command)
+        share = _share(polygon, points, command)
         if share is None:
             continue
         left = (command[0] * share, command[1] * share, command[2] * share)
-        if zone.action is Action.STOP:
-            return Verdict(_STAND, Action.STOP, zone.name)
+        if polygon.action is Action.STOP:
+            return Verdict(_STAND, Action.STOP, polygon.name)
         if _amount(left) < _amount(verdict.velocity):
-            verdict = Verdict(left, zone.action, zone.name)
+            verdict = Verdict(left, polygon.action, polygon.name)
     return verdict
 
 
-def _share(zone: Zone, points: Points, command: Velocity) -> float | None:
+def _share(polygon: Polygon, points: Points, command: Velocity) -> float | None:
     """Return which share of a command a zone leaves, None when nothing is in it."""
-    if zone.action is Action.APPROACH:
-        time_s = zone.collision_s(points, command)
-        return None if time_s is None else time_s / zone.horizon_s
-    if zone.count(points) < zone.least:
+    if polygon.action is Action.APPROACH:
+        time_s = polygon.collision_s(points, command)
+        return None if time_s is None else time_s / polygon.horizon_s
+    if polygon.count(points) < polygon.least:
         return None
-    if zone.action is Action.STOP:
+    if polygon.action is Action.STOP:
         return 0.0
-    if zone.action is Action.SLOWDOWN:
-        return zone.ratio
+    if polygon.action is Action.SLOWDOWN:
+        return polygon.ratio
     speeds = (math.hypot(command[0], command[1]), abs(command[2]))
-    shares = [limit / v for limit, v in zip(zone.limits, speeds, strict=True) if v > 0]
+    shares = [limit / v for limit, v in zip(polygon.limits, speeds, strict=True) if v > 0]
     return min([1.0, *shares])
 
 

@@ -13,13 +13,13 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import SourceSpan, did_you_mean
 from gazelle.documents import read_text_limited
 from gazelle.documents.files import is_file
 from gazelle.errors import LaunchError
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.slam.cartographer.lua_interpreter import Builtin, LuaTable, Machine, text_of
-from gazelle.nodes.slam.cartographer.lua_parser import Place, failure, parse
+from gazelle.nodes.slam.cartographer.lua_parser import failure, parse
 
 __all__ = ["flags_of", "read_configuration"]
 
@@ -102,9 +102,9 @@ class _Loader:
         names["include"] = Builtin("include", self._include)
         names["choose"] = Builtin("choose", _choose)
         names["read"] = Builtin("read", self._read)
-        names["tostring"] = Builtin("tostring", lambda given, _place: text_of(_first(given)))
-        names["tonumber"] = Builtin("tonumber", lambda given, _place: _to_number(_first(given)))
-        names["print"] = Builtin("print", lambda _given, _place: None)
+        names["tostring"] = Builtin("tostring", lambda given, _span: text_of(_first(given)))
+        names["tonumber"] = Builtin("tonumber", lambda given, _span: _to_number(_first(given)))
+        names["print"] = Builtin("print", lambda _given, _span: None)
         names["math"] = LuaTable({
             "pi": math.pi, "huge": math.inf, **{key: _mathematics(key) for key in _MATH},
         })  # fmt: skip
@@ -120,7 +120,7 @@ class _Loader:
         returned = self._run(path)
         options = returned if isinstance(returned, LuaTable) else None
         if options is None:
-            raise failure("the configuration returns no table", Place(str(path), 0, 0),
+            raise failure("the configuration returns no table", SourceSpan(str(path), 0, 0),
                  "end it with: return options")  # fmt: skip
         found: dict[str, Any] = {}
         tables = {key: value for key, value in self._machine.globals.items()
@@ -141,28 +141,28 @@ class _Loader:
         close = did_you_mean(name, there)
         return close or "-configuration_directory and -configuration_basename name a Lua file"
 
-    def _run(self, path: Path, place: Place | None = None) -> Any:
+    def _run(self, path: Path, span: SourceSpan | None = None) -> Any:
         try:
             text = read_text_limited(path)
         except (OSError, UnicodeDecodeError) as error:
-            raise failure(f"{path} cannot be read: {error}", place) from error
+            raise failure(f"{path} cannot be read: {error}", span) from error
         return self._machine.run(parse(text, str(path)))
 
-    def _include(self, given: list[Any], place: Place) -> Any:
+    def _include(self, given: list[Any], span: SourceSpan) -> Any:
         name = str(_first(given))
         path = self._find(name)
         if path is not None:
             self._depth += 1
             if self._depth > _MAX_INCLUDE_DEPTH:
-                raise failure(f"'{name}' includes itself", place, "take the include away")
-            self._run(path, place)
+                raise failure(f"'{name}' includes itself", span, "take the include away")
+            self._run(path, span)
             self._depth -= 1
         elif name in _OWN_TABLES:
             self._make_tables(name)
         else:
             folders = ", ".join(str(folder) for folder in self._folders)
             hint = did_you_mean(name, _OWN_TABLES) or self._hint(name)
-            raise failure(f"File '{name}' was not found: it is in none of {folders}", place, hint)
+            raise failure(f"File '{name}' was not found: it is in none of {folders}", span, hint)
         return None
 
     def _make_tables(self, name: str) -> None:
@@ -173,14 +173,14 @@ class _Loader:
             for key, other in inner.items():
                 names[table].values.setdefault(key, names[other])
 
-    def _read(self, given: list[Any], place: Place) -> str:
+    def _read(self, given: list[Any], span: SourceSpan) -> str:
         path = self._find(str(_first(given)))
         if path is None:
-            raise failure(f"File '{_first(given)}' was not found", place)
+            raise failure(f"File '{_first(given)}' was not found", span)
         try:
             return read_text_limited(path)
         except (OSError, UnicodeDecodeError) as error:
-            raise failure(f"{path} cannot be read: {error}", place) from error
+            raise failure(f"{path} cannot be read: {error}", span) from error
 
 
 def _flatten(table: LuaTable, prefix: str, found: dict[str, Any], seen: set[int]) -> None:
@@ -198,12 +198,12 @@ def _first(given: list[Any]) -> Any:
     return given[0] if given else None
 
 
-def _choose(given: list[Any], _place: Place) -> Any:
+def _choose(given: list[Any], _span: SourceSpan) -> Any:
     condition, one, other = (*given, None, None, None)[:3]
     return other if condition in (None, False) else one
 
 
-def _getenv(given: list[Any], _place: Place) -> str | None:
+def _getenv(given: list[Any], _span: SourceSpan) -> str | None:
     return os.environ.get(str(_first(given)))
 
 
@@ -215,11 +215,11 @@ def _to_number(value: Any) -> float | None:
 
 
 def _mathematics(name: str) -> Builtin:
-    def call(given: list[Any], place: Place) -> float:
+    def call(given: list[Any], span: SourceSpan) -> float:
         try:
             return float(_MATH[name](*given))
         except (TypeError, ValueError, OverflowError) as error:
             text = f"bad argument to 'math.{name}': {error}"
-            raise failure(text, place, "give it a number") from error
+            raise failure(text, span, "give it a number") from error
 
     return Builtin(f"math.{name}", call)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import SourceSpan, did_you_mean
 from gazelle.nodes.slam.cartographer.lua_parser import (
     Assign,
     Binary,
@@ -21,7 +21,6 @@ from gazelle.nodes.slam.cartographer.lua_parser import (
     Index,
     Local,
     Name,
-    Place,
     Return,
     Statement,
     TableOf,
@@ -80,7 +79,7 @@ class Builtin(NamedTuple):
     """A function of ours; takes the arguments and the place of the call."""
 
     name: str
-    call: Callable[[list[Any], Place], Any]
+    call: Callable[[list[Any], SourceSpan], Any]
 
 
 class _Closure(NamedTuple):
@@ -168,7 +167,7 @@ class Machine:
         table = self._table(target, scope)
         key = self._value(target.key, scope)
         if key is None:
-            raise failure("table index is nil", target.place, "write a name or a number")
+            raise failure("table index is nil", target.span, "write a name or a number")
         if value is None:
             table.values.pop(key, None)
         else:
@@ -185,13 +184,13 @@ class Machine:
             fix = did_you_mean(target.owner.name, known) or (
                 'include "map_builder.lua" and "trajectory_builder.lua" above'
             )
-        raise failure(f"attempt to index {what} (a {name} value)", target.place, fix)
+        raise failure(f"attempt to index {what} (a {name} value)", target.span, fix)
 
     def _value(self, one: Expression, scope: _Scope) -> Any:
         self._steps += 1
         if self._steps > _MAX_STEPS:
             raise failure(
-                "the configuration takes too long", one.place, "write its values as they are"
+                "the configuration takes too long", one.span, "write its values as they are"
             )
         match one:
             case Constant():
@@ -225,23 +224,23 @@ class Machine:
 
     def _call(self, one: Call, scope: _Scope) -> Any:
         if one.method:
-            raise failure(f"method '{one.method}' is not understood in a configuration", one.place,
+            raise failure(f"method '{one.method}' is not understood in a configuration", one.span,
                  "write the value as it is")  # fmt: skip
         function = self._value(one.function, scope)
         given = [self._value(argument, scope) for argument in one.arguments]
         if isinstance(function, Builtin):
-            return function.call(given, one.place)
+            return function.call(given, one.span)
         if not isinstance(function, _Closure):
             what = _described(one.function)
             known = [key for key, value in self.globals.items() if isinstance(value, Builtin)]
-            raise failure(f"attempt to call {what} (a {_kind(function)} value)", one.place,
+            raise failure(f"attempt to call {what} (a {_kind(function)} value)", one.span,
                  did_you_mean(what, known) or "write the value as it is")  # fmt: skip
         names = function.function.parameters
         inner = _Scope(dict(zip(names, [*given, *([None] * len(names))], strict=False)),
                        function.scope)  # fmt: skip
         self._calls += 1
         if self._calls > _MAX_CALL_DEPTH:
-            raise failure("stack overflow", one.place, "a function calls itself without end")
+            raise failure("stack overflow", one.span, "a function calls itself without end")
         try:
             self._block(function.function.body, inner)
         except _Returned as returned:
@@ -254,7 +253,7 @@ class Machine:
         if one.operator == "not":
             return not _is_true(value)
         if one.operator == "-":
-            return -_number(value, one.value, one.place)
+            return -_number(value, one.value, one.span)
         if isinstance(value, str):
             return float(len(value.encode()))
         if isinstance(value, LuaTable):
@@ -263,7 +262,7 @@ class Machine:
                 count += 1
             return float(count)
         raise failure(f"attempt to get length of {_described(one.value)} (a {_kind(value)} value)",
-             one.place, "take a table or a string")  # fmt: skip
+             one.span, "take a table or a string")  # fmt: skip
 
     def _binary(self, one: Binary, scope: _Scope) -> Any:
         left = self._value(one.left, scope)
@@ -275,13 +274,13 @@ class Machine:
             same = type(left) is type(right) and left == right
             return same is (one.operator == "==")
         if one.operator == "..":
-            return _piece(left, one.left, one.place) + _piece(right, one.right, one.place)
+            return _piece(left, one.left, one.span) + _piece(right, one.right, one.span)
         if one.operator in _ORDERS:
             if isinstance(left, str) is isinstance(right, str) and isinstance(left, str | float):
                 return _ORDERS[one.operator](left, right)
-            raise failure(f"attempt to compare {_kind(left)} with {_kind(right)}", one.place,
+            raise failure(f"attempt to compare {_kind(left)} with {_kind(right)}", one.span,
                  "compare two numbers or two strings")  # fmt: skip
-        a, b = _number(left, one.left, one.place), _number(right, one.right, one.place)
+        a, b = _number(left, one.left, one.span), _number(right, one.right, one.span)
         try:
             return _NUMBERS[one.operator](a, b)
         except (ArithmeticError, TypeError, ValueError):
@@ -292,7 +291,7 @@ def _is_true(value: Any) -> bool:
     return value is not None and value is not False
 
 
-def _number(value: Any, source: Expression, place: Place) -> float:
+def _number(value: Any, source: Expression, span: SourceSpan) -> float:
     if isinstance(value, float):
         return value
     if isinstance(value, str):
@@ -302,19 +301,17 @@ def _number(value: Any, source: Expression, place: Place) -> float:
             pass
     if isinstance(value, LuaTable) and value.is_unknown:
         text = f"the default of {value.name} stands in cartographer's own files"
-        raise failure(f"{text}, which are not here", place, "write the number")
+        raise failure(f"{text}, which are not here", span, "write the number")
     what = _described(source)
-    raise failure(f"attempt to perform arithmetic on {what} (a {_kind(value)} value)", place,
+    raise failure(f"attempt to perform arithmetic on {what} (a {_kind(value)} value)", span,
          "write a number")  # fmt: skip
 
 
-def _piece(value: Any, source: Expression, place: Place) -> str:
+def _piece(value: Any, source: Expression, span: SourceSpan) -> str:
     if isinstance(value, str | float) and not isinstance(value, bool):
         return text_of(value)
     what = _described(source)
-    raise failure(
-        f"attempt to concatenate {what} (a {_kind(value)} value)", place, "write a string"
-    )
+    raise failure(f"attempt to concatenate {what} (a {_kind(value)} value)", span, "write a string")
 
 
 def text_of(value: Any) -> str:

@@ -25,7 +25,6 @@ __all__ = [
     "Index",
     "Local",
     "Name",
-    "Place",
     "Return",
     "Statement",
     "TableOf",
@@ -62,32 +61,18 @@ _TOKEN = re.compile(
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
 
 
-class Place(NamedTuple):
-    """Where something stands; line and column from 1."""
-
-    file: str
-    line: int
-    column: int
-    length: int = 1
-
-    @property
-    def span(self) -> SourceSpan:
-        """The same for diagnostics."""
-        return SourceSpan(self.file, self.line, self.column, self.length)
-
-
 class Token(NamedTuple):
     """A word: its kind, its text (of a string its value), and its place."""
 
     kind: Kind
     text: str
-    place: Place
+    span: SourceSpan
 
 
-def failure(text: str, place: Place | None, fix: str = "") -> UserFileError:
+def failure(text: str, span: SourceSpan | None, fix: str = "") -> UserFileError:
     """Return what refuses a file."""
     found = Diagnostics()
-    found.report("mapping.lua", text, place.span if place else None, fix=fix)
+    found.report("mapping.lua", text, span, fix=fix)
     return UserFileError(tuple(found))
 
 
@@ -100,39 +85,39 @@ def tokens_of(text: str, file: str) -> Iterator[Token]:
     at, line, line_start = 0, 1, 0
     while at < len(text):
         found = _TOKEN.match(text, at)
-        place = Place(file, line, at - line_start + 1, len(found[0]) if found else 1)
+        span = SourceSpan(file, line, at - line_start + 1, len(found[0]) if found else 1)
         if found is None:
-            raise _unknown(text[at], place)
+            raise _unknown(text[at], span)
         kind, word = found.lastgroup, found[0]
-        token = _token(kind or "", word, found, place)
+        token = _token(kind or "", word, found, span)
         if token is not None:
             yield token
         at = found.end()
         breaks = word.count("\n")
         if breaks:
             line, line_start = line + breaks, at - len(word) + word.rindex("\n") + 1
-    yield Token("end", "<eof>", Place(file, line, at - line_start + 1))
+    yield Token("end", "<eof>", SourceSpan(file, line, at - line_start + 1))
 
 
-def _unknown(character: str, place: Place) -> UserFileError:
+def _unknown(character: str, span: SourceSpan) -> UserFileError:
     if character in "\"'":
-        return failure("unfinished string", place, f"close it with {character} in the same line")
+        return failure("unfinished string", span, f"close it with {character} in the same line")
     return failure(
-        f"unexpected symbol near '{character}'", place, "take it away, or put it into a string"
+        f"unexpected symbol near '{character}'", span, "take it away, or put it into a string"
     )
 
 
-def _token(kind: str, word: str, found: re.Match[str], place: Place) -> Token | None:
+def _token(kind: str, word: str, found: re.Match[str], span: SourceSpan) -> Token | None:
     if found["string"] is not None:
-        return Token("string", _unescaped(word[1:-1]), place)
+        return Token("string", _unescaped(word[1:-1]), span)
     if found["long"] is not None:
         skip = len(found["level"]) + 2
-        return Token("string", word[skip:-skip].removeprefix("\n"), place)
+        return Token("string", word[skip:-skip].removeprefix("\n"), span)
     if found["number"] is not None:
-        return Token("number", word, place)
+        return Token("number", word, span)
     if found["name"] is not None:
-        return Token("keyword" if word in KEYWORDS else "name", word, place)
-    return Token("symbol", word, place) if kind == "symbol" else None
+        return Token("keyword" if word in KEYWORDS else "name", word, span)
+    return Token("symbol", word, span) if kind == "symbol" else None
 
 
 def _unescaped(text: str) -> str:
@@ -150,7 +135,7 @@ class Constant:
     """``nil``, ``true``, ``false``, a number or a string."""
 
     value: bool | float | str | None
-    place: Place
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +143,7 @@ class Name:
     """A variable."""
 
     name: str
-    place: Place
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +152,7 @@ class Index:
 
     owner: Expression
     key: Expression
-    place: Place
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +162,7 @@ class Call:
     function: Expression
     arguments: tuple[Expression, ...]
     method: str
-    place: Place
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,7 +171,7 @@ class Unary:
 
     operator: str
     value: Expression
-    place: Place
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +181,7 @@ class Binary:
     operator: str
     left: Expression
     right: Expression
-    place: Place
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,7 +197,7 @@ class TableOf:
     """``{…}``."""
 
     fields: tuple[Field, ...]
-    place: Place
+    span: SourceSpan
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,7 +206,7 @@ class Function:
 
     parameters: tuple[str, ...]
     body: Block
-    place: Place
+    span: SourceSpan
 
 
 Expression: TypeAlias = Constant | Name | Index | Call | Unary | Binary | TableOf | Function
@@ -334,16 +319,16 @@ class _Reader:
         """Take a word that has to come."""
         token = self._next
         if not self._is(text):
-            since = f" (to close '{opened.text}' at line {opened.place.line})" if opened else ""
+            since = f" (to close '{opened.text}' at line {opened.span.line})" if opened else ""
             raise failure(
-                f"'{text}' expected{since} near '{token.text}'", token.place, f"write {text}"
+                f"'{text}' expected{since} near '{token.text}'", token.span, f"write {text}"
             )
         return self._take()
 
     def _name(self) -> Token:
         token = self._next
         if token.kind != "name":
-            raise failure(f"<name> expected near '{token.text}'", token.place, "write a name")
+            raise failure(f"<name> expected near '{token.text}'", token.span, "write a name")
         return self._take()
 
     def block(self) -> Block:
@@ -361,7 +346,7 @@ class _Reader:
     def _statement(self) -> Statement:
         token = self._next
         if token.kind == "keyword" and token.text in _LOOPS:
-            raise failure(f"'{token.text}' is not understood in a configuration", token.place,
+            raise failure(f"'{token.text}' is not understood in a configuration", token.span,
                  "write the assignments one by one")  # fmt: skip
         if self._has("do"):
             body = self.block()
@@ -402,10 +387,10 @@ class _Reader:
 
     def _named_function(self, opened: Token) -> Assign:
         name = self._name()
-        target: Name | Index = Name(name.text, name.place)
+        target: Name | Index = Name(name.text, name.span)
         while self._has("."):
             name = self._name()
-            target = Index(target, Constant(name.text, name.place), name.place)
+            target = Index(target, Constant(name.text, name.span), name.span)
         return Assign((target,), (self._function(opened),))
 
     def _assignment_or_call(self) -> Statement:
@@ -418,7 +403,7 @@ class _Reader:
         named = tuple(one for one in targets if isinstance(one, Name | Index))
         if len(named) != len(targets) or not self._is("="):
             token = first if len(named) != len(targets) else self._next
-            raise failure(f"syntax error near '{token.text}'", token.place,
+            raise failure(f"syntax error near '{token.text}'", token.span,
                  "write NAME = VALUE, or a call; comments begin with --")  # fmt: skip
         self._take()
         return Assign(named, self._expressions())
@@ -433,13 +418,13 @@ class _Reader:
         self._depth += 1
         if self._depth > _MAX_DEPTH:
             raise failure(
-                "an expression is nested too deeply", self._next.place, "write it in parts"
+                "an expression is nested too deeply", self._next.span, "write it in parts"
             )
         token = self._next
         left: Expression
         if token.kind in ("symbol", "keyword") and token.text in _UNARY:
             self._take()
-            left = Unary(token.text, self._expression(_UNARY_STRENGTH), token.place)
+            left = Unary(token.text, self._expression(_UNARY_STRENGTH), token.span)
         else:
             left = self._simple()
         while self._next.kind in ("symbol", "keyword") and self._next.text in _BINARY:
@@ -447,7 +432,7 @@ class _Reader:
             if to_left <= strength:
                 break
             operator = self._take()
-            left = Binary(operator.text, left, self._expression(to_right), operator.place)
+            left = Binary(operator.text, left, self._expression(to_right), operator.span)
         self._depth -= 1
         return left
 
@@ -455,11 +440,11 @@ class _Reader:
         token = self._next
         if token.kind == "number":
             number = float(int(token.text, 16) if token.text[:2] in ("0x", "0X") else token.text)
-            return Constant(number, self._take().place)
+            return Constant(number, self._take().span)
         if token.kind == "string":
-            return Constant(token.text, self._take().place)
+            return Constant(token.text, self._take().span)
         if token.kind == "keyword" and token.text in _CONSTANTS:
-            return Constant(_CONSTANTS[token.text], self._take().place)
+            return Constant(_CONSTANTS[token.text], self._take().span)
         if self._is("{"):
             return self._table()
         if self._has("function"):
@@ -473,29 +458,29 @@ class _Reader:
             value = self._expression()
             self.expect(")", token)
         elif token.kind == "name":
-            value = Name(self._take().text, token.place)
+            value = Name(self._take().text, token.span)
         else:
-            raise failure(f"unexpected symbol near '{token.text}'", token.place, "write a value")
+            raise failure(f"unexpected symbol near '{token.text}'", token.span, "write a value")
         while True:
             token = self._next
             if self._has("."):
                 name = self._name()
-                value = Index(value, Constant(name.text, name.place), name.place)
+                value = Index(value, Constant(name.text, name.span), name.span)
             elif self._has("["):
-                value = Index(value, self._expression(), token.place)
+                value = Index(value, self._expression(), token.span)
                 self.expect("]", token)
             elif self._has(":"):
                 method = self._name()
-                value = Call(value, self._arguments(), method.text, method.place)
+                value = Call(value, self._arguments(), method.text, method.span)
             elif self._is("(", "{") or token.kind == "string":
-                value = Call(value, self._arguments(), "", token.place)
+                value = Call(value, self._arguments(), "", token.span)
             else:
                 return value
 
     def _arguments(self) -> tuple[Expression, ...]:
         token = self._next
         if token.kind == "string":
-            return (Constant(token.text, self._take().place),)
+            return (Constant(token.text, self._take().span),)
         if self._is("{"):
             return (self._table(),)
         self.expect("(")
@@ -511,7 +496,7 @@ class _Reader:
             if not (self._has(",") or self._has(";")):
                 break
         self.expect("}", opened)
-        return TableOf(tuple(fields), opened.place)
+        return TableOf(tuple(fields), opened.span)
 
     def _field(self) -> Field:
         token = self._next
@@ -523,7 +508,7 @@ class _Reader:
         after = self._tokens[min(self._at + 1, len(self._tokens) - 1)]
         if token.kind == "name" and after.kind == "symbol" and after.text == "=":
             self._at += 2
-            return Field(Constant(token.text, token.place), self._expression())
+            return Field(Constant(token.text, token.span), self._expression())
         return Field(None, self._expression())
 
     def _function(self, opened: Token) -> Function:
@@ -536,4 +521,4 @@ class _Reader:
         self.expect(")")
         body = self.block()
         self.expect("end", opened)
-        return Function(tuple(names), body, opened.place)
+        return Function(tuple(names), body, opened.span)
