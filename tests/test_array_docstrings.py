@@ -22,6 +22,7 @@ DONE = (
     "mapping",
     "motion",
     "navigation",
+    "nodes",
     "noise",
     "sensors",
 )

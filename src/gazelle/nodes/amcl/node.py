@@ -77,7 +77,13 @@ class AmclPublisher:
     def cloud(
         self, particles: NDArray[np.float64], weights: NDArray[np.float64], now_ns: int
     ) -> None:
-        """Publish the particles while somebody listens."""
+        """Publish the particles while somebody listens.
+
+        Args:
+            particles: x (m), y (m) and yaw (rad) of each in the map's frame, (n, 3).
+            weights: of each, (n,).
+            now_ns: stamp of the message.
+        """
         if not self._cloud.matched:
             return
         poses = []

@@ -84,7 +84,7 @@ class LocalPlanner:
         self._T_local_plan: PlanePose | None = None
 
     def set_plan(self, plan: NDArray[np.float64], frame: str) -> bool:
-        """Take a plan of a frame; False when tf does not know the frame."""
+        """Take a plan, (n, 3): x, y (m), yaw (rad) in a frame; False when tf does not know that."""
         self._plan, self._plan_frame, self._T_local_plan = plan, frame, None
         return self._place_plan() == ""
 

@@ -83,12 +83,12 @@ class MoveGroupContext:
         return scene
 
     def state_message(self, positions: FloatArray) -> Any:
-        """Return the ``RobotState`` of positions, now."""
+        """Return the ``RobotState`` of the robot's positions (rad, m), (variables,), now."""
         now_ns = self.node.clock.now_ns()
         return robot_state_message(self.robot, positions, frame=self.robot.frame, stamp_ns=now_ns)
 
     def pose_in_frame(self, scene: PlanningScene, T_robot_link: FloatArray, frame: str) -> Pose:
-        """Return a pose of the planning frame in another frame.
+        """Return a pose of the planning frame, (4, 4), in another frame.
 
         Raises:
             MoveGroupError: nobody knows the frame.
@@ -97,7 +97,12 @@ class MoveGroupContext:
         return Pose.from_matrix(np.linalg.inv(T_robot_frame) @ T_robot_link)
 
     def show(self, trajectory: Any, start: FloatArray) -> None:
-        """Publish a planned ``RobotTrajectory`` for views."""
+        """Publish a planned ``RobotTrajectory`` for views.
+
+        Args:
+            trajectory: the message.
+            start: the robot's positions at its beginning, rad and m, (variables,).
+        """
         message: Any = message_type("moveit_msgs/msg/DisplayTrajectory")(model_id=self.robot.name)
         message.trajectory = [trajectory]
         message.trajectory_start = self.state_message(start)

@@ -49,14 +49,14 @@ class Goal:
 
     @property
     def centre(self) -> FloatArray:
-        """The configuration that an exact goal asks for."""
+        """The configuration that an exact goal asks for, rad and m, (`size`,)."""
         q = np.zeros(self.size)
         for one in self.joints:
             q[one.index] = one.position
         return q
 
     def is_met(self, q: FloatArray) -> bool:
-        """Return whether all constraints hold at a configuration."""
+        """Return whether all constraints hold at a configuration, rad and m, (`size`,)."""
         return all((np.abs(one.excess(q)) <= _SLACK).all() for one in self.constraints)
 
     def told(self) -> str:

@@ -44,7 +44,7 @@ class GroupProblem:
 
     @property
     def start_q(self) -> FloatArray:
-        """Where the group starts."""
+        """Where the group starts, rad and m, (variables of the group,)."""
         return self.group.take(self.scene.positions)
 
     def T_planning_frame(self, name: str) -> FloatArray:
@@ -67,11 +67,20 @@ class GroupProblem:
         return reader.read(message)
 
     def positions(self, q: FloatArray) -> FloatArray:
-        """Return the robot's positions with the group at a configuration."""
+        """Return the robot's positions, (variables,), with the group at `q`; rad and m.
+
+        Args:
+            q: a configuration of the group, (variables of the group,).
+        """
         return self.scene.robot.with_group(self.group, q, self.scene.positions)
 
     def link_pose(self, q: FloatArray, link: str) -> Pose:
-        """Return where a link is with the group at a configuration."""
+        """Return where a link is in the planning frame with the group at a configuration.
+
+        Args:
+            q: the configuration, rad and m, (variables of the group,).
+            link: its name.
+        """
         return Pose.from_matrix(self.solver.fk(q, link))
 
 

@@ -69,7 +69,7 @@ def positions_of(message: Any, model: RobotModel, base: FloatArray) -> FloatArra
     Args:
         message: a ``RobotState``; its attached objects are not looked at.
         model: the robot.
-        base: all positions.
+        base: all positions, rad and m, (variables,); so are those that are returned.
 
     Raises:
         MoveGroupError: the message names joints that the robot has not, or too few positions.
@@ -101,7 +101,7 @@ def robot_state_message(
 
     Args:
         model: the robot.
-        positions: of all its variables.
+        positions: of all its variables, rad and m, (variables,).
         frame: planning frame.
         stamp_ns: when the robot is there.
     """
@@ -119,7 +119,14 @@ def robot_state_message(
 def joint_state_message(
     model: RobotModel, positions: FloatArray, *, frame: str, stamp_ns: int
 ) -> Any:
-    """Return a ``JointState`` of all joints with one variable."""
+    """Return a ``JointState`` of all joints with one variable.
+
+    Args:
+        model: the robot.
+        positions: of all its variables, rad and m, (variables,).
+        frame: planning frame.
+        stamp_ns: when the robot is there.
+    """
     message: Any = message_type("sensor_msgs/msg/JointState")()
     message.header.frame_id = frame
     set_stamp(message.header.stamp, stamp_ns)

@@ -66,7 +66,7 @@ class CostmapPublisher:
             self._raw.publish(self.raw_message(grid, now_ns))
 
     def publish_footprint(self, corners: NDArray[np.float64], now_ns: int) -> None:
-        """Tell the robot's outline in the costmap's frame."""
+        """Publish the robot's outline, corners in the costmap's frame (m), (n, 2)."""
         if not self._footprint.matched:
             return
         point: Any = message_type("geometry_msgs/msg/Point32")

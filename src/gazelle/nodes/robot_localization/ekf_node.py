@@ -64,7 +64,7 @@ class _Input:
 
 
 def config_of(name: str, value: Any) -> NDArray[np.bool_]:
-    """Return which states an input counts for.
+    """Return which states an input counts for, (15,).
 
     Raises:
         LaunchError: it is no list of 15 truth values.

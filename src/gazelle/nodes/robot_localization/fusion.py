@@ -120,7 +120,7 @@ class Fusion:
             self._last.clear()
 
     def snapshot(self) -> tuple[int, NDArray[np.float64], NDArray[np.float64]]:
-        """Return time, state and covariance."""
+        """Return time, state, (15,), and its covariance, (15, 15), in the order of `Ekf`."""
         with self._lock:
             return self.stamp_ns, self._ekf.state.copy(), self._ekf.covariance.copy()
 
