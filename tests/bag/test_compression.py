@@ -9,12 +9,12 @@ from pathlib import Path
 import lz4.frame
 import pytest
 
-from gazelle.bag import BagError, create_bag, open_bag, ros1_connection, zstandard
-from gazelle.bag.compression import unpack_file, unpacked
+from gazelle.bag import BagError, create_bag, open_bag, ros1_connection
+from gazelle.bag.compression import compress_zstd, decompress_file, decompressed
 from gazelle.bag.ros1 import Compression
 from gazelle.bag.storage import Storage
 
-PACK = {"bz2": bz2.compress, "lz4": lz4.frame.compress, "zstd": zstandard.compress}
+PACK = {"bz2": bz2.compress, "lz4": lz4.frame.compress, "zstd": compress_zstd}
 BOMB = bytes(100 << 20)
 
 
@@ -22,10 +22,10 @@ BOMB = bytes(100 << 20)
 def test_a_piece_is_what_was_packed(compression: str) -> None:
     data = bytes(range(256)) * 1000
     packed = PACK[compression](data)
-    assert unpacked(packed, compression, len(data)) == data
-    assert unpacked(packed, compression) == data
-    assert unpacked(packed + packed, compression, 2 * len(data)) == data + data
-    assert unpacked(PACK[compression](b""), compression, 0) == b""
+    assert decompressed(packed, compression, len(data)) == data
+    assert decompressed(packed, compression) == data
+    assert decompressed(packed + packed, compression, 2 * len(data)) == data + data
+    assert decompressed(PACK[compression](b""), compression, 0) == b""
 
 
 @pytest.mark.parametrize("compression", PACK)
@@ -34,7 +34,7 @@ def test_a_bomb_is_not_unpacked(compression: str, said: int) -> None:
     packed = PACK[compression](BOMB)
     tracemalloc.start()
     with pytest.raises(BagError, match=f"holds more than {said} bytes, not {said}"):
-        unpacked(packed, compression, said)
+        decompressed(packed, compression, said)
     _now, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < 2 * said + (4 << 20)
@@ -42,21 +42,21 @@ def test_a_bomb_is_not_unpacked(compression: str, said: int) -> None:
 
 def test_what_is_said_to_be_huge_is_not_even_begun(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(BagError, match=r"is said to hold 4000000000 bytes, at most 536870912"):
-        unpacked(b"", "bz2", 4_000_000_000)
+        decompressed(b"", "bz2", 4_000_000_000)
     monkeypatch.setenv("GAZELLE_LIMITS", "0.001")
     with pytest.raises(BagError, match=r"goes on and on, at most 536870 .*GAZELLE_LIMITS=10"):
-        unpacked(zstandard.compress(BOMB), "zstd")
+        decompressed(compress_zstd(BOMB), "zstd")
 
 
 @pytest.mark.parametrize("compression", PACK)
 def test_damage_is_told(compression: str) -> None:
     packed = PACK[compression](bytes(range(256)) * 1000)
     with pytest.raises(BagError, match=f"a chunk of {compression} is damaged: it ends too early"):
-        unpacked(packed[:-8], compression, 256_000)
+        decompressed(packed[:-8], compression, 256_000)
     with pytest.raises(BagError, match=f"a chunk of {compression} is damaged: "):
-        unpacked(b"nonsense" * 10, compression, 256_000)
+        decompressed(b"nonsense" * 10, compression, 256_000)
     with pytest.raises(BagError, match=f"a chunk of {compression} holds 256000 bytes, not 256001"):
-        unpacked(packed, compression, 256_001)
+        decompressed(packed, compression, 256_001)
 
 
 def test_a_file_does_not_grow_to_fill_the_disk(
@@ -64,9 +64,9 @@ def test_a_file_does_not_grow_to_fill_the_disk(
 ) -> None:
     monkeypatch.setenv("GAZELLE_LIMITS", "0.001")
     source = tmp_path / "bag.mcap.zstd"
-    source.write_bytes(zstandard.compress(BOMB))
+    source.write_bytes(compress_zstd(BOMB))
     with pytest.raises(BagError, match="the file holds more than 1000 times its own size"):
-        unpack_file(source, tmp_path / "bag.mcap")
+        decompress_file(source, tmp_path / "bag.mcap")
 
 
 @pytest.fixture

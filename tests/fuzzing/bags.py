@@ -20,12 +20,12 @@ from gazelle.bag import (
     open_bag,
     ros1_connection,
 )
-from gazelle.bag.export.rows import reader_of, row_of
-from gazelle.bag.playing.messages import outgoing
+from gazelle.bag.compression import compress_zstd
+from gazelle.bag.export import reader_of, row_of
+from gazelle.bag.playing.player import outgoing
 from gazelle.bag.rosbag2.folder import Rosbag2, reindex
 from gazelle.bag.rosbag2.metadata import read_qos
 from gazelle.bag.types import split_texts
-from gazelle.bag.zstandard import compress
 from gazelle.diagnostics import Diagnostics
 from gazelle.interfaces import RosVersion, message_type, ros1_message_type, to_cdr, to_ros1
 from gazelle.interfaces.parser import parse_message
@@ -115,7 +115,7 @@ def _of_whole_folder() -> bytes:
 
 
 def _packed() -> bytes:
-    return compress(_written(Storage.MCAP, "a.mcap", ""))
+    return compress_zstd(_written(Storage.MCAP, "a.mcap", ""))
 
 
 def _kind(storage: Storage, name: str, compression: str = "") -> Kind:

@@ -31,8 +31,8 @@ from gazelle.graph.tf import TransformBuffer, TransformListener
 from gazelle.interfaces import action_type, fill
 from gazelle.testing.isolated_graph import open_graph
 from gazelle.testing.launch import Launch
+from gazelle.testing.messages import Waiting
 from gazelle.testing.process_tree import ProcessTree, launch_environment
-from gazelle.testing.waiting import Waiting
 
 END_S = 5.0
 """All processes of a launch are gone this long after Ctrl-C, in seconds of real time."""

@@ -1,4 +1,4 @@
-"""Decompressing pieces of bags: no further than they say, and than there is room for.
+"""Compressed pieces of bags, decompressed no further than they say, and than there is room for.
 
 A few kilobytes can be written that would be gigabytes, so nothing is decompressed whole before its
 size is looked at.
@@ -11,19 +11,25 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from gazelle.bag import zstandard
 from gazelle.bag.storage import BagError
 from gazelle.documents import HOW_TO_RAISE, scaled
 
-__all__ = ["unpack_file", "unpacked"]
+__all__ = ["ZSTD_MAGIC", "compress_zstd", "decompress_file", "decompressed"]
 
+ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 _MAX_BYTES = 512 << 20
 _PIECE = 1 << 20
 # Pictures of one colour shrink to a thousandth; what shrinks further is no recording.
 _MAX_TIMES = 1000
 
 
-def unpacked(data: bytes, compression: str, size: int | None = None) -> bytes:
+def compress_zstd(data: bytes) -> bytes:
+    """Return one frame."""
+    frame: bytes = _zstd_library().compress(data)
+    return frame
+
+
+def decompressed(data: bytes, compression: str, size: int | None = None) -> bytes:
     """Return what a compressed piece of a bag holds.
 
     Args:
@@ -58,14 +64,14 @@ def unpacked(data: bytes, compression: str, size: int | None = None) -> bytes:
     return found
 
 
-def unpack_file(source: Path, target: Path) -> None:
+def decompress_file(source: Path, target: Path) -> None:
     """Write what a file compressed with zstd holds into another.
 
     Raises:
         BagError: the file is damaged, or ends too early, or there is no room, or it holds more
             than a thousand times its own size.
     """
-    library = zstandard.library()
+    library = _zstd_library()
     try:
         left = scaled(max(_MAX_BYTES, _MAX_TIMES * source.stat().st_size))
         with library.open(source, "rb") as packed, target.open("wb") as file:
@@ -83,6 +89,15 @@ def unpack_file(source: Path, target: Path) -> None:
         raise BagError(f"{source}: cannot be decompressed into {target.parent}: {error}") from None
 
 
+def _zstd_library() -> Any:
+    """Return Zstandard: Python's own from 3.14 on, its backport before."""
+    try:
+        from compression import zstd  # type: ignore[import-not-found]  # Python 3.14
+    except ImportError:
+        from backports import zstd
+    return zstd
+
+
 def _too_large(name: str, what: str, most: int) -> BagError:
     text = f"{name} {what}, at most {most} are unpacked"
     return BagError(f"{text}; {HOW_TO_RAISE}")
@@ -97,5 +112,5 @@ def _lz4() -> Any:
 _DECOMPRESSORS: dict[str, Callable[[], Any]] = {
     "bz2": bz2.BZ2Decompressor,
     "lz4": _lz4,
-    "zstd": lambda: zstandard.library().ZstdDecompressor(),
+    "zstd": lambda: _zstd_library().ZstdDecompressor(),
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gazelle.bag.compression import ZSTD_MAGIC
 from gazelle.bag.formats import (
     OWN_FORMATS,
     ROS1,
@@ -15,13 +16,12 @@ from gazelle.bag.formats import (
     format_of_suffix,
 )
 from gazelle.bag.ros1 import CHUNK_BYTES
-from gazelle.bag.rosbag2 import PackedFile, Rosbag2, Rosbag2Writer
+from gazelle.bag.rosbag2 import CompressedFile, Rosbag2, Rosbag2Writer
 from gazelle.bag.storage import BagError, BagReader, BagWriter
-from gazelle.bag.zstandard import ZSTD_MAGIC
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, render
 from gazelle.documents.files import is_file, is_folder
 
-__all__ = ["create_bag", "open_bag", "storage_of"]
+__all__ = ["create_bag", "open_bag", "storage_of", "tell_of_unindexed"]
 
 
 def open_bag(path: Path | str) -> BagReader:
@@ -41,7 +41,7 @@ def open_bag(path: Path | str) -> BagReader:
     with path.open("rb") as file:
         start = file.read(16)
     if start.startswith(ZSTD_MAGIC):
-        return PackedFile(path, open_bag)
+        return CompressedFile(path, open_bag)
     found = format_of_start(start, path.suffix)
     if found is None and not start and path.suffix != ROS1.suffix:
         raise BagError(f"{path}: the file is empty")
@@ -85,6 +85,19 @@ def storage_of(path: Path | str) -> str | None:
     name = Path(path).name.removesuffix(UNFINISHED)
     found = format_of_suffix(Path(name).suffix)
     return None if found is None else found.name
+
+
+def tell_of_unindexed(bag: BagReader) -> None:
+    """Say on stderr that a bag was not closed, and what that means."""
+    summary = bag.summary
+    if summary.is_indexed:
+        return
+    tool = format_of_name(bag.storage).reindex
+    lost = f"; its last {summary.lost} bytes are no whole piece" if summary.lost else ""
+    text = f"the bag was not closed{lost}; {summary.messages} messages can be read"
+    found = Diagnostics()
+    found.report("bag.unindexed", text, SourceSpan(str(bag.path)), fix=f"run `{tool} {bag.path}`")
+    render(found)
 
 
 def _bags_beside(path: Path) -> list[str]:

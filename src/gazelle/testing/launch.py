@@ -15,9 +15,8 @@ from gazelle.graph.key_expressions import ANY_TYPE
 from gazelle.interfaces import fill, service_type
 from gazelle.interfaces.stamps import seconds_of
 from gazelle.testing.isolated_graph import open_graph
-from gazelle.testing.messages import Messages
+from gazelle.testing.messages import Messages, Waiting, existing
 from gazelle.testing.process_tree import ProcessTree, launch_environment
-from gazelle.testing.waiting import Waiting, existing
 
 __all__ = ["Launch", "launched", "running"]
 

@@ -1,29 +1,53 @@
-"""The worlds and models that both Gazebos ship by name: which are here, and what the others need.
+"""Gazebo's models and worlds by name: model folders, Fuel caches, and what both Gazebos ship.
 
-``builtin/originals.txt`` lists them. A world or model that is here is Gazelle's own: it has the
-names, places and sizes of the original and plain shapes instead of its meshes.
+``builtin/originals.txt`` lists what they ship. A world or model that is here is Gazelle's own: it
+has the names, places and sizes of the original and plain shapes instead of its meshes.
 """
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
+from gazelle.documents.files import is_file
 from gazelle.workspace.environment_paths import BUILTIN
 
-__all__ = ["Original", "original_models", "original_worlds", "originals_markdown"]
+__all__ = [
+    "Original",
+    "folded",
+    "folders_around",
+    "fuel_model",
+    "fuel_models",
+    "is_model_folder",
+    "models_in",
+    "newest_version",
+    "original_models",
+    "original_worlds",
+    "originals_markdown",
+]
 
-
+_FILES = ("model.config", "manifest.xml", "model.sdf")
+_LEVELS = 4
 _LIST = BUILTIN / "originals.txt"
-
 _WORLDS_AT = {
     "gz-sim": "https://github.com/gazebosim/gz-sim, examples/worlds",
     "Gazebo Classic": "https://github.com/gazebosim/gazebo-classic, worlds",
 }
-
 _MODELS_AT = "https://github.com/osrf/gazebo_models"
+_HEAD = """# Worlds and models by name
+
+What both Gazebos ship by name, and launch files refer to by name: `gz sim shapes.sdf`,
+`worlds/empty.world`, `model://sun`, `https://fuel.gazebosim.org/…/models/Ground Plane`. Those that
+are here are Gazelle's own: names, places and sizes are the original's, shapes are plain. Nothing is
+downloaded; a model of that name on `GAZEBO_MODEL_PATH`, `GZ_SIM_RESOURCE_PATH`, in a package's
+`models` folder or in Fuel's cache comes first. The others are refused by name, with where they are.
+This page is generated: `python -m gazelle.workspace.gazebo_models > docs/worlds.md`.
+
+"""
 
 
 class Original(NamedTuple):
@@ -67,6 +91,83 @@ class Original(NamedTuple):
         )
 
 
+def folded(name: str) -> str:
+    """Return a model's name as folders have it: Fuel's "Ground Plane" is ``ground_plane``."""
+    return "_".join(name.casefold().replace("-", " ").replace("_", " ").split())
+
+
+def is_model_folder(folder: Path) -> bool:
+    """Return whether a folder holds a model (``model.config`` or ``model.sdf``)."""
+    return any(is_file(folder / name) for name in _FILES)
+
+
+def folders_around(base_dir: Path | None) -> Iterator[Path]:
+    """Yield folders near a file that may hold models: those around it and their ``models``.
+
+    Args:
+        base_dir: the file's folder; None yields nothing.
+    """
+    if base_dir is None:
+        return
+    here = base_dir.absolute()
+    for folder in (here, *here.parents)[:_LEVELS]:
+        yield folder
+        yield folder / "models"
+
+
+def models_in(folder: Path) -> Iterator[tuple[str, Path]]:
+    """Yield name and folder of the models directly below a model folder, sorted."""
+    try:
+        with os.scandir(folder) as entries:
+            names = sorted(entry.name for entry in entries if entry.is_dir())
+    except OSError:
+        return
+    for name in names:
+        if is_model_folder(folder / name):
+            yield name, folder / name
+
+
+def fuel_models(root: Path) -> Iterator[tuple[str, Path]]:
+    """Yield name and newest version's folder of the models in a Fuel cache, sorted.
+
+    Layout: ``<server>/<owner>/models/<name>/<version>``.
+    """
+    for models in sorted(root.glob("*/*/models")):
+        try:
+            names = sorted(os.listdir(models))  # noqa: PTH208
+        except OSError:
+            continue
+        for name in names:
+            folder = newest_version(models / name)
+            if folder is not None:
+                yield name, folder
+
+
+def fuel_model(root: Path, owner: str, name: str) -> Path | None:
+    """Return a cached Fuel model's newest version, upper and lower case alike."""
+    for models in sorted(root.glob("*/*/models")):
+        if models.parent.name.casefold() != owner.casefold():
+            continue
+        for candidate in sorted(models.iterdir()):
+            if candidate.name.casefold() == name.casefold():
+                return newest_version(candidate)
+    return None
+
+
+def newest_version(folder: Path) -> Path | None:
+    """Return the highest numbered subfolder that holds a model, or the folder itself."""
+    if is_model_folder(folder):
+        return folder
+    try:
+        numbers = [name for name in os.listdir(folder) if name.isdigit()]  # noqa: PTH208
+    except OSError:
+        return None
+    for number in sorted(numbers, key=int, reverse=True):
+        if is_model_folder(folder / number):
+            return folder / number
+    return None
+
+
 def original_worlds() -> Mapping[str, Original]:
     """Return the worlds by file name."""
     return _read()["world"]
@@ -75,32 +176,6 @@ def original_worlds() -> Mapping[str, Original]:
 def original_models() -> Mapping[str, Original]:
     """Return the models by folder name."""
     return _read()["model"]
-
-
-@cache
-def _read() -> dict[str, dict[str, Original]]:
-    found: dict[str, dict[str, Original]] = {"world": {}, "model": {}}
-    for line in _LIST.read_text(encoding="utf-8").splitlines():
-        if not line or line.startswith("#"):
-            continue
-        kind, name, owner, about = line.split(" | ", 3)
-        is_here, is_alike = not about.startswith("-"), kind == "world" or about.startswith("=")
-        about = about.lstrip("-= ")
-        # The first of two Gazebos with a world of one name counts.
-        found[kind].setdefault(name, Original(kind, name, owner, about, is_here, is_alike))
-    return found
-
-
-_HEAD = """# Worlds and models by name
-
-What both Gazebos ship by name, and launch files refer to by name: `gz sim shapes.sdf`,
-`worlds/empty.world`, `model://sun`, `https://fuel.gazebosim.org/…/models/Ground Plane`. Those that
-are here are Gazelle's own: names, places and sizes are the original's, shapes are plain. Nothing is
-downloaded; a model of that name on `GAZEBO_MODEL_PATH`, `GZ_SIM_RESOURCE_PATH`, in a package's
-`models` folder or in Fuel's cache comes first. The others are refused by name, with where they are.
-This page is generated: `python -m gazelle.workspace.gazebo_models > docs/worlds.md`.
-
-"""
 
 
 def originals_markdown() -> str:
@@ -115,6 +190,20 @@ def originals_markdown() -> str:
     missing = ", ".join(f"`{row.name}`" for row in models if not row.is_here)
     lines += ["", f"Not here, by name: {missing}."]
     return _HEAD + "\n".join(lines) + "\n"
+
+
+@cache
+def _read() -> dict[str, dict[str, Original]]:
+    found: dict[str, dict[str, Original]] = {"world": {}, "model": {}}
+    for line in _LIST.read_text(encoding="utf-8").splitlines():
+        if not line or line.startswith("#"):
+            continue
+        kind, name, owner, about = line.split(" | ", 3)
+        is_here, is_alike = not about.startswith("-"), kind == "world" or about.startswith("=")
+        about = about.lstrip("-= ")
+        # The first of two Gazebos with a world of one name counts.
+        found[kind].setdefault(name, Original(kind, name, owner, about, is_here, is_alike))
+    return found
 
 
 if __name__ == "__main__":

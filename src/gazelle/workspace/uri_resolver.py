@@ -14,8 +14,14 @@ from gazelle.diagnostics import nearest_names
 from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace.environment_paths import BUILTIN
 from gazelle.workspace.file_lookup import Resolved, locate, nearest_below, nearest_packages
-from gazelle.workspace.gazebo_models import original_models, original_worlds
-from gazelle.workspace.models import folded, folders_around, fuel_model, is_model_folder
+from gazelle.workspace.gazebo_models import (
+    folded,
+    folders_around,
+    fuel_model,
+    is_model_folder,
+    original_models,
+    original_worlds,
+)
 
 if TYPE_CHECKING:
     from gazelle.workspace.workspace import Workspace

@@ -18,7 +18,7 @@ from gazelle.workspace.environment_paths import (
     resource_folders,
 )
 from gazelle.workspace.file_lookup import Resolved, nearest_packages
-from gazelle.workspace.models import fuel_models, is_model_folder, models_in, newest_version
+from gazelle.workspace.gazebo_models import fuel_models, is_model_folder, models_in, newest_version
 from gazelle.workspace.package import Package, package_from
 from gazelle.workspace.package_discovery import FoundPackage
 from gazelle.workspace.package_xml import Manifest, ManifestError, read_manifest

@@ -6,8 +6,7 @@ import struct
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from gazelle.bag import zstandard
-from gazelle.bag.compression import unpacked
+from gazelle.bag.compression import compress_zstd, decompressed
 from gazelle.bag.mcap.records import HEAD, Cursor, Op, records_in
 from gazelle.bag.storage import BagError, Connection, Encoding
 
@@ -63,7 +62,7 @@ def compress(data: bytes, compression: str) -> bytes:
         frame: bytes = lz4.frame.compress(data)
         return frame
     if compression == "zstd":
-        return zstandard.compress(data)
+        return compress_zstd(data)
     return data
 
 
@@ -77,7 +76,7 @@ def decompress(data: bytes, compression: str, size: int) -> bytes:
         return data
     if compression not in ("lz4", "zstd"):
         raise BagError(f"a chunk is compressed with '{compression}' (lz4 and zstd are known)")
-    return unpacked(data, compression, size)
+    return decompressed(data, compression, size)
 
 
 def read_schema(content: bytes) -> tuple[int, Schema]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from gazelle.bag.playing.controls import Controls
-from gazelle.bag.playing.player import Player, PlayOptions
-from gazelle.bag.playing.timeline import Timeline
+from gazelle.bag.playing.player import Player, PlayOptions, Timeline
 
 __all__ = ["Controls", "PlayOptions", "Player", "Timeline"]

@@ -1,30 +1,98 @@
-"""Publishes the messages of bags at the times they were recorded."""
+"""Publishes the messages of bags at the times they were recorded.
+
+Messages are chosen, put in order, converted to CDR and read ahead of the time when they are due.
+"""
 
 from __future__ import annotations
 
+import heapq
 import sys
-from collections.abc import Callable, Iterator, Sequence
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from queue import Queue
+from typing import Any, NamedTuple
 
 from gazelle.bag.definition_sharing import TextShare
 from gazelle.bag.playing.controls import Controls
-from gazelle.bag.playing.messages import Outgoing, ahead, outgoing
-from gazelle.bag.playing.timeline import Timeline
 from gazelle.bag.rosbag2.metadata import read_qos
-from gazelle.bag.storage import BagReader, Connection
-from gazelle.bag.types import bag_types, wire_name_of
+from gazelle.bag.storage import BagMessage, BagReader, Connection, Encoding
+from gazelle.bag.types import bag_types, converter, wire_name_of
 from gazelle.errors import GazelleError
 from gazelle.graph import Node, Publisher
-from gazelle.interfaces import message_type
+from gazelle.interfaces import TypeStore, message_type
 from gazelle.interfaces.stamps import set_stamp
 
-__all__ = ["PlayOptions", "Player"]
+__all__ = ["PlayOptions", "Player", "Timeline", "ahead", "outgoing"]
 
+_READ_AHEAD = 200
 _MAX_WAIT_S = 0.05
 _SWITCH_S = 0.0002
 _LAST_PART_NS = 1_000_000
 _CLOCK = "rosgraph_msgs/msg/Clock"
+
+
+class _Outgoing(NamedTuple):
+    """A message that is ready to be published."""
+
+    place: int
+    connection: Connection
+    stamp_ns: int
+    data: bytes
+
+
+class Timeline:
+    """Maps stamps to the wall's clock, at a rate; it can be held and shifted.
+
+    Attributes:
+        rate: seconds of the bag in a second.
+    """
+
+    def __init__(
+        self, start_ns: int, rate: float, now_ns: Callable[[], int] = time.monotonic_ns
+    ) -> None:
+        """Start now at a stamp."""
+        self.rate = rate
+        self._now_ns = now_ns
+        self._stamp_ns = start_ns
+        self._wall_ns = now_ns()
+        self._held = False
+
+    @property
+    def held(self) -> bool:
+        """Whether time stands still."""
+        return self._held
+
+    def wait_ns(self, stamp_ns: int) -> int:
+        """Return how long it is until a stamp is due; not positive when it is."""
+        due_ns = self._wall_ns + int((stamp_ns - self._stamp_ns) / self.rate)
+        return due_ns - self._now_ns()
+
+    def stamp_ns(self) -> int:
+        """Return the stamp that is due now."""
+        if self._held:
+            return self._stamp_ns
+        return self._stamp_ns + int((self._now_ns() - self._wall_ns) * self.rate)
+
+    def hold(self, stamp_ns: int | None = None) -> None:
+        """Stand still, at a stamp or at that of now."""
+        self._stamp_ns = self.stamp_ns() if stamp_ns is None else stamp_ns
+        self._held = True
+
+    def go_on(self) -> None:
+        """Run from where it was held."""
+        self._wall_ns = self._now_ns()
+        self._held = False
+
+    def jump(self, stamp_ns: int) -> None:
+        """Be at a stamp now."""
+        self._stamp_ns, self._wall_ns = stamp_ns, self._now_ns()
+
+    def set_rate(self, rate: float) -> None:
+        """Go on from now at another rate."""
+        self.jump(self.stamp_ns())
+        self.rate = rate
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,11 +210,11 @@ class Player:
             self._publish(one)
             last_ns = one.stamp_ns
 
-    def _outgoing(self, start_ns: int, end_ns: int | None) -> Iterator[Outgoing]:
+    def _outgoing(self, start_ns: int, end_ns: int | None) -> Iterator[_Outgoing]:
         return outgoing(self._bags, self._wants, start_ns, end_ns, self._on_unread, self._types)
 
     def _publish_last(self, start_ns: int, end_ns: int | None) -> None:
-        last: dict[str, Outgoing] = {}
+        last: dict[str, _Outgoing] = {}
         for one in self._outgoing(start_ns, end_ns):
             if self._controls.stopped:
                 return
@@ -201,7 +269,7 @@ class Player:
         rest_ns = wait_ns - _LAST_PART_NS if wait_ns > 2 * _LAST_PART_NS else wait_ns
         self._controls.wait(min(rest_ns / 1e9, _MAX_WAIT_S))
 
-    def _publish(self, one: Outgoing) -> None:
+    def _publish(self, one: _Outgoing) -> None:
         publisher = self._publishers.get((one.place, one.connection.id))
         if publisher is not None:
             publisher.publish_raw(one.data)
@@ -239,3 +307,77 @@ class Player:
     def _on_unread(self, one: Connection, error: GazelleError) -> None:
         text = f"topic {one.topic} ({one.type_name}) is not played: {error}"
         self._say("error", f"{text} [bag.not-converted]")
+
+
+def outgoing(
+    bags: Sequence[BagReader],
+    wanted: Callable[[Connection], bool],
+    start_ns: int,
+    end_ns: int | None,
+    on_error: Callable[[Connection, GazelleError], None],
+    types: Sequence[TypeStore] = (),
+) -> Iterator[_Outgoing]:
+    """Yield the messages of several bags by stamp, in CDR.
+
+    Args:
+        bags: where they come from.
+        wanted: which connections.
+        start_ns: stamp of the first.
+        end_ns: stamp of the last, None for the end.
+        on_error: told once of each connection whose messages cannot be read; they are left out.
+        types: of each bag; the process's own when empty.
+    """
+    streams = [
+        _converted(
+            place, bag.messages(wanted, start_ns, end_ns), on_error, types[place] if types else None
+        )
+        for place, bag in enumerate(bags)
+    ]
+    return heapq.merge(*streams, key=lambda one: one.stamp_ns)
+
+
+def ahead(items: Iterable[_Outgoing]) -> Iterator[_Outgoing]:
+    """Yield the same, read by another thread so that reading costs no punctuality."""
+    queue: Queue[Any] = Queue(_READ_AHEAD)
+    ended = threading.Event()
+
+    def fill() -> None:
+        try:
+            for item in items:
+                queue.put(item)
+                if ended.is_set():
+                    return
+            queue.put(None)
+        except Exception as error:  # noqa: BLE001 - raised again where the items are taken
+            queue.put(error)
+
+    threading.Thread(target=fill, name="bag reader", daemon=True).start()
+    try:
+        while (item := queue.get()) is not None:
+            if isinstance(item, Exception):
+                raise item
+            yield item
+    finally:
+        ended.set()
+        while not queue.empty():
+            queue.get()
+
+
+def _converted(
+    place: int,
+    messages: Iterable[BagMessage],
+    on_error: Callable[[Connection, GazelleError], None],
+    types: TypeStore | None,
+) -> Iterator[_Outgoing]:
+    converters: dict[int, Callable[[bytes], bytes] | None] = {}
+    for one, stamp_ns, data in messages:
+        try:
+            if one.id not in converters:
+                converters[one.id] = None
+                converters[one.id] = converter(one, Encoding.CDR, types)
+            convert = converters[one.id]
+            if convert is not None:
+                yield _Outgoing(place, one, stamp_ns, convert(data))
+        except GazelleError as error:
+            converters[one.id] = None
+            on_error(one, error)

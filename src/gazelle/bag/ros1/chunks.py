@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.bag.compression import unpacked
+from gazelle.bag.compression import decompressed
 from gazelle.bag.ros1.records import Op, read_fields, unpack_stamp
 from gazelle.bag.storage import BagError, Connection, Encoding
 
@@ -80,7 +80,7 @@ def decompress(data: bytes, compression: str, size: int) -> bytes:
         return data
     if compression not in set(Compression):
         raise BagError(f"unknown compression type: {compression} (none, bz2 and lz4 are known)")
-    return unpacked(data, compression, size)
+    return decompressed(data, compression, size)
 
 
 def message_at(data: bytes, offset: int) -> bytes:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from gazelle.bag.rosbag2.compression_modes import PackedFile
+from gazelle.bag.rosbag2.compression_modes import CompressedFile
 from gazelle.bag.rosbag2.folder import Rosbag2, Rosbag2Writer, reindex
 from gazelle.bag.rosbag2.metadata import Metadata, read_metadata, write_metadata
 
 __all__ = [
+    "CompressedFile",
     "Metadata",
-    "PackedFile",
     "Rosbag2",
     "Rosbag2Writer",
     "read_metadata",

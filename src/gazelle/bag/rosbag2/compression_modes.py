@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from gazelle.bag.compression import unpack_file, unpacked
+from gazelle.bag.compression import decompress_file, decompressed
 from gazelle.bag.storage import (
     BagError,
     BagMessage,
@@ -16,13 +16,13 @@ from gazelle.bag.storage import (
     Wanted,
 )
 
-__all__ = ["SUFFIX", "PackedFile", "PackedMessages"]
+__all__ = ["SUFFIX", "CompressedFile", "CompressedMessages"]
 
 SUFFIX = ".zstd"
 _Opener = Callable[[Path], BagReader]
 
 
-class PackedFile:
+class CompressedFile:
     """A compressed file, read from a copy that is gone when it is closed.
 
     Attributes:
@@ -43,7 +43,7 @@ class PackedFile:
         self._folder = tempfile.TemporaryDirectory(prefix="gazelle_bag_")
         copy = Path(self._folder.name) / path.name.removesuffix(SUFFIX)
         try:
-            unpack_file(path, copy)
+            decompress_file(path, copy)
             self._bag = opener(copy)
         except BaseException:
             self._folder.cleanup()
@@ -72,7 +72,7 @@ class PackedFile:
         self._folder.cleanup()
 
 
-class PackedMessages:
+class CompressedMessages:
     """A file whose messages are compressed one by one.
 
     Attributes:
@@ -105,7 +105,7 @@ class PackedMessages:
         """
         for one in self._bag.messages(wanted, start_ns, end_ns):
             try:
-                yield one._replace(data=unpacked(one.data, "zstd"))
+                yield one._replace(data=decompressed(one.data, "zstd"))
             except BagError as error:
                 where = f"{one.connection.topic} at {one.stamp_ns} ns"
                 raise BagError(f"{self.path}: message of {where}: {error}") from None

@@ -17,7 +17,7 @@ from gazelle.bag.formats import (
     format_of_suffix,
     problems_of_added,
 )
-from gazelle.bag.rosbag2.compression_modes import SUFFIX, PackedFile, PackedMessages
+from gazelle.bag.rosbag2.compression_modes import SUFFIX, CompressedFile, CompressedMessages
 from gazelle.bag.rosbag2.metadata import FileSummary, read_metadata, write_metadata
 from gazelle.bag.storage import (
     BagError,
@@ -59,7 +59,7 @@ class Rosbag2:
         self.files = _files(path, metadata.files if metadata else ())
         self._readers: list[BagReader] = [_open(file) for file in self.files]
         if mode == "message":
-            self._readers = [PackedMessages(one) for one in self._readers]
+            self._readers = [CompressedMessages(one) for one in self._readers]
         self.storage = self._readers[0].storage
         self.ros_distro = metadata.ros_distro if metadata else ""
         self._own: dict[tuple[int, int], Connection] = {}
@@ -249,7 +249,7 @@ def reindex(folder: Path) -> None:
 
 def _open(path: Path) -> BagReader:
     if path.suffix == SUFFIX:
-        return PackedFile(path, _open)
+        return CompressedFile(path, _open)
     found = format_of_suffix(path.suffix)
     if found is None or not found.in_folder:
         suffixes = " or ".join(one.suffix for one in folder_formats())

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
 from gazelle.bag import BagError, Encoding, bag_types, open_bag, ros1_name_of
-from gazelle.bag.unindexed import tell_of_unindexed
+from gazelle.bag.opening import tell_of_unindexed
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.gz.world_link import pose_line
 from gazelle.graph.gazebo_names import world_names

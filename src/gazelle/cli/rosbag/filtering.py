@@ -20,7 +20,7 @@ from gazelle.bag import (
     storage_of,
 )
 from gazelle.bag.conversion import copy_bag
-from gazelle.bag.unindexed import tell_of_unindexed
+from gazelle.bag.opening import tell_of_unindexed
 from gazelle.cli.rosbag.progress import ProgressMeter
 from gazelle.cli.tool import ToolError, option_parser
 from gazelle.diagnostics import Diagnostics, render

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from gazelle.bag import BagError, open_bag
-from gazelle.bag.unindexed import tell_of_unindexed
+from gazelle.bag.opening import tell_of_unindexed
 from gazelle.cli.rosbag.report import report_of, report_text, report_yaml, yaml_value
 from gazelle.cli.tool import add_flag, option_parser
 

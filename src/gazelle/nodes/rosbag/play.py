@@ -9,9 +9,9 @@ from functools import partial
 from optparse import OptionParser, Values
 
 from gazelle.bag import BagReader, bag_types, open_bag
+from gazelle.bag.opening import tell_of_unindexed
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.playing.controls import keyboard
-from gazelle.bag.unindexed import tell_of_unindexed
 from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import start_node

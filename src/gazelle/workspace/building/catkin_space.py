@@ -22,14 +22,14 @@ from gazelle.workspace.building.install import install
 from gazelle.workspace.building.install_rules import cmake_rules
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import Layout, Plan, add_rules
-from gazelle.workspace.building.setup_scripts import underlays
-from gazelle.workspace.building.shell_text import (
+from gazelle.workspace.building.setup_scripts import (
     FUNCTIONS,
     HEADER,
     forget,
     own_prefix,
     prepend,
     source_file,
+    underlays,
 )
 
 __all__ = ["CatkinSpaces", "build_catkin_package", "write_space_scripts"]

@@ -1,4 +1,7 @@
-"""``CMakeLists.txt`` with its variables replaced, as far as that is known without configuring."""
+"""``CMakeLists.txt`` with its variables replaced, as far as that is known without configuring.
+
+The texts that ``configure_file()`` makes of templates are known as far as the variables are.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +13,15 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan
+from gazelle.documents import read_limited
 from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace.building.cmake_syntax import Command, SyntaxProblem, Word, read_commands
-from gazelle.workspace.building.configured import configured_text
 
 __all__ = ["CMakeLists", "Step", "read_cmake_lists"]
 
+_MAX_BYTES = 4_000_000
+_AT = re.compile(r"@([\w./+-]+)@")
+_BOTH = re.compile(r"@([\w./+-]+)@|\$\{([\w./+-]+)\}")
 _VARIABLE = re.compile(r"\$\{([\w./+-]+)\}|\$(ENV|CACHE)\{[^}]*\}")
 _MAX_STEPS = 20_000
 _MAX_FILES = 5_000
@@ -97,25 +103,6 @@ class CMakeLists:
         for step in self.called("set_target_properties"):
             found += step.after("OUTPUT_NAME", ("PREFIX", "SUFFIX"))[:1]
         return tuple(found)
-
-
-def read_cmake_lists(
-    folder: Path, name: str, definitions: Mapping[str, str] | None = None
-) -> CMakeLists | None:
-    """Read a package's ``CMakeLists.txt``; None when it has none.
-
-    Args:
-        folder: of the package.
-        name: of the package, for catkin's variables.
-        definitions: variables given on the command line (``-D``); a ``set(… CACHE …)`` of the
-            file leaves them as they are.
-    """
-    file = folder / "CMakeLists.txt"
-    if not file.is_file():
-        return None
-    walker = _Walker(folder, CMakeLists(file), name, definitions or {})
-    walker.read(file, "")
-    return walker.lists
 
 
 class _Piece(NamedTuple):
@@ -322,7 +309,7 @@ class _Walker:
             for name, value in self._variables.items()
             if name not in self._doubtful and "${" not in value
         }
-        text = configured_text(source, known, frozenset(step.words[2:]))
+        text = _configured_text(source, known, frozenset(step.words[2:]))
         if text is not None:
             self.lists.made[output] = text
 
@@ -375,6 +362,57 @@ _HANDLERS: dict[str, Callable[[_Walker, Step], None]] = {
     "add_subdirectory": _Walker._subdirectory,
     "include": _Walker._include,
 }
+
+
+def _configured_text(
+    template: Path, variables: Mapping[str, str], options: frozenset[str]
+) -> str | None:
+    """Return what a template becomes; None when that is known only to CMake.
+
+    Args:
+        template: the ``.in`` file.
+        variables: those whose values are known where the call stands.
+        options: the call's words after its two files, such as ``@ONLY``.
+    """
+    try:
+        text = read_limited(template, _MAX_BYTES).decode("utf-8")
+    except (OSError, UnicodeDecodeError):
+        return None
+    if "COPYONLY" in options:
+        return text
+    if "#cmakedefine" in text:  # a header for a compiler
+        return None
+    pattern = _AT if "@ONLY" in options else _BOTH
+    names = {next(filter(None, found.groups())) for found in pattern.finditer(text)}
+    # CMake takes a variable without a value as empty. Here it may be one that find_package() or
+    # the compiler's tests would have set.
+    if not names <= variables.keys():
+        return None
+
+    def value(found: re.Match[str]) -> str:
+        text = variables[next(filter(None, found.groups()))]
+        return text.replace('"', '\\"') if "ESCAPE_QUOTES" in options else text
+
+    return pattern.sub(value, text)
+
+
+def read_cmake_lists(
+    folder: Path, name: str, definitions: Mapping[str, str] | None = None
+) -> CMakeLists | None:
+    """Read a package's ``CMakeLists.txt``; None when it has none.
+
+    Args:
+        folder: of the package.
+        name: of the package, for catkin's variables.
+        definitions: variables given on the command line (``-D``); a ``set(… CACHE …)`` of the
+            file leaves them as they are.
+    """
+    file = folder / "CMakeLists.txt"
+    if not file.is_file():
+        return None
+    walker = _Walker(folder, CMakeLists(file), name, definitions or {})
+    walker.read(file, "")
+    return walker.lists
 
 
 def _known_variables(folder: Path, name: str) -> dict[str, str]:

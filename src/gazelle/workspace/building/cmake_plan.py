@@ -1,14 +1,13 @@
-"""What ``CMakeLists.txt`` installs, for ament, catkin and plain CMake."""
+"""What ``CMakeLists.txt`` installs, for ament, catkin and plain CMake, with its shell files."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 
 from gazelle.diagnostics import Severity, SourceSpan
 from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace.building.cmake_lists import CMakeLists, Step, read_cmake_lists
-from gazelle.workspace.building.environment_files import add_environment_file
 from gazelle.workspace.building.install_rules import cmake_rules
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
@@ -19,7 +18,60 @@ from gazelle.workspace.building.python_plan import (
 )
 from gazelle.workspace.building.setup_py import read_setup
 
-__all__ = ["add_catkin", "add_interfaces", "compiled_targets", "plan_cmake", "read_lists"]
+__all__ = [
+    "add_catkin",
+    "add_interfaces",
+    "compiled_targets",
+    "plan_cmake",
+    "read_lists",
+]
+
+_FAILURE = 'CMake Error: file INSTALL cannot find "{path}": No such file or directory'
+_EXECUTABLES = frozenset(
+    {"add_executable", "ament_auto_add_executable", "cs_add_executable", "cuda_add_executable"}
+)
+_LIBRARIES = frozenset(
+    {
+        "add_library",
+        "ament_auto_add_library",
+        "cs_add_library",
+        "cuda_add_library",
+        "pybind11_add_module",
+    }
+)
+_NOT_COMPILED = frozenset({"ALIAS", "IMPORTED", "INTERFACE"})
+_INTERFACE_WORDS = frozenset(
+    {"ADD_LINTER_TESTS", "DEPENDENCIES", "LIBRARY_NAME", "SKIP_GROUP_MEMBERSHIP_CHECK",
+     "SKIP_INSTALL"}
+)  # fmt: skip
+_KINDS = (".msg", ".srv", ".action", ".idl")
+_CATKIN_INTERFACES = {
+    "add_message_files": "msg",
+    "add_service_files": "srv",
+    "add_action_files": "action",
+}
+_INDEX = "share/ament_index/resource_index"
+
+
+def _add_environment_file(
+    package: SourcePackage, step: Step, word: str, folder: str, plan: Plan
+) -> None:
+    """Plan a shell or ``.dsv`` file that the package has sourced with its own."""
+    if "${" in word:
+        # ament's own: the path of libraries, which nobody builds here, and PATH, which is set.
+        if not word.startswith("${ament_cmake_package_templates_"):
+            text = f"'{word}' is known to CMake only; it is left out"
+            plan.diagnostics.report("package.install-unread", text, step.span)
+        return
+    file = package.path / step.folder / word
+    if not is_file(file):
+        text = f"{step.name}() names '{word}', and there is no such file"
+        plan.diagnostics.report("package.install-missing", text, step.span)
+        return
+    name = file.name.removesuffix(".in")
+    plan.write(f"{folder}/{name}", _configured(file, package))
+    if name.endswith((".sh", ".dsv", ".bash", ".zsh")):
+        plan.scripts.append(f"{folder}/{name}")
 
 
 def add_catkin(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: Plan) -> None:
@@ -33,57 +85,6 @@ def add_catkin(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: 
             add_python_distribution(package, completed(package, setup, plan), layout, plan)
     for step in lists.called("catkin_add_env_hooks"):
         _add_hooks(package, step, "etc/catkin/profile.d", plan)
-
-
-def _add_hooks(package: SourcePackage, step: Step, folder: str, plan: Plan) -> None:
-    """Plan the shell files of a ``catkin_add_env_hooks`` call."""
-    words = ("SHELLS", "DIRECTORY", "SKIP_INSTALL")
-    where = "".join(step.after("DIRECTORY", words)[:1]) or "env-hooks"
-    for shell in step.after("SHELLS", words):
-        if shell not in {"sh", "bash", "zsh"} or not step.words:
-            continue
-        names = [f"{where}/{step.words[0]}.{shell}{ending}" for ending in ("", ".in")]
-        found = [name for name in names if is_file(package.path / step.folder / name)]
-        for name in found:
-            add_environment_file(package, step, name, folder, plan)
-        if not found:
-            text = f"'{names[0]}' is not there as it is sourced (an .em file is made by catkin "
-            text += "only); the hook is left out"
-            plan.diagnostics.report("package.install-unread", text, step.span)
-
-
-_FAILURE = 'CMake Error: file INSTALL cannot find "{path}": No such file or directory'
-
-_EXECUTABLES = frozenset(
-    {"add_executable", "ament_auto_add_executable", "cs_add_executable", "cuda_add_executable"}
-)
-
-_LIBRARIES = frozenset(
-    {
-        "add_library",
-        "ament_auto_add_library",
-        "cs_add_library",
-        "cuda_add_library",
-        "pybind11_add_module",
-    }
-)
-
-_NOT_COMPILED = frozenset({"ALIAS", "IMPORTED", "INTERFACE"})
-
-_INTERFACE_WORDS = frozenset(
-    {"ADD_LINTER_TESTS", "DEPENDENCIES", "LIBRARY_NAME", "SKIP_GROUP_MEMBERSHIP_CHECK",
-     "SKIP_INSTALL"}
-)  # fmt: skip
-
-_KINDS = (".msg", ".srv", ".action", ".idl")
-
-_CATKIN_INTERFACES = {
-    "add_message_files": "msg",
-    "add_service_files": "srv",
-    "add_action_files": "action",
-}
-
-_INDEX = "share/ament_index/resource_index"
 
 
 def read_lists(
@@ -165,6 +166,31 @@ def add_interfaces(package: SourcePackage, lists: CMakeLists, plan: Plan) -> Non
         plan.write(f"{_INDEX}/rosidl_interfaces/{package.name}", "\n".join(lines) + "\n")
 
 
+def _configured(file: Path, package: SourcePackage) -> str:
+    text = file.read_text(encoding="utf-8", errors="replace")
+    if file.suffix == ".in":
+        text = text.replace("@PROJECT_NAME@", package.name)
+        text = text.replace("${PROJECT_NAME}", package.name)
+    return text
+
+
+def _add_hooks(package: SourcePackage, step: Step, folder: str, plan: Plan) -> None:
+    """Plan the shell files of a ``catkin_add_env_hooks`` call."""
+    words = ("SHELLS", "DIRECTORY", "SKIP_INSTALL")
+    where = "".join(step.after("DIRECTORY", words)[:1]) or "env-hooks"
+    for shell in step.after("SHELLS", words):
+        if shell not in {"sh", "bash", "zsh"} or not step.words:
+            continue
+        names = [f"{where}/{step.words[0]}.{shell}{ending}" for ending in ("", ".in")]
+        found = [name for name in names if is_file(package.path / step.folder / name)]
+        for name in found:
+            _add_environment_file(package, step, name, folder, plan)
+        if not found:
+            text = f"'{names[0]}' is not there as it is sourced (an .em file is made by catkin "
+            text += "only); the hook is left out"
+            plan.diagnostics.report("package.install-unread", text, step.span)
+
+
 def _add_interface_files(package: SourcePackage, names: list[str], step: Step, plan: Plan) -> None:
     for name in names:
         file = package.path / step.folder / name
@@ -184,7 +210,9 @@ def _add_ament(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: 
     for step in lists.called("ament_environment_hooks", "ament_package", "ament_auto_package"):
         if step.name == "ament_environment_hooks":
             for word in step.words:
-                add_environment_file(package, step, word, f"share/{package.name}/environment", plan)
+                _add_environment_file(
+                    package, step, word, f"share/{package.name}/environment", plan
+                )
     for step in lists.called("ament_index_register_resource"):
         _add_resource(package, step, plan)
     for step in lists.called("pluginlib_export_plugin_description_file"):

@@ -10,8 +10,13 @@ from gazelle.diagnostics import Severity, SourceSpan
 from gazelle.documents.files import is_file, is_folder, names_matching
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
-from gazelle.workspace.building.setup_py import SetupFile, read_setup, with_arguments
-from gazelle.workspace.building.setup_run import SetupRunError, setup_arguments
+from gazelle.workspace.building.setup_py import (
+    SetupFile,
+    SetupRunError,
+    read_setup,
+    setup_arguments,
+    with_arguments,
+)
 from gazelle.workspace.entry_points import console_scripts
 
 __all__ = ["add_python_distribution", "add_python_folder", "completed", "plan_python"]

@@ -1,9 +1,14 @@
-"""``setup.py`` and ``setup.cfg`` of Python packages, read without running them."""
+"""``setup.py`` and ``setup.cfg`` of Python packages, read without running them.
+
+Building runs ``setup.py`` in ROS as well. Here it runs only when reading it leaves something open,
+in a process of its own and with a ``setuptools`` that notes the arguments and does nothing.
+"""
 
 from __future__ import annotations
 
 import ast
 import configparser
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
@@ -14,66 +19,75 @@ from gazelle.documents.files import names_matching
 from gazelle.workspace.building.install_rules import InstallRule
 from gazelle.workspace.static_python import UNKNOWN, Call, Evaluator, is_known, parse_python
 
-__all__ = ["EmptyGlob", "SetupFile", "cfg_arguments", "read_setup", "with_arguments"]
+__all__ = [
+    "EmptyGlob",
+    "SetupFile",
+    "SetupRunError",
+    "cfg_arguments",
+    "read_setup",
+    "setup_arguments",
+    "with_arguments",
+]
 
+_PATIENCE_S = 60.0
+_MARK = "gazelle-setup-arguments:"
+_CODE = """
+import json, os, runpy, sys, types
+from fnmatch import fnmatch
 
+MARK = sys.argv[1]
+KEPT = ("name", "version", "packages", "package_dir", "package_data", "py_modules", "data_files",
+        "scripts", "entry_points", "install_requires")
+given = {}
+
+def setup(**arguments):
+    given.update(arguments)
+
+def generate_distutils_setup(**arguments):
+    return arguments
+
+def find(where=".", exclude=(), include=("*",), markers=True):
+    names = []
+    for root, folders, files in os.walk(where):
+        folders[:] = sorted(name for name in folders if name.isidentifier())
+        name = os.path.relpath(root, where).replace(os.sep, ".")
+        if root != where and ("__init__.py" in files or not markers):
+            names.append(name)
+    chosen = [name for name in names if any(fnmatch(name, item) for item in include)]
+    return [name for name in chosen if not any(fnmatch(name, item) for item in exclude)]
+
+def find_namespace(where=".", exclude=(), include=("*",)):
+    return find(where, exclude, include, markers=False)
+
+class Anything:
+    def __init__(self, *words, **more):
+        pass
+
+def module(name, **names):
+    made = sys.modules[name] = types.ModuleType(name)
+    made.__path__ = []
+    made.__dict__.update(names)
+    made.__getattr__ = lambda _name: Anything
+    return made
+
+tools = {"setup": setup, "find_packages": find, "find_namespace_packages": find_namespace}
+for name in ("setuptools", "distutils", "distutils.core"):
+    module(name, **tools)
+for name in ("setuptools.command", "distutils.command", "catkin_pkg"):
+    module(name)
+for name in ("build_py", "install", "develop", "build_ext", "egg_info", "install_lib"):
+    module("setuptools.command." + name)
+module("catkin_pkg.python_setup", generate_distutils_setup=generate_distutils_setup)
+sys.argv = ["setup.py", "install"]
+sys.path.insert(0, os.getcwd())
+runpy.run_path("setup.py", run_name="__main__")
+print(MARK + json.dumps({key: given[key] for key in KEPT if key in given}, default=str))
+"""
 _LISTS = {"py_modules", "scripts", "install_requires"}
 
 
-def cfg_arguments(folder: Path, find: Callable[..., Any]) -> dict[str, Any]:
-    """Return what ``[metadata]`` and ``[options…]`` of a package's ``setup.cfg`` say.
-
-    Args:
-        folder: of the package.
-        find: setuptools' ``find_packages``.
-    """
-    parser = configparser.ConfigParser(interpolation=None)
-    parser.optionxform = str  # type: ignore[assignment,method-assign]
-    try:
-        parser.read(folder / "setup.cfg", encoding="utf-8")
-    except (configparser.Error, UnicodeDecodeError):
-        return {}
-    found: dict[str, Any] = {}
-    for key in ("name", "version"):
-        value = parser.get("metadata", key, fallback="")
-        # "attr:" and "file:" name places that are not read here.
-        if value and ":" not in value:
-            found[key] = value
-    if not parser.has_section("options"):
-        return found
-    for key, value in parser.items("options"):
-        if key in _LISTS:
-            found[key] = _lines(value)
-        elif key == "packages":
-            is_search = value.strip() in {"find:", "find_namespace:"}
-            where = parser.get("options.packages.find", "where", fallback=".").strip()
-            exclude = _lines(parser.get("options.packages.find", "exclude", fallback=""))
-            found[key] = find(where, exclude) if is_search else _lines(value)
-        elif key == "package_dir":
-            pairs = (line.partition("=") for line in _lines(value))
-            found[key] = {name.strip(): place.strip() for name, _, place in pairs}
-    for section, key in (("options.package_data", "package_data"),
-                         ("options.entry_points", "entry_points")):  # fmt: skip
-        if parser.has_section(section):
-            rows = parser.items(section)
-            found[key] = {name.replace("*", ""): _lines(value) for name, value in rows}
-    if parser.has_section("options.data_files"):
-        rows = parser.items("options.data_files")
-        found["data_files"] = [(name, _files(folder, value)) for name, value in rows]
-    return found
-
-
-def _files(folder: Path, value: str) -> list[str]:
-    found = []
-    for line in _lines(value):
-        names = names_matching(line, folder) if "*" in line else []
-        found += names or [line]
-    return found
-
-
-def _lines(value: str) -> list[str]:
-    parts = value.splitlines() if "\n" in value.strip() else value.split(",")
-    return [part.strip() for part in parts if part.strip()]
+class SetupRunError(Exception):
+    """A ``setup.py`` cannot be run; the text says why."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +146,77 @@ class SetupFile:
         return any(rule.destination.startswith("share") for rule in self.rules)
 
 
+def setup_arguments(folder: Path) -> dict[str, Any]:
+    """Run a package's ``setup.py`` and return the arguments of ``setup()`` that matter here.
+
+    Raises:
+        SetupRunError: it fails, takes longer than a minute, or calls no ``setup()``.
+    """
+    # Most packages are read without running anything.
+    import json
+    import subprocess
+
+    argv = [sys.executable, "-c", _CODE, _MARK]
+    try:
+        done = subprocess.run(
+            argv, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+            check=False, timeout=_PATIENCE_S, errors="replace",
+        )  # fmt: skip
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise SetupRunError(str(error)) from error
+    lines = [line for line in done.stdout.splitlines() if line.startswith(_MARK)]
+    if not lines:
+        last = done.stderr.strip().splitlines()[-1:] or [f"exit code {done.returncode}"]
+        raise SetupRunError(last[0])
+    found = json.loads(lines[-1].removeprefix(_MARK))
+    if not found:
+        raise SetupRunError("it calls no setup()")
+    return dict(found)
+
+
+def cfg_arguments(folder: Path, find: Callable[..., Any]) -> dict[str, Any]:
+    """Return what ``[metadata]`` and ``[options…]`` of a package's ``setup.cfg`` say.
+
+    Args:
+        folder: of the package.
+        find: setuptools' ``find_packages``.
+    """
+    parser = configparser.ConfigParser(interpolation=None)
+    parser.optionxform = str  # type: ignore[assignment,method-assign]
+    try:
+        parser.read(folder / "setup.cfg", encoding="utf-8")
+    except (configparser.Error, UnicodeDecodeError):
+        return {}
+    found: dict[str, Any] = {}
+    for key in ("name", "version"):
+        value = parser.get("metadata", key, fallback="")
+        # "attr:" and "file:" name places that are not read here.
+        if value and ":" not in value:
+            found[key] = value
+    if not parser.has_section("options"):
+        return found
+    for key, value in parser.items("options"):
+        if key in _LISTS:
+            found[key] = _lines(value)
+        elif key == "packages":
+            is_search = value.strip() in {"find:", "find_namespace:"}
+            where = parser.get("options.packages.find", "where", fallback=".").strip()
+            exclude = _lines(parser.get("options.packages.find", "exclude", fallback=""))
+            found[key] = find(where, exclude) if is_search else _lines(value)
+        elif key == "package_dir":
+            pairs = (line.partition("=") for line in _lines(value))
+            found[key] = {name.strip(): place.strip() for name, _, place in pairs}
+    for section, key in (("options.package_data", "package_data"),
+                         ("options.entry_points", "entry_points")):  # fmt: skip
+        if parser.has_section(section):
+            rows = parser.items(section)
+            found[key] = {name.replace("*", ""): _lines(value) for name, value in rows}
+    if parser.has_section("options.data_files"):
+        rows = parser.items("options.data_files")
+        found["data_files"] = [(name, _files(folder, value)) for name, value in rows]
+    return found
+
+
 def read_setup(folder: Path) -> SetupFile | None:
     """Read a package's ``setup.py``; None when it has none."""
     file = folder / "setup.py"
@@ -166,6 +251,19 @@ def with_arguments(setup: SetupFile, arguments: Mapping[str, Any]) -> SetupFile:
     found = SetupFile(setup.file, is_called=True, scripts_folder=setup.scripts_folder)
     _fill(found, Call("setup", (), arguments, node))
     return found
+
+
+def _files(folder: Path, value: str) -> list[str]:
+    found = []
+    for line in _lines(value):
+        names = names_matching(line, folder) if "*" in line else []
+        found += names or [line]
+    return found
+
+
+def _lines(value: str) -> list[str]:
+    parts = value.splitlines() if "\n" in value.strip() else value.split(",")
+    return [part.strip() for part in parts if part.strip()]
 
 
 def _fill(found: SetupFile, call: Call) -> None:

@@ -8,8 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-from gazelle.workspace.scaffold.cmake_text import ament_lists, cmake_config, cmake_lists
-from gazelle.workspace.scaffold.cpp_text import (
+from gazelle.workspace.scaffold.cpp_package import (
+    ament_lists,
+    cmake_config,
+    cmake_lists,
     library_header,
     library_source,
     node_source,

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.workspace.static_python.evaluator import Evaluator
-from gazelle.workspace.static_python.parsing import parse_python
+from gazelle.workspace.static_python.evaluator import Evaluator, parse_python
 from gazelle.workspace.static_python.values import UNKNOWN, Call, Unknown, is_known
 
 __all__ = ["UNKNOWN", "Call", "Evaluator", "Unknown", "is_known", "parse_python"]

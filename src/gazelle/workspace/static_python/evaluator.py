@@ -13,10 +13,18 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path, PurePath
 from typing import Any
 
-from gazelle.workspace.static_python.functions import library, method
-from gazelle.workspace.static_python.values import UNKNOWN, Call, Function, Name, Unknown, is_known
+from gazelle.workspace.static_python.values import (
+    UNKNOWN,
+    Call,
+    Function,
+    Name,
+    Unknown,
+    is_known,
+    library,
+    method,
+)
 
-__all__ = ["Evaluator"]
+__all__ = ["Evaluator", "parse_python"]
 
 _STEPS = 200_000
 _MAX_CALL_DEPTH = 12
@@ -455,6 +463,20 @@ class Evaluator:
             self.calls.append(made)
             return made
         return method(owner, name, arguments, keywords)
+
+
+def parse_python(text: str) -> ast.Module:
+    """Return a text's syntax tree.
+
+    Raises:
+        SyntaxError: it is no Python 3, or nested deeper than Python reads.
+    """
+    try:
+        return ast.parse(text)
+    except (MemoryError, RecursionError) as error:
+        raise SyntaxError("too many nested parentheses") from error
+    except ValueError as error:
+        raise SyntaxError(str(error)) from error
 
 
 def _grow(items: list[Any], name: str, arguments: tuple[Any, ...]) -> None:

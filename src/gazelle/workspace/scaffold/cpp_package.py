@@ -1,10 +1,21 @@
-"""``CMakeLists.txt`` of new packages of ROS 2 and of plain CMake."""
+"""``CMakeLists.txt`` and C++ sources of new packages of ROS 2 and of plain CMake.
+
+The sources are for a real build; Gazelle does not compile them.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-__all__ = ["ament_lists", "cmake_config", "cmake_lists"]
+__all__ = [
+    "ament_lists",
+    "cmake_config",
+    "cmake_lists",
+    "library_header",
+    "library_source",
+    "node_source",
+    "visibility_header",
+]
 
 _HEAD = """cmake_minimum_required(VERSION 3.8)
 project({0})
@@ -78,6 +89,79 @@ install(EXPORT export_${{PROJECT_NAME}}
 """
 
 
+def node_source(package: str) -> str:
+    """Return a program that prints a line."""
+    return f"""#include <iostream>
+
+int main(int, char **)
+{{
+  std::cout << "hello world {package} package" << std::endl;
+  return 0;
+}}
+"""
+
+
+def library_header(package: str, library: str) -> str:
+    """Return the header of an empty class named after the library."""
+    guard = f"{package.upper()}__{library.upper()}_HPP_"
+    name = _class_name(library)
+    return f"""#ifndef {guard}
+#define {guard}
+
+#include "{package}/visibility_control.h"
+
+namespace {package}
+{{
+
+class {package.upper()}_PUBLIC {name}
+{{
+public:
+  {name}();
+  virtual ~{name}();
+}};
+
+}}  // namespace {package}
+
+#endif  // {guard}
+"""
+
+
+def library_source(package: str, library: str) -> str:
+    """Return the source of that class."""
+    name = _class_name(library)
+    return f"""#include "{package}/{library}.hpp"
+
+namespace {package}
+{{
+
+{name}::{name}() = default;
+
+{name}::~{name}() = default;
+
+}}  // namespace {package}
+"""
+
+
+def visibility_header(package: str) -> str:
+    """Return the header that marks what a shared library shows to others."""
+    name = package.upper()
+    return f"""#ifndef {name}__VISIBILITY_CONTROL_H_
+#define {name}__VISIBILITY_CONTROL_H_
+
+#if defined(_WIN32)
+#  ifdef {name}_BUILDING_LIBRARY
+#    define {name}_PUBLIC __declspec(dllexport)
+#  else
+#    define {name}_PUBLIC __declspec(dllimport)
+#  endif
+#else
+#  define {name}_PUBLIC __attribute__((visibility("default")))
+#endif
+
+#endif  // {name}__VISIBILITY_CONTROL_H_
+"""
+
+
 def ament_lists(name: str, depends: Sequence[str], node: str, library: str) -> str:
     """Return the build file of an ``ament_cmake`` package.
 
@@ -128,6 +212,10 @@ def cmake_config(name: str, library: str) -> dict[str, str]:
     version += "  set(PACKAGE_VERSION_COMPATIBLE FALSE)\nelse()\n"
     version += "  set(PACKAGE_VERSION_COMPATIBLE TRUE)\nendif()\n"
     return {"Config.cmake.in": config, "ConfigVersion.cmake.in": version}
+
+
+def _class_name(library: str) -> str:
+    return "".join(part.title() for part in library.split("_"))
 
 
 def _library(name: str, library: str) -> str:

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from gazelle.bag import BagError, Storage, open_bag
+from gazelle.bag.compression import compress_zstd
 from gazelle.bag.rosbag2 import Rosbag2Writer, reindex
-from gazelle.bag.zstandard import compress
 
 Fill = Callable[..., Path]
 
@@ -24,7 +24,7 @@ def tell(folder: Path, mode: str, form: str = "zstd", names: str = "") -> None:
 
 def pack(file: Path) -> Path:
     packed = file.with_name(f"{file.name}.zstd")
-    packed.write_bytes(compress(file.read_bytes()))
+    packed.write_bytes(compress_zstd(file.read_bytes()))
     file.unlink()
     return packed
 
@@ -66,7 +66,7 @@ def test_compressed_messages_are_read(bag_of: Fill, tmp_path: Path, storage: Sto
     own = {one.id: writer.add(one) for one in source.connections}
     before = list(source.messages())
     for one in before:
-        writer.write(own[one.connection.id], one.stamp_ns, compress(one.data))
+        writer.write(own[one.connection.id], one.stamp_ns, compress_zstd(one.data))
     writer.close()
     tell(tmp_path / "packed", "MESSAGE")
     after = open_bag(tmp_path / "packed").messages()

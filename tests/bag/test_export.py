@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from gazelle.bag import BagError, Storage, cdr_connection, create_bag, open_bag
-from gazelle.bag.export import export_bag
-from gazelle.bag.export.pictures import picture
+from gazelle.bag.export import export_bag, picture
 from gazelle.diagnostics import Diagnostics
 from gazelle.interfaces import message_type, to_cdr
 
