@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 import pytest
 from tests.patience import eventually
 
-from gazelle.cli import ros2, rosmsg, rosnode, rosparam, rosservice, rostopic, tf_echo
-from gazelle.cli.tf import monitor
+from gazelle.cli import ros2, rosmsg, rosnode, rosparam, rosservice, rostopic, tf_echo, tf_monitor
 from gazelle.graph import Entity, Graph, Kind, Node
 from gazelle.graph.hub import hub_knows
 
@@ -30,7 +29,7 @@ _MAINS: dict[str, Callable[[list[str]], int]] = {
     "rossrv": lambda words: rosmsg.main(["rossrv", *words]),
     "rostopic": rostopic.main,
     "tf_echo": tf_echo.main,
-    "tf_monitor": monitor.main,
+    "tf_monitor": tf_monitor.main,
 }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from gazelle.cli.views import VIEW_COMMANDS
+from gazelle.cli.rqt import VIEW_COMMANDS
 
 __all__ = ["COMMANDS", "Command"]
 
@@ -50,8 +50,8 @@ COMMANDS: dict[str, Command] = {
         "gazelle.cli.dynparam", "list, get, set, load, dump parameters of dynamic_reconfigure"
     ),
     "tf_echo": Command("gazelle.cli.tf_echo", "print a transform between two frames"),
-    "tf_monitor": Command("gazelle.cli.tf.monitor", "print delays and rates of frames"),
-    "view_frames": Command("gazelle.cli.tf.view_frames", "draw the tree of frames"),
+    "tf_monitor": Command("gazelle.cli.tf_monitor", "print delays and rates of frames"),
+    "view_frames": Command("gazelle.cli.view_frames", "draw the tree of frames"),
     "bridge": Command("gazelle.cli.bridge", "join real ROS and viewers: ros1, foxglove"),
     "doctor": Command(
         "gazelle.cli.doctor", "find what would go wrong in a package, file or launch"
@@ -75,5 +75,5 @@ COMMANDS: dict[str, Command] = {
     "rosdep": Command("gazelle.cli.rosdep", "what packages need: install, check, keys"),
     "colcon": Command("gazelle.cli.colcon", "build, test, list, info, graph a workspace"),
     "new": Command("gazelle.cli.new", "write a package with a robot, a world or a node"),
-    **{name: Command("gazelle.cli.views", text) for name, (_, text) in VIEW_COMMANDS.items()},
+    **{name: Command("gazelle.cli.rqt", text) for name, (_, text) in VIEW_COMMANDS.items()},
 }

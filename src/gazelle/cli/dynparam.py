@@ -10,7 +10,7 @@ from optparse import OptionParser
 from pathlib import Path
 from typing import Any
 
-from gazelle.cli.text.filling import yaml_words
+from gazelle.cli.text.fill_message import yaml_words
 from gazelle.cli.tool import Tool, ToolError, hint, joined, run_tool
 from gazelle.graph import (
     Graph,

@@ -15,7 +15,7 @@ from gazelle.process_exit import drop_output
 __all__ = ["main"]
 
 # One module runs several commands; it is told which.
-_SHARED_MODULES = ("gazelle.cli.rosmsg", "gazelle.cli.rospack", "gazelle.cli.views")
+_SHARED_MODULES = ("gazelle.cli.rosmsg", "gazelle.cli.rospack", "gazelle.cli.rqt")
 
 
 def main(argv: Sequence[str] | None = None) -> int:

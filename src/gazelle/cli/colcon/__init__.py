@@ -15,8 +15,8 @@ __all__ = ["main"]
 _VERBS = {
     "build": ("gazelle.cli.colcon.build", "Build a set of packages"),
     "graph": ("gazelle.cli.colcon.graph", "Generate a visual representation of the graph"),
-    "info": ("gazelle.cli.colcon.listing", "Package information"),
-    "list": ("gazelle.cli.colcon.listing", "List packages, optionally in topological ordering"),
+    "info": ("gazelle.cli.colcon.list", "Package information"),
+    "list": ("gazelle.cli.colcon.list", "List packages, optionally in topological ordering"),
     "test": ("gazelle.cli.colcon.test", "Test a set of packages"),
     "test-result": ("gazelle.cli.colcon.test", "Show a summary of test results"),
 }

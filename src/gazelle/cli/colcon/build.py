@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from gazelle.cli.colcon.events import Console, Log
-from gazelle.cli.colcon.options import (
+from gazelle.cli.colcon.package_selection import (
     add_package_options,
     chosen_packages,
     parser_for,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from gazelle.cli.colcon.options import add_package_options, chosen_packages, parser_for
+from gazelle.cli.colcon.package_selection import add_package_options, chosen_packages, parser_for
 from gazelle.workspace.building.packages import SourcePackage, needed_by
 
 __all__ = ["run"]

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gazelle.cli.colcon.events import Console, Log
-from gazelle.cli.colcon.options import add_package_options, chosen_packages, parser_for
+from gazelle.cli.colcon.package_selection import add_package_options, chosen_packages, parser_for
 from gazelle.cli.colcon.results import read_results
 from gazelle.cli.colcon.testing import package_environment, test_package
 from gazelle.workspace.building.build import Outcome, run_jobs

@@ -17,10 +17,10 @@ from gazelle.cli.gz.transport import (
     transport_topics,
 )
 from gazelle.cli.gz.world_link import WorldLink, world_link
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import topic_class
-from gazelle.cli.rostopic.bandwidth import BandwidthMeter
-from gazelle.cli.rostopic.rate import RateMeter
+from gazelle.cli.rostopic.bw import BandwidthMeter
+from gazelle.cli.rostopic.hz import RateMeter
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import RawMessage, TopicInfo
 

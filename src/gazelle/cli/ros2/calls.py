@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.cli.ros2.membership import types_by_name
+from gazelle.cli.ros2.graph import types_by_name
 from gazelle.cli.tool import ToolError
 from gazelle.errors import GraphError
 from gazelle.graph import Entity, Kind, Node

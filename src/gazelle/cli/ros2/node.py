@@ -6,7 +6,7 @@ import argparse
 import sys
 from collections.abc import Iterable
 
-from gazelle.cli.ros2.membership import graph_of_ros2, types_by_name
+from gazelle.cli.ros2.graph import graph_of_ros2, types_by_name
 from gazelle.cli.ros2.verbs import Command, Verb, add_strategy_arguments, fail, run_command
 from gazelle.cli.tool import hint
 from gazelle.graph import Kind

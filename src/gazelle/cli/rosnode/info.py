@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator
 
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import shown_type
 from gazelle.cli.tool import add_flag, global_name, hint, joined, option_parser
 from gazelle.graph import Endpoint, Entity, Graph, Kind, NodeInfo

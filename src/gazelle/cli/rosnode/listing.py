@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import socket
 
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.tool import ToolError, add_flag, global_name, hint, joined, option_parser
 from gazelle.graph import Graph
 

@@ -6,7 +6,7 @@ import sys
 import threading
 import time
 
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.tool import add_flag, global_name, hint, joined, option_parser
 from gazelle.graph import Graph
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from gazelle.cli.ros_types import service_class
 from gazelle.cli.rosservice.services import find_service, near_services
-from gazelle.cli.text.filling import documents, fill_from_words, yaml_words
+from gazelle.cli.text.fill_message import documents, fill_from_words, yaml_words
 from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
 from gazelle.graph import Graph, ServiceClient
 from gazelle.interfaces import Ros1Service
@@ -56,7 +56,7 @@ def _call(
             raise ToolError(_incompatible(error, values)) from None
         response = client.call(request)
         if options.nostr or options.noarr:
-            from gazelle.cli.text.hiding import hidden
+            from gazelle.cli.text.ros1_text import hidden
 
             response = hidden(response, strings=options.nostr, arrays=options.noarr)
         if options.verbose:

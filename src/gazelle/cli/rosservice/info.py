@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import service_class, shown_type
 from gazelle.cli.rosservice.services import find_service, near_services
-from gazelle.cli.text.filling import printable_args
+from gazelle.cli.text.fill_message import printable_args
 from gazelle.cli.tool import ToolError, global_name, joined, option_parser
 from gazelle.graph import Graph, ServiceInfo
 

@@ -24,13 +24,13 @@ Type rostopic <command> -h for more detailed usage, e.g. 'rostopic echo -h'
 _TOOL = Tool(
     "rostopic",
     {
-        "bw": "gazelle.cli.rostopic.bandwidth:run",
+        "bw": "gazelle.cli.rostopic.bw:run",
         "delay": "gazelle.cli.rostopic.delay:run",
         "echo": "gazelle.cli.rostopic.echo:run",
         "find": "gazelle.cli.rostopic.info:find",
-        "hz": "gazelle.cli.rostopic.rate:run",
+        "hz": "gazelle.cli.rostopic.hz:run",
         "info": "gazelle.cli.rostopic.info:info",
-        "list": "gazelle.cli.rostopic.listing:run",
+        "list": "gazelle.cli.rostopic.list:run",
         "pub": "gazelle.cli.rostopic.pub:run",
         "type": "gazelle.cli.rostopic.info:show_type",
     },

@@ -152,7 +152,7 @@ class Echo:
     def _block(self, value: Any) -> str:
         options = self._options
         if options.nostr or options.noarr:
-            from gazelle.cli.text.hiding import hidden
+            from gazelle.cli.text.ros1_text import hidden
 
             value = hidden(value, self._type, strings=options.nostr, arrays=options.noarr)
         if isinstance(value, bytes):
@@ -162,7 +162,7 @@ class Echo:
         return f"{_CLEAR if options.clear else ''}{text}\n---\n"
 
     def _row(self, value: Any) -> str:
-        from gazelle.cli.text.hiding import field_filter
+        from gazelle.cli.text.ros1_text import field_filter
         from gazelle.cli.text.table import csv_header, csv_row
 
         options, now_ns = self._options, self._clock.now_ns()

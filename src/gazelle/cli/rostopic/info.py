@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import shown_type, wanted_type
 from gazelle.cli.rostopic.topics import find_topic
 from gazelle.cli.text.fields import field_type

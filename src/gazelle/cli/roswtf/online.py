@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections import defaultdict
 
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.roswtf.findings import Findings
 from gazelle.graph import Entity, Graph, Kind
 from gazelle.graph.tf import TransformBuffer, TransformListener

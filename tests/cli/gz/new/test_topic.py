@@ -14,9 +14,9 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.cli.gz.new.front import is_new
-from gazelle.cli.gz.new.messages import message_of, ros_types_of
+from gazelle.cli.gz.new.message_types import message_of, ros_types_of
 from gazelle.cli.gz.options import GzError
-from gazelle.cli.gz.protobuf_reading import read_protobuf_text
+from gazelle.cli.gz.protobuf_parser import read_protobuf_text
 from gazelle.cli.main import main
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type
@@ -190,7 +190,7 @@ def test_fields_of_gazebo_become_those_of_ros() -> None:
 
 
 def test_every_pair_has_a_type_of_ros() -> None:
-    from gazelle.cli.gz.new.messages import _TYPES
+    from gazelle.cli.gz.new.message_types import _TYPES
 
     for name in _TYPES:
         for ros_type in ros_types_of(f"gz.msgs.{name}"):

@@ -6,13 +6,13 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from gazelle.cli.gz.new.messages import message_of, text_fields
+from gazelle.cli.gz.new.message_types import message_of, text_fields
 from gazelle.cli.gz.new.world_services import WORLD_SERVICES
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number
-from gazelle.cli.gz.protobuf_reading import read_protobuf_text
+from gazelle.cli.gz.protobuf_parser import read_protobuf_text
 from gazelle.cli.gz.protobuf_text import protobuf_text
 from gazelle.cli.gz.world_link import WorldLink, world_link
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import ServiceInfo

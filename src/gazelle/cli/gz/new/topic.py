@@ -9,12 +9,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from gazelle.cli.gz import topic as classic
-from gazelle.cli.gz.new.messages import gz_type_of, message_of, ros_types_of, text_fields
+from gazelle.cli.gz.new.message_types import gz_type_of, message_of, ros_types_of, text_fields
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number, seconds
-from gazelle.cli.gz.protobuf_reading import read_protobuf_text
+from gazelle.cli.gz.protobuf_parser import read_protobuf_text
 from gazelle.cli.gz.protobuf_text import protobuf_text
 from gazelle.cli.gz.world_link import WorldLink, world_link
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.graph import ANY_TYPE, TopicInfo
 from gazelle.interfaces import message_type, to_plain

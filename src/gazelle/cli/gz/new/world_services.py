@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from gazelle.cli.gz.new.messages import message_of
+from gazelle.cli.gz.new.message_types import message_of
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.gz.world_link import WorldLink
 from gazelle.cli.sdf.sdf_file import say

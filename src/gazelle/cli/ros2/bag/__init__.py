@@ -12,7 +12,7 @@ from gazelle.errors import GazelleError
 __all__ = ["main"]
 
 _VERBS = {
-    "convert": ("gazelle.cli.ros2.bag.converting", "Given an input bag, write out a new bag"),
+    "convert": ("gazelle.cli.ros2.bag.convert", "Given an input bag, write out a new bag"),
     "info": ("gazelle.cli.ros2.bag.info", "Print information about a bag to the screen"),
     "list": ("gazelle.cli.ros2.bag.plugins", "Print information about available plugins"),
     "play": ("gazelle.cli.ros2.bag.play", "Play back ROS data from a bag"),

@@ -7,9 +7,9 @@ from typing import Any
 
 from gazelle.cli.ros2.calls import call_service, nodes_offering
 from gazelle.cli.ros2.component.types import add_component_arguments, instead_of
-from gazelle.cli.ros2.membership import cli_node, graph_of_ros2
+from gazelle.cli.ros2.graph import cli_node, graph_of_ros2
 from gazelle.cli.ros2.verbs import add_strategy_arguments, fail
-from gazelle.cli.text.filling import yaml_words
+from gazelle.cli.text.fill_message import yaml_words
 from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Graph, Node
 from gazelle.graph.ros2_parameter_values import value_message

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from gazelle.cli.ros2.doctor.sight import Sight
-from gazelle.cli.ros2.membership import types_by_name
+from gazelle.cli.ros2.graph import types_by_name
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.doctor.packages import check_environment
 from gazelle.graph import Kind

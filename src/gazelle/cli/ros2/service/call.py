@@ -7,7 +7,7 @@ import sys
 import threading
 import time
 
-from gazelle.cli.ros2.membership import cli_node, full_name, graph_of_ros2
+from gazelle.cli.ros2.graph import cli_node, full_name, graph_of_ros2
 from gazelle.cli.ros2.types import ros2_service_class
 from gazelle.cli.ros2.verbs import positive_float
 from gazelle.cli.rosservice.services import service_hint

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from gazelle.cli.ros2.membership import graph_of_ros2
+from gazelle.cli.ros2.graph import graph_of_ros2
 from gazelle.cli.ros2.verbs import add_strategy_arguments, fail
 from gazelle.cli.tool import hint
 

@@ -10,15 +10,15 @@ __all__ = ["main"]
 
 _HERE = "gazelle.cli.ros2.topic"
 _VERBS = {
-    "bw": Verb("Display bandwidth used by topic", f"{_HERE}.meters"),
-    "delay": Verb("Display delay of topic from timestamp in header", f"{_HERE}.meters"),
+    "bw": Verb("Display bandwidth used by topic", f"{_HERE}.hz_bw_delay"),
+    "delay": Verb("Display delay of topic from timestamp in header", f"{_HERE}.hz_bw_delay"),
     "echo": Verb("Output messages from a topic", f"{_HERE}.echo"),
-    "find": Verb("Output a list of available topics of a given type", f"{_HERE}.listing"),
-    "hz": Verb("Print the average publishing rate to screen", f"{_HERE}.meters"),
+    "find": Verb("Output a list of available topics of a given type", f"{_HERE}.list"),
+    "hz": Verb("Print the average publishing rate to screen", f"{_HERE}.hz_bw_delay"),
     "info": Verb("Print information about a topic", f"{_HERE}.info"),
-    "list": Verb("Output a list of available topics", f"{_HERE}.listing"),
+    "list": Verb("Output a list of available topics", f"{_HERE}.list"),
     "pub": Verb("Publish a message to a topic", f"{_HERE}.pub"),
-    "type": Verb("Print a topic's type", f"{_HERE}.listing"),
+    "type": Verb("Print a topic's type", f"{_HERE}.list"),
 }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from gazelle.cli.ros2.membership import cli_node, full_name, graph_of_ros2, until_ended
+from gazelle.cli.ros2.graph import cli_node, full_name, graph_of_ros2, until_ended
 from gazelle.cli.ros2.topic.echoing import Echo, Selection
 from gazelle.cli.ros2.topic.qos import (
     Profile,

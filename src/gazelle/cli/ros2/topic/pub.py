@@ -8,7 +8,7 @@ import threading
 import time
 from typing import Any, NamedTuple
 
-from gazelle.cli.ros2.membership import cli_node, full_name, graph_of_ros2, types_by_name
+from gazelle.cli.ros2.graph import cli_node, full_name, graph_of_ros2, types_by_name
 from gazelle.cli.ros2.topic.qos import add_qos_arguments, chosen_profile
 from gazelle.cli.ros2.types import stated_message_class
 from gazelle.cli.ros2.verbs import add_direct_arguments, positive_float, whole

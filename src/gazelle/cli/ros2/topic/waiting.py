@@ -6,7 +6,7 @@ import sys
 import threading
 from collections.abc import Iterable
 
-from gazelle.cli.ros2.membership import types_by_name
+from gazelle.cli.ros2.graph import types_by_name
 from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Entity, Graph, Kind
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.cli.tf import monitor, view_frames
+from gazelle.cli import tf_monitor, view_frames
 from gazelle.cli.tf.delays import FrameDelays, NetDelay
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Node
@@ -87,7 +87,7 @@ def test_all_frames_without_arguments() -> None:
     for now_s in (1000.1, 1000.2, 1000.4):
         delays.add(_message(("a", "c"), ("a", "b")), "/robot", now_s, is_static=False)
     delays.add(_message(("b", "tip")), "/fixed", 1000.0, is_static=True)
-    results, title, nodes = monitor.report(delays, [], NetDelay())
+    results, title, nodes = tf_monitor.report(delays, [], NetDelay())
     assert results.splitlines()[3:] == [
         "RESULTS: for all Frames",
         "",
@@ -111,7 +111,7 @@ def test_net_delay_is_smoothed_as_in_the_recording() -> None:
 
 
 def test_wrong_arguments_print_the_usage(capsys: Any) -> None:
-    assert monitor.main(["base_link"]) == 255
+    assert tf_monitor.main(["base_link"]) == 255
     assert capsys.readouterr().err.startswith("TF_Monitor: usage\n")
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from gazelle.cli.gz.options import GzError
-from gazelle.cli.gz.protobuf_reading import read_protobuf_text
+from gazelle.cli.gz.protobuf_parser import read_protobuf_text
 
 
 @pytest.mark.parametrize(

@@ -7,17 +7,17 @@ import re
 
 import pytest
 
-from gazelle.cli.rostopic import bandwidth, delay, rate
-from gazelle.cli.rostopic.bandwidth import BandwidthMeter
+from gazelle.cli.rostopic import bw, delay, hz
+from gazelle.cli.rostopic.bw import BandwidthMeter
 from gazelle.cli.rostopic.delay import DelayMeter
-from gazelle.cli.rostopic.rate import RateMeter, rate_report
+from gazelle.cli.rostopic.hz import RateMeter, rate_report
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import Time, ros1_message_type
 
 
 @pytest.fixture(autouse=True)
 def _often(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in (bandwidth, delay, rate):
+    for module in (bw, delay, hz):
         monkeypatch.setattr(module, "_PERIOD_S", 0.02)
 
 

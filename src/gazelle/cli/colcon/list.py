@@ -6,7 +6,7 @@ import argparse
 import os
 from pathlib import Path
 
-from gazelle.cli.colcon.options import add_package_options, chosen_packages, parser_for
+from gazelle.cli.colcon.package_selection import add_package_options, chosen_packages, parser_for
 from gazelle.diagnostics import did_you_mean
 from gazelle.workspace.building.packages import BuildError, SourcePackage
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import partial
 from typing import NamedTuple
 
-from gazelle.cli.processes import Processes
+from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import shown_type
 from gazelle.cli.tool import add_flag, global_name, joined, option_parser
 from gazelle.graph import Graph, TopicInfo

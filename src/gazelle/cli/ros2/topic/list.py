@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from gazelle.cli.ros2.membership import graph_of_ros2, types_by_name
+from gazelle.cli.ros2.graph import graph_of_ros2, types_by_name
 from gazelle.cli.ros2.verbs import add_strategy_arguments
 from gazelle.cli.tool import hint
 from gazelle.graph import Entity, Graph, Kind

@@ -9,17 +9,17 @@ from typing import Any
 
 import pytest
 
-from gazelle.cli.ros2.topic import meters
-from gazelle.cli.ros2.topic.meters import bandwidth_text, rate_text
-from gazelle.cli.rostopic.bandwidth import BandwidthMeter
-from gazelle.cli.rostopic.rate import RateMeter
+from gazelle.cli.ros2.topic import hz_bw_delay
+from gazelle.cli.ros2.topic.hz_bw_delay import bandwidth_text, rate_text
+from gazelle.cli.rostopic.bw import BandwidthMeter
+from gazelle.cli.rostopic.hz import RateMeter
 from gazelle.graph import Node
 from gazelle.interfaces import message_type
 
 
 @pytest.fixture(autouse=True)
 def _often(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(meters, "_PERIOD_S", 0.02)
+    monkeypatch.setattr(hz_bw_delay, "_PERIOD_S", 0.02)
 
 
 def _rate(period_s: float) -> RateMeter:
