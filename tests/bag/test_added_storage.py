@@ -132,9 +132,9 @@ def test_a_storage_that_is_not_there_is_named(tmp_path: Path) -> None:
         create_bag(tmp_path / "a", "mcaq")
     (tmp_path / "out.yaml").write_text(f"output_bags: [{{uri: {tmp_path}/b, storage_id: tape}}]")
     with pytest.raises(BagError, match="there is no storage 'tape' of bags; there are rosbag"):
-        from gazelle.cli.ros2.bag.convert import main
+        from gazelle.cli.ros2.bag.convert import convert
 
-        main(["-i", str(tmp_path), "-o", str(tmp_path / "out.yaml")])
+        convert(["-i", str(tmp_path), "-o", str(tmp_path / "out.yaml")])
 
 
 def test_a_folder_without_bag_names_the_suffixes(tmp_path: Path) -> None:

@@ -68,7 +68,7 @@ def test_another_definition_is_told_when_a_bag_is_played(
     writer.write(writer.add(one), 5, b"\1\0\0\0")
     writer.close()
     with Graph.open(port=free_port):
-        monkeypatch.setattr("gazelle.cli.rosbag.play.at_stop_signal", lambda _stop: None)
+        monkeypatch.setattr("gazelle.cli.rosbag.at_stop_signal", lambda _stop: None)
         assert rosbag.main(["play", "-d", "0", str(tmp_path / "a.bag")]) == 0
     captured = capfd.readouterr()
     assert "[bag.other-definition]" in captured.err

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from gazelle.cli import tf_monitor, view_frames
-from gazelle.cli.tf.delays import FrameDelays, NetDelay
+from gazelle.cli.tf_monitor import FrameDelays, NetDelay
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Node
 from gazelle.interfaces import message_type

@@ -10,7 +10,7 @@ from typing import Any, cast
 import yaml
 from tests.fuzzing.kind import Kind
 
-from gazelle.cli.catkin.profile import load_profile
+from gazelle.cli.catkin import load_profile
 from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model

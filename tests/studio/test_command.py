@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from tests.studio.page import Page
 
-from gazelle.cli.studio.command import main
+from gazelle.cli.studio import main
 from gazelle.graph import Graph
 
 Run = Callable[..., Any]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.cli.ros2.launch.environment import surround_launch_files
+from gazelle.cli.ros2.launch import surround_launch_files
 
 __all__ = ["main"]
 

@@ -56,7 +56,7 @@ def _main(words: list[str]) -> int:
 def _tell_of_printed_characters(name: str, rest: list[str]) -> None:
     if all(word.isascii() for word in rest):
         return
-    from gazelle.cli.typography import printed_characters
+    from gazelle.cli.error_text import printed_characters
 
     for line in printed_characters(rest):
         print(f"{name}: {line}", file=sys.stderr)

@@ -1,22 +1,35 @@
-"""Message and service classes by name; the workspace's own packages are asked when need be."""
+"""Classes of messages, services and actions by name, as ROS 1 and ROS 2 write it.
+
+The workspace's own packages are asked when need be.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
-from gazelle.cli.tool import option_parser
+from gazelle.cli.tool import ToolError, option_parser
 from gazelle.errors import InterfaceError, NotFoundError
-from gazelle.interfaces import ros1_message_type, ros1_service_type, ros1_type_of
+from gazelle.interfaces import (
+    message_type,
+    ros1_message_type,
+    ros1_service_type,
+    ros1_type_of,
+    service_type,
+)
 from gazelle.nodes.workspace_types import learn_workspace_types
 
 if TYPE_CHECKING:
-    from gazelle.interfaces import Ros1Message, Ros1Service
+    from gazelle.interfaces import Message, Ros1Message, Ros1Service, ServiceType
 
 __all__ = [
     "learn_workspace_types",
     "message_class",
+    "ros2_message_class",
+    "ros2_service_class",
     "service_class",
     "shown_type",
+    "stated_message_class",
     "topic_class",
     "wanted_type",
 ]
@@ -84,3 +97,52 @@ def wanted_type(tool: str, words: list[str]) -> str:
     if len(args) > 1:
         parser.error("you may only specify one message type")
     return shown_type(args[0])
+
+
+def stated_message_class(name: str) -> type[Message]:
+    """Return the class of a type that the user wrote.
+
+    Raises:
+        ToolError: nothing defines it.
+    """
+    try:
+        return ros2_message_class(name)
+    except NotFoundError as error:
+        raise ToolError(f"The passed message type is invalid\n  {error}") from None
+
+
+def ros2_message_class(name: str) -> type[Message]:
+    """Return the class of a message.
+
+    Raises:
+        NotFoundError: nothing defines it.
+        UserFileError: its definition has errors.
+    """
+    found: type[Message] = _found(message_type, name)
+    return found
+
+
+def ros2_service_class(name: str) -> ServiceType:
+    """Return the class of a service that the user wrote.
+
+    Raises:
+        ToolError: nothing defines it, or it is no service.
+        UserFileError: its definition has errors.
+    """
+    words = name.split("/")
+    if len(words) == 3 and words[1] != "srv":
+        raise ToolError(f"The passed type is not a service\n  '{name}' is of {words[1]}/")
+    try:
+        found: ServiceType = _found(service_type, name)
+    except NotFoundError as error:
+        reason = str(error).replace("_Request'", "'", 1)
+        raise ToolError(f"The passed service type is invalid\n  {reason}") from None
+    return found
+
+
+def _found(look_up: Callable[[str], Any], name: str) -> Any:
+    try:
+        return look_up(name)
+    except NotFoundError:
+        learn_workspace_types()
+        return look_up(name)

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import sys
 import threading
+from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.cli.tf.delays import Delays, FrameDelays, NetDelay
 from gazelle.cli.tool import Tool, joined, run_tool
 from gazelle.graph import Graph
 from gazelle.graph.names import parse_command_line
 from gazelle.graph.tf import TransformBuffer, TransformError, TransformListener
 
-__all__ = ["main", "report"]
+__all__ = ["Delays", "FrameDelays", "NetDelay", "main", "report"]
 
+_LOWPASS = 0.01
+_MIN_DURATION_S = 1e-8
 _USAGE = """TF_Monitor: usage
  tf_monitor                  prints all frames
  tf_monitor frame1 frame2    prints the chain between two frames"""
@@ -23,53 +25,78 @@ _ALL_S = 10.0
 _WAIT_S = 0.2
 
 
-def main(argv: list[str]) -> int:
-    """Run until Ctrl-C; 255 for wrong arguments."""
-    words = parse_command_line(argv).rest
-    if len(words) not in {0, 2}:
-        print(_USAGE, file=sys.stderr)
-        return 255
-    frames = [word.removeprefix("/") for word in words]
-    return run_tool(Tool("tf_monitor", {"watch": _watch}, _USAGE), ["watch", *frames])
+@dataclass(slots=True)
+class Delays:
+    """Delays of one frame or one broadcaster, seconds."""
+
+    total_s: float = 0.0
+    largest_s: float = 0.0
+    count: int = 0
+    first_s: float = 0.0
+    last_s: float = 0.0
+
+    def add(self, delay_s: float, now_s: float) -> None:
+        """Count one."""
+        if not self.count:
+            self.first_s = now_s
+        self.last_s = now_s
+        self.count += 1
+        self.total_s += delay_s
+        self.largest_s = max(self.largest_s, delay_s)
+
+    @property
+    def average_s(self) -> float:
+        """Mean delay."""
+        return self.total_s / self.count
+
+    @property
+    def rate_hz(self) -> float:
+        """Count over the time from the first to the last; 1e8 for a single one, as tf says."""
+        return self.count / max(self.last_s - self.first_s, _MIN_DURATION_S)
 
 
-def report(delays: FrameDelays, chain: list[str], net: NetDelay) -> tuple[str, str, str]:
-    """Return the three parts of a block: results and frames, a title, broadcasters.
+@dataclass(slots=True)
+class FrameDelays:
+    """Delays by frame and by broadcaster; may be filled and read from different threads.
 
-    The title goes to standard error, as the original's does.
-
-    Args:
-        delays: what was counted.
-        chain: frames from the first to the second, empty for all frames.
-        net: of the chain.
+    Attributes:
+        authority_of: frame → who publishes it, with ``(static)`` behind static ones.
     """
-    lines = ["", "", ""]
-    if chain:
-        lines += [
-            f"RESULTS: for {chain[0]} to {chain[-1]}",
-            f"Chain is: {' -> '.join(chain)}",
-            f"Net delay     avg = {net.average_s:g}: max = {net.largest_s:g}",
-        ]
-    else:
-        lines.append("RESULTS: for all Frames")
-    lines += ["", "Frames:"]
-    with delays.lock:
-        lines += [
-            f"Frame: {name} published by {delays.authority_of[name]} {_delay_text(found)}"
-            for name, found in sorted(delays.frames.items())
-            if not chain or name in chain
-        ]
-        nodes = [
-            f"Node: {name} {found.rate_hz:g} Hz, {_delay_text(found)}"
-            for name, found in sorted(delays.nodes.items())
-        ]
-    return "\n".join(lines), "\nAll Broadcasters:", "\n".join(nodes)
+
+    frames: dict[str, Delays] = field(default_factory=dict)
+    nodes: dict[str, Delays] = field(default_factory=dict)
+    authority_of: dict[str, str] = field(default_factory=dict)
+    lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def add(self, message: Any, publisher: str, now_s: float, *, is_static: bool) -> None:
+        """Count a ``tf2_msgs/TFMessage``; static transforms are never late."""
+        if not message.transforms:
+            return
+        authority = publisher + ("(static)" if is_static else "")
+        sum_s = 0.0
+        with self.lock:
+            for one in message.transforms:
+                stamp = one.header.stamp
+                delay_s = 0.0 if is_static else now_s - stamp.sec - stamp.nanosec * 1e-9
+                sum_s += delay_s
+                name = one.child_frame_id.removeprefix("/")
+                self.authority_of[name] = authority
+                self.frames.setdefault(name, Delays()).add(delay_s, now_s)
+            mean_s = sum_s / len(message.transforms)
+            self.nodes.setdefault(authority, Delays()).add(mean_s, now_s)
 
 
-def _watch(frames: list[str]) -> int:
-    with joined() as graph:
-        _Monitor(graph, frames).run()
-    return 0
+@dataclass(slots=True)
+class NetDelay:
+    """How old the newest transform of a chain is, smoothed."""
+
+    average_s: float = 0.0
+    largest_s: float = 0.0
+
+    def add(self, delay_s: float) -> None:
+        """Count one look."""
+        self.average_s = _LOWPASS * delay_s + (1.0 - _LOWPASS) * self.average_s
+        self.largest_s = max(self.largest_s, delay_s)
 
 
 class _Monitor:
@@ -129,6 +156,55 @@ class _Monitor:
             self._delays.add(message, publisher, now_s, is_static=is_static)
 
         return take
+
+
+def main(argv: list[str]) -> int:
+    """Run until Ctrl-C; 255 for wrong arguments."""
+    words = parse_command_line(argv).rest
+    if len(words) not in {0, 2}:
+        print(_USAGE, file=sys.stderr)
+        return 255
+    frames = [word.removeprefix("/") for word in words]
+    return run_tool(Tool("tf_monitor", {"watch": _watch}, _USAGE), ["watch", *frames])
+
+
+def report(delays: FrameDelays, chain: list[str], net: NetDelay) -> tuple[str, str, str]:
+    """Return the three parts of a block: results and frames, a title, broadcasters.
+
+    The title goes to standard error, as the original's does.
+
+    Args:
+        delays: what was counted.
+        chain: frames from the first to the second, empty for all frames.
+        net: of the chain.
+    """
+    lines = ["", "", ""]
+    if chain:
+        lines += [
+            f"RESULTS: for {chain[0]} to {chain[-1]}",
+            f"Chain is: {' -> '.join(chain)}",
+            f"Net delay     avg = {net.average_s:g}: max = {net.largest_s:g}",
+        ]
+    else:
+        lines.append("RESULTS: for all Frames")
+    lines += ["", "Frames:"]
+    with delays.lock:
+        lines += [
+            f"Frame: {name} published by {delays.authority_of[name]} {_delay_text(found)}"
+            for name, found in sorted(delays.frames.items())
+            if not chain or name in chain
+        ]
+        nodes = [
+            f"Node: {name} {found.rate_hz:g} Hz, {_delay_text(found)}"
+            for name, found in sorted(delays.nodes.items())
+        ]
+    return "\n".join(lines), "\nAll Broadcasters:", "\n".join(nodes)
+
+
+def _watch(frames: list[str]) -> int:
+    with joined() as graph:
+        _Monitor(graph, frames).run()
+    return 0
 
 
 def _delay_text(found: Delays) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.cli.ros2.component.types import instead_of
+from gazelle.cli.ros2.component import instead_of
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import service_type
 

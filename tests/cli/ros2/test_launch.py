@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import psutil
 import pytest
 
-from gazelle.cli.ros2.launch.command import launch_arguments, main
+from gazelle.cli.ros2.launch import launch_arguments, main
 from gazelle.cli.tool import ToolError
 from gazelle.launch.ros2 import logging
 from gazelle.workspace.ament_index import known_workspace

@@ -166,8 +166,7 @@ def test_lost_messages_are_told(graph: Graph, robot: Node, capsys: Any) -> None:
     import argparse
     import threading
 
-    from gazelle.cli.ros2.topic.echo import add_arguments
-    from gazelle.cli.ros2.topic.echoing import Echo, Selection
+    from gazelle.cli.ros2.topic.echo import Echo, Selection, add_arguments
     from gazelle.graph import MessageInfo
 
     robot.create_publisher("/n", "std_msgs/msg/Int32")

@@ -12,14 +12,13 @@ import pytest
 
 from gazelle.bag.rosbag2.metadata import read_metadata, read_qos
 from gazelle.bag.storage import BagError
-from gazelle.cli.catkin.profile import load_profile
+from gazelle.cli.catkin import load_profile
 from gazelle.cli.dynparam import _from_yaml as read_dynparam_file
 from gazelle.cli.ros2.bag.convert import _outputs as read_output_bags
-from gazelle.cli.ros2.param.verbs import _from_yaml as read_param_value
-from gazelle.cli.rosparam.writing import _file_text, _trees
+from gazelle.cli.ros2.param import _from_yaml as read_param_value
+from gazelle.cli.rosparam import _file_text, _trees
 from gazelle.cli.rostopic.pub import _file_documents as read_message_file
-from gazelle.cli.text.fill_message import yaml_words
-from gazelle.cli.text.ros2_filling import yaml_values
+from gazelle.cli.text.fill_message import yaml_values, yaml_words
 from gazelle.cli.tool import ToolError
 from gazelle.compat.commands.rosparam import RosParamException, load_str
 from gazelle.compat.moveit_configs.parameter_files import load_yaml as load_moveit_yaml

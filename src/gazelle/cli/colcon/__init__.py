@@ -11,14 +11,17 @@ from gazelle.diagnostics import did_you_mean
 
 __all__ = ["main"]
 
-# Each module has ``run(words, log_base) -> int``.
+# Each function takes the words, the verb first, and the folder of logs.
 _VERBS = {
-    "build": ("gazelle.cli.colcon.build", "Build a set of packages"),
-    "graph": ("gazelle.cli.colcon.graph", "Generate a visual representation of the graph"),
-    "info": ("gazelle.cli.colcon.list", "Package information"),
-    "list": ("gazelle.cli.colcon.list", "List packages, optionally in topological ordering"),
-    "test": ("gazelle.cli.colcon.test", "Test a set of packages"),
-    "test-result": ("gazelle.cli.colcon.test", "Show a summary of test results"),
+    "build": ("gazelle.cli.colcon.build:run", "Build a set of packages"),
+    "graph": ("gazelle.cli.colcon.list:graph", "Generate a visual representation of the graph"),
+    "info": ("gazelle.cli.colcon.list:list_or_info", "Package information"),
+    "list": (
+        "gazelle.cli.colcon.list:list_or_info",
+        "List packages, optionally in topological ordering",
+    ),
+    "test": ("gazelle.cli.colcon.test:run", "Test a set of packages"),
+    "test-result": ("gazelle.cli.colcon.test:run", "Show a summary of test results"),
 }
 
 
@@ -39,8 +42,8 @@ def main(argv: list[str]) -> int:
         hint = did_you_mean(wrong, _VERBS) or f"choose from {', '.join(map(repr, _VERBS))}"
         print(f"colcon: error: invalid choice: '{wrong}' ({hint})", file=sys.stderr)
         return 2
-    module, _ = _VERBS[options.verb]
-    return int(import_module(module).run(argv[place:], options.log_base))
+    module, _, function = _VERBS[options.verb][0].partition(":")
+    return int(getattr(import_module(module), function)(argv[place:], options.log_base))
 
 
 def _usage() -> str:

@@ -1,25 +1,184 @@
-"""``colcon test`` and ``colcon test-result``: the Python tests of packages."""
+"""``colcon test`` and ``colcon test-result``: the Python tests of packages.
+
+They run with pytest in the environment of their workspace; results are JUnit's XML files.
+"""
 
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
 from pathlib import Path
+from typing import NamedTuple
 
 from gazelle.cli.colcon.events import Console, Log
 from gazelle.cli.colcon.package_selection import add_package_options, chosen_packages, parser_for
-from gazelle.cli.colcon.results import read_results
-from gazelle.cli.colcon.testing import package_environment, test_package
+from gazelle.description.xml import Tag, read_xml
+from gazelle.diagnostics import Diagnostics, SourceSpan, render_text
+from gazelle.launch.environment import node_environment
+from gazelle.workspace import Workspace
 from gazelle.workspace.building.build import Outcome, run_jobs
+from gazelle.workspace.building.cmake_lists import read_cmake_lists
+from gazelle.workspace.building.packages import SourcePackage
+from gazelle.workspace.building.plan import site_packages
 
-__all__ = ["run"]
+__all__ = [
+    "run",
+]
+
+_FOLDERS = ("test", "tests")
+_PYTHON_CALLS = {"ament_add_pytest_test": 1, "catkin_add_nosetests": 0}
+# Calls for tests that need a compiler, or tools that are not here.
+_OTHER_CALLS = (
+    "add_launch_test", "add_rostest", "add_rostest_gtest", "ament_add_gmock", "ament_add_gtest",
+    "catkin_add_gmock", "catkin_add_gtest",
+)  # fmt: skip
+_FAILED, _NO_TESTS = 1, 5
+
+
+class _Counts(NamedTuple):
+    """How many tests did what."""
+
+    tests: int = 0
+    errors: int = 0
+    failures: int = 0
+    skipped: int = 0
+
+    def __str__(self) -> str:
+        words = [
+            f"{self.tests} test{'' if self.tests == 1 else 's'}",
+            f"{self.errors} error{'' if self.errors == 1 else 's'}",
+            f"{self.failures} failure{'' if self.failures == 1 else 's'}",
+            f"{self.skipped} skipped",
+        ]
+        return ", ".join(words)
+
+    @property
+    def is_bad(self) -> bool:
+        """A test failed."""
+        return bool(self.errors or self.failures)
+
+
+class _FileResult(NamedTuple):
+    """One file: its counts, and the tests that failed in it."""
+
+    file: Path
+    counts: _Counts
+    failures: tuple[str, ...]
+
+
+def _package_environment(install_base: Path, environ: Mapping[str, str]) -> dict[str, str]:
+    """Return the environment of tests: the install space and Gazelle's own modules.
+
+    Args:
+        install_base: install space; it need not be there.
+        environ: environment variables to start from.
+    """
+    prefixes = [install_base] if (install_base / "share").is_dir() else sorted(
+        path for path in install_base.glob("*") if (path / "share").is_dir())  # fmt: skip
+    modules = [path for prefix in prefixes if (path := prefix / site_packages()).is_dir()]
+    found = dict(environ)
+    for name, paths in (("AMENT_PREFIX_PATH", prefixes), ("PYTHONPATH", modules)):
+        parts = [*map(str, paths), *filter(None, environ.get(name, "").split(os.pathsep))]
+        found[name] = os.pathsep.join(dict.fromkeys(parts))
+    return node_environment(found, Workspace.discover(environ=found))
+
+
+def _test_package(
+    package: SourcePackage, results: Path, environ: Mapping[str, str], pytest_args: Sequence[str]
+) -> Outcome:
+    """Run a package's tests; that some fail is no failure of the run, their file tells.
+
+    Args:
+        package: whose tests.
+        results: folder for ``pytest.xml``.
+        environ: of the tests.
+        pytest_args: more arguments for pytest.
+    """
+    begin = time.monotonic()
+    diagnostics = Diagnostics()
+    paths = _test_paths(package, diagnostics)
+    results.mkdir(parents=True, exist_ok=True)
+    (results / "pytest.xml").unlink(missing_ok=True)
+    code, output, errors = 0, [], [render_text(item) for item in diagnostics]
+    if paths and find_spec("pytest") is None:
+        errors.append("pytest is not installed for the Python of Gazelle: pip install pytest")
+        code = 1
+    elif paths:
+        words = [sys.executable, "-m", "pytest", f"--junit-xml={results / 'pytest.xml'}",
+                 "-p", "no:cacheprovider", "-o", "junit_family=xunit2",
+                 *pytest_args, *map(str, paths)]  # fmt: skip
+        done = subprocess.run(
+            words, cwd=package.path, env=dict(environ), text=True, check=False, errors="replace",
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+        output = done.stdout.splitlines()
+        code = 0 if done.returncode in {0, _FAILED, _NO_TESTS} else done.returncode
+        errors += output if done.returncode not in {0, _NO_TESTS} else []
+    return Outcome(package.name, code, time.monotonic() - begin, tuple(output), tuple(errors))
+
+
+def _read_results(folder: Path) -> tuple[_Counts, tuple[_FileResult, ...]]:
+    """Return the sum and each file of the results below a folder; other XML files are left out."""
+    results = []
+    for file in sorted(folder.rglob("*.xml")):
+        root = read_xml(file, Diagnostics())
+        if root is not None and root.name in {"testsuites", "testsuite"}:
+            cases = list(_cases(root))
+            counts = _Counts(
+                len(cases),
+                *(sum(any(tag.name == kind for tag in case.children) for case in cases)
+                  for kind in ("error", "failure", "skipped")),
+            )  # fmt: skip
+            results.append(_FileResult(file, counts, tuple(_failures(cases))))
+    total = _Counts(*(sum(column) for column in zip(*(r.counts for r in results), strict=True)))
+    return total, tuple(results)
 
 
 def run(words: list[str], log_base: Path) -> int:
     """Run the verb that the first word names."""
     return _test(words[1:], log_base) if words[0] == "test" else _result(words[1:])
+
+
+def _test_paths(package: SourcePackage, diagnostics: Diagnostics) -> list[Path]:
+    if package.build_type == "ament_python":
+        return [package.path / name for name in _FOLDERS if (package.path / name).is_dir()]
+    lists = read_cmake_lists(package.path, package.name)
+    if lists is None:
+        return []
+    paths = []
+    for step in lists.called(*_PYTHON_CALLS, *_OTHER_CALLS):
+        place = _PYTHON_CALLS.get(step.name)
+        if place is not None and len(step.words) > place:
+            paths.append(package.path / step.folder / step.words[place])
+        elif place is None:
+            _report(step.name, step.words, step.span, diagnostics)
+    return paths
+
+
+def _report(call: str, words: Sequence[str], span: SourceSpan, diagnostics: Diagnostics) -> None:
+    text = f"test '{words[0] if words else ''}' of {call}() is not run: only Python tests are"
+    diagnostics.report("build.test-not-run", text, span)
+
+
+def _cases(tag: Tag) -> list[Tag]:
+    if tag.name == "testcase":
+        return [tag]
+    return [case for child in tag.children for case in _cases(child)]
+
+
+def _failures(cases: list[Tag]) -> list[str]:
+    found = []
+    for case in cases:
+        words = (case.attributes.get("classname", ""), case.attributes.get("name", ""))
+        for child in case.children:
+            if child.name in {"error", "failure"}:
+                message = child.attributes.get("message", "").partition("\n")[0]
+                found.append(f"{' '.join(filter(None, words))}: {message}")
+    return found
 
 
 def _test(words: Sequence[str], log_base: Path) -> int:
@@ -37,7 +196,7 @@ def _test(words: Sequence[str], log_base: Path) -> int:
     everything, chosen = chosen_packages(options)
     console = Console(options.event_handlers)
     log = Log(log_base if console.writes_log else Path("/dev/null"), "test")
-    environ = package_environment(options.install_base.absolute(), os.environ)
+    environ = _package_environment(options.install_base.absolute(), os.environ)
 
     def ended(outcome: Outcome) -> None:
         console.ended(outcome)
@@ -45,7 +204,7 @@ def _test(words: Sequence[str], log_base: Path) -> int:
 
     left = run_jobs(
         chosen,
-        lambda item: test_package(
+        lambda item: _test_package(
             item, options.build_base.absolute() / item.name, environ, options.pytest_args
         ),
         everything=everything,
@@ -55,7 +214,7 @@ def _test(words: Sequence[str], log_base: Path) -> int:
         continue_on_error=True,
     )
     failed = [name for name in (item.name for item in chosen)
-              if read_results(options.build_base / name)[0].is_bad]  # fmt: skip
+              if _read_results(options.build_base / name)[0].is_bad]  # fmt: skip
     console.summary(time.monotonic() - begin, left)
     if failed:
         count = "1 package" if len(failed) == 1 else f"{len(failed)} packages"
@@ -73,7 +232,7 @@ def _result(words: Sequence[str]) -> int:
     if not options.test_result_base.is_dir():
         print(f"the test result base '{options.test_result_base}' does not exist", file=sys.stderr)
         return 1
-    total, files = read_results(options.test_result_base)
+    total, files = _read_results(options.test_result_base)
     for file, counts, failures in files:
         if counts.is_bad or options.all:
             print(f"{os.path.relpath(file)}: {counts}")

@@ -1,16 +1,17 @@
-"""``gz``: Gazebo 11's tool and the new one's; ``gz sdf`` is here, the rest in `gazelle.cli.gz`."""
+"""``gz``: Gazebo 11's tool and the new one's; ``gz sdf`` is here, the rest beside it."""
 
 from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable, Mapping
 from getopt import GetoptError, gnu_getopt
 from pathlib import Path
 
-from gazelle.cli.gz import front
+from gazelle.cli.gz import joint, log, model, stats, topic, world
 from gazelle.cli.gz.ign import without_version
 from gazelle.cli.gz.new import front as new_front
-from gazelle.cli.gz.other_commands import GZ_INSTEAD
+from gazelle.cli.gz.options import GZ_INSTEAD, GzCommand, ended, help_text, run_with_options
 from gazelle.cli.sdf.ign_sdf import run_sdf as run_new_sdf
 from gazelle.cli.sdf.ign_sdf import usage
 from gazelle.cli.sdf.sdf_file import read_for, report_findings, say, take_quiet
@@ -22,6 +23,16 @@ from gazelle.description.sdformat_emulation.release import Release
 
 __all__ = ["main"]
 
+_ROWS: tuple[tuple[GzCommand, Callable[[Mapping[str, str]], int]], ...] = (
+    (joint.COMMAND, joint.run),
+    (log.COMMAND, log.run),
+    (model.COMMAND, model.run),
+    (stats.COMMAND, stats.run),
+    (topic.COMMAND, topic.run),
+    (world.COMMAND, world.run),
+)
+_COMMANDS = {command.name: (command, action) for command, action in _ROWS}
+_WORLD_COMMANDS = tuple(_COMMANDS)
 _OLD = Release.V9
 _UNKNOWN = 255
 _HELP = """This tool modifies various aspects of a running Gazebo simulation.
@@ -68,8 +79,6 @@ _NAMES = {
     "-h": "help", "-d": "describe", "-c": "convert", "-o": "doc", "-k": "check", "-v": "version",
     "-p": "print",
 }  # fmt: skip
-
-
 _NEW_HELP = """The 'gz' command provides a command line interface to the Gazebo Tools.
 
   gz <command> [options]
@@ -101,7 +110,7 @@ def main(argv: list[str]) -> int:
     """
     name = argv[0] if argv else ""
     if name == "--commands":
-        print("\n".join(sorted({*front.WORLD_COMMANDS, *new_front.NEW_COMMANDS, "sdf"})))
+        print("\n".join(sorted({*_WORLD_COMMANDS, *new_front.NEW_COMMANDS, "sdf"})))
         return 0
     if name == "sdf":
         words, version = without_version(argv[1:])
@@ -120,11 +129,11 @@ def main(argv: list[str]) -> int:
         return 0
     if new_front.is_new(name, argv[1:], in_use=_is_new_in_use):
         return new_front.run(name, argv[1:])
-    if name == "help" and len(argv) == 2 and argv[1] in front.WORLD_COMMANDS:
-        front.explain(argv[1])
+    if name == "help" and len(argv) == 2 and argv[1] in _WORLD_COMMANDS:
+        _explain(argv[1])
         return 0
-    if name in front.WORLD_COMMANDS:
-        return front.run(name, argv[1:])
+    if name in _WORLD_COMMANDS:
+        return _run(name, argv[1:])
     if name in GZ_INSTEAD:
         say([f"gazelle: gz {name} is not here; use {GZ_INSTEAD[name]}"])
         return _UNKNOWN
@@ -133,6 +142,17 @@ def main(argv: list[str]) -> int:
         return 0 if name in _HELP_WORDS else _UNKNOWN
     say([_HELP])
     return 0 if name == "help" else _UNKNOWN
+
+
+def _run(name: str, words: list[str]) -> int:
+    """Run a command on a running world; see `ended` for what it returns."""
+    command, action = _COMMANDS[name]
+    return ended(lambda: run_with_options(command, action, words))
+
+
+def _explain(name: str) -> None:
+    """Print such a command's options, on standard error as Gazebo does."""
+    say([help_text(_COMMANDS[name][0])])
 
 
 def _is_new_in_use() -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.cli.gz.new import front
-from gazelle.cli.gz.other_commands import IGN_INSTEAD
+from gazelle.cli.gz.options import IGN_INSTEAD
 from gazelle.cli.sdf.ign_sdf import run_sdf, usage, version_of
 from gazelle.cli.sdf.sdf_file import say
 from gazelle.description.sdformat_emulation.release import Release

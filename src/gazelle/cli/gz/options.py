@@ -1,17 +1,48 @@
-"""Options of a ``gz`` command: reading them and printing them as the original does."""
+"""Options of a ``gz`` command: reading them, printing them, and how the command ends."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from getopt import GetoptError, gnu_getopt
 from typing import NamedTuple
 
+from gazelle.cli.sdf.sdf_file import say
 from gazelle.errors import GazelleError
 
-__all__ = ["GzCommand", "GzError", "GzOption", "help_text", "number", "read_options", "seconds"]
+__all__ = [
+    "GZ_INSTEAD",
+    "IGN_INSTEAD",
+    "GzCommand",
+    "GzError",
+    "GzOption",
+    "ended",
+    "help_text",
+    "number",
+    "read_options",
+    "run_with_options",
+    "seconds",
+]
 
 _TEXT_COLUMN = 24
 _HELP = ("help", "h")
+_FAILED = 255
+GZ_INSTEAD = {
+    "camera": "the browser page of the simulator",
+    "debug": "gazelle --help",
+    "marker": "a visualization_msgs/Marker topic",
+    "physics": "rosservice call /gazebo/set_physics_properties",
+    "plugin": "gazelle doctor FILE, which says what a plug-in is here",
+}
+IGN_INSTEAD = {
+    "fuel": "models in local folders; nothing is downloaded",
+    "gui": "ign gazebo -g",
+    "launch": "roslaunch",
+    "log": "rosbag",
+    "msg": "rosmsg show",
+    "param": "rosparam, or ros2 param",
+    "plugin": "gazelle doctor FILE, which says what a plug-in is here",
+    "sim": "ign gazebo, as Fortress calls it, or gz sim",
+}
 
 
 class GzError(GazelleError):
@@ -92,3 +123,30 @@ def number(options: Mapping[str, str], name: str, default: float = 0.0) -> float
 def seconds(options: Mapping[str, str]) -> float | None:
     """Return ``--duration`` in seconds, None for no end."""
     return number(options, "duration") if "duration" in options else None
+
+
+def ended(work: Callable[[], int]) -> int:
+    """Do a command's work.
+
+    Returns:
+        what the work does; 0 for Ctrl-C; 255 when it could not do what it was asked, where
+        Gazebo often ends with 0.
+    """
+    try:
+        return work()
+    except KeyboardInterrupt:
+        return 0
+    except GazelleError as error:
+        say([error])
+        return _FAILED
+
+
+def run_with_options(
+    command: GzCommand, action: Callable[[Mapping[str, str]], int], words: Iterable[str]
+) -> int:
+    """Read a command's options and do what they say, or print them where help is wanted."""
+    options = read_options(command, words)
+    if options is None:
+        say([help_text(command)])
+        return 0
+    return action(options)

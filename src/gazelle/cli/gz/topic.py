@@ -1,21 +1,18 @@
-"""``gz topic``: the graph's topics with Gazebo's options and layout."""
+"""``gz topic``: the graph's topics with Gazebo's options and layout.
+
+Those of Gazebo Classic's own transport have its names, types and texts.
+"""
 
 from __future__ import annotations
 
 import sys
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, seconds
 from gazelle.cli.gz.protobuf_text import protobuf_text
-from gazelle.cli.gz.transport import (
-    contacts_fields,
-    gazebo_name,
-    gazebo_type,
-    transport_topics,
-)
 from gazelle.cli.gz.world_link import WorldLink, world_link
 from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import topic_class
@@ -23,9 +20,15 @@ from gazelle.cli.rostopic.bw import BandwidthMeter
 from gazelle.cli.rostopic.hz import RateMeter
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import RawMessage, TopicInfo
+from gazelle.graph.gazebo_names import shown_transport_name
 
-__all__ = ["COMMAND", "find_topic", "message_fields", "run"]
+__all__ = [
+    "COMMAND",
+    "find_topic",
+    "run",
+]
 
+_CONTACTS = "gazebo.msgs.Contacts"
 COMMAND = GzCommand(
     "topic",
     "List all topics, or show what goes over one. Gazelle has the topics of ROS\n\tand of Gazebo's "
@@ -52,6 +55,30 @@ _ELSEWHERE = {
 }
 _PERIOD_S = 1.0
 _FEW_BYTES = 1000.0
+
+
+def _transport_topics(topics: Iterable[TopicInfo]) -> dict[str, TopicInfo]:
+    """Return the topics of the transport by the names that Gazebo has for them."""
+    named = ((shown_transport_name(one.name), one) for one in topics)
+    return {name: one for name, one in named if name}
+
+
+def _gazebo_name(topic: TopicInfo) -> str:
+    """Return a topic's name as ``gz topic`` shows it."""
+    return shown_transport_name(topic.name) or topic.name
+
+
+def _gazebo_type(topic: TopicInfo) -> str:
+    """Return a topic's type as ``gz topic -i`` shows it."""
+    return _CONTACTS if shown_transport_name(topic.name) else topic.type_name
+
+
+def _contacts_fields(message: Any, topic: str) -> dict[str, Any]:
+    """Return contacts as the fields of ``gazebo.msgs.Contacts``; there are no ids here."""
+    time = _time(message.header.stamp)
+    world = topic.split("/")[2] if topic.startswith("/gazebo/") else ""
+    found = [_contact(one, time, world) for one in message.contacts]
+    return {"contact": found, "time": time}
 
 
 def run(options: Mapping[str, str]) -> int:
@@ -81,16 +108,10 @@ def run(options: Mapping[str, str]) -> int:
     return 0
 
 
-def _listed(link: WorldLink) -> list[str]:
-    known = link.graph.topics(include_hidden=True)
-    shown = [one.name for one in link.graph.topics()]
-    return [*shown, *transport_topics(known)]
-
-
-def message_fields(message: Any) -> Any:
+def _message_fields(message: Any) -> Any:
     """Return a message as mappings and lists for `protobuf_text`."""
     if hasattr(message, "__slots__") and hasattr(message, "_type"):
-        return {name: message_fields(getattr(message, name)) for name in message.__slots__}
+        return {name: _message_fields(getattr(message, name)) for name in message.__slots__}
     if isinstance(message, (bytes, bytearray)):
         return list(message)
     if isinstance(message, (str, bool, int, float)):
@@ -98,7 +119,7 @@ def message_fields(message: Any) -> Any:
     if hasattr(message, "secs"):
         return {"sec": int(message.secs), "nsec": int(message.nsecs)}
     items = message.tolist() if hasattr(message, "tolist") else message
-    return [message_fields(one) for one in items] if isinstance(items, (list, tuple)) else items
+    return [_message_fields(one) for one in items] if isinstance(items, (list, tuple)) else items
 
 
 def find_topic(link: WorldLink, word: str) -> TopicInfo:
@@ -108,7 +129,7 @@ def find_topic(link: WorldLink, word: str) -> TopicInfo:
         GzError: no topic or several are meant.
     """
     known = link.graph.topics(include_hidden=True)
-    topics = {gazebo_name(one): one for one in known}
+    topics = {_gazebo_name(one): one for one in known}
     word = word.removeprefix("~")
     ends = [name for name in topics if name.endswith("/" + word.strip("/"))]
     found = [word] if word in topics else ends
@@ -120,9 +141,51 @@ def find_topic(link: WorldLink, word: str) -> TopicInfo:
     raise GzError(f"Unable to find topic[{word}]; {hint}")
 
 
+def _contact(contact: Any, time: dict[str, int], world: str) -> dict[str, Any]:
+    return {
+        "collision1": contact.collision1.name,
+        "collision2": contact.collision2.name,
+        "position": [_vector(one) for one in contact.positions],
+        "normal": [_vector(one) for one in contact.normals],
+        "depth": [float(one) for one in contact.depths],
+        "wrench": [
+            {
+                "body_1_name": one.body_1_name.data,
+                "body_2_name": one.body_2_name.data,
+                "body_1_wrench": _wrench(one.body_1_wrench),
+                "body_2_wrench": _wrench(one.body_2_wrench),
+            }
+            for one in contact.wrenches
+        ],
+        "time": time,
+        "world": world,
+    }
+
+
+def _wrench(wrench: Any) -> dict[str, Any]:
+    return {"force": _vector(wrench.force), "torque": _vector(wrench.torque)}
+
+
+def _vector(vector: Any) -> dict[str, float]:
+    return {"x": float(vector.x), "y": float(vector.y), "z": float(vector.z)}
+
+
+def _time(stamp: Any) -> dict[str, int]:
+    seconds = getattr(stamp, "secs", None)
+    if seconds is None:
+        return {"sec": int(stamp.sec), "nsec": int(stamp.nanosec)}
+    return {"sec": int(seconds), "nsec": int(stamp.nsecs)}
+
+
+def _listed(link: WorldLink) -> list[str]:
+    known = link.graph.topics(include_hidden=True)
+    shown = [one.name for one in link.graph.topics()]
+    return [*shown, *_transport_topics(known)]
+
+
 def _info(link: WorldLink, topic: TopicInfo, _duration_s: float | None) -> None:
     processes = Processes(link.graph)
-    print(f"Type: {gazebo_type(topic)}\n")
+    print(f"Type: {_gazebo_type(topic)}\n")
     for title, names in (("Publishers", topic.publishers), ("Subscribers", topic.subscriptions)):
         print(f"{title}:")
         for node in names:
@@ -131,11 +194,11 @@ def _info(link: WorldLink, topic: TopicInfo, _duration_s: float | None) -> None:
 
 
 def _echo(link: WorldLink, topic: TopicInfo, duration_s: float | None) -> None:
-    name = gazebo_name(topic)
+    name = _gazebo_name(topic)
     is_own = name != topic.name
 
     def show(message: Any) -> None:
-        fields = contacts_fields(message, name) if is_own else message_fields(message)
+        fields = _contacts_fields(message, name) if is_own else _message_fields(message)
         print(protobuf_text(fields), flush=True)
 
     link.show_each(topic.name, topic_class(topic.type_name), show, duration_s)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
-from gazelle.cli.inertia.table import link_rows, table
 from gazelle.description.checks.inertia import (
     SUPERSEDED_CODES,
     InertiaFinding,
@@ -17,14 +17,49 @@ from gazelle.description.checks.inertia import (
     check_mass_ratios,
 )
 from gazelle.description.checks.inertia_patch import Patch, make_patch
+from gazelle.description.checks.inertia_units import box_fit
 from gazelle.description.checks.source_elements import read_checked_source
 from gazelle.description.checks.written_inertials import LinkRecord, joint_records_of, records_of
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan, render
+from gazelle.geometry import is_legal_inertia
 from gazelle.workspace import Workspace
 
-__all__ = ["check"]
+__all__ = [
+    "check",
+]
 
+_HEADS = {
+    "link": "link",
+    "mass_kg": "mass kg",
+    "density_kg_m3": "kg/m³",
+    "equivalent_box_m": "equivalent box m",
+    "bounding_box_m": "shapes along its axes m",
+    "verdict": "verdict",
+}
+_GAP = "  "
 _EXIT_CODES = {None: 0, Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
+
+
+def _link_rows(
+    records: Iterable[LinkRecord], findings: Iterable[InertiaFinding]
+) -> list[dict[str, Any]]:
+    """Return one row per link; None stands for what cannot be told."""
+    codes: dict[int, list[str]] = {}
+    for finding in findings:
+        short = finding.diagnostic.code.removeprefix("inertia.")
+        codes.setdefault(id(finding.record), []).append(short)
+    return [_row(record, codes.get(id(record), [])) for record in records]
+
+
+def _table(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Return the rows as text, columns aligned."""
+    shown = [list(_HEADS.values()), *([_text(row[key]) for key in _HEADS] for row in rows)]
+    widths = [max(len(line[column]) for line in shown) for column in range(len(_HEADS))]
+    lines = (
+        _GAP.join(word.ljust(width) for word, width in zip(line, widths, strict=True)).rstrip()
+        for line in shown
+    )
+    return "\n".join(lines)
 
 
 def check(options: argparse.Namespace, mappings: Mapping[str, str]) -> int:
@@ -53,6 +88,40 @@ def check(options: argparse.Namespace, mappings: Mapping[str, str]) -> int:
     patch = make_patch(findings) if options.fix or options.output else None
     _show(options, records, findings, all_findings, patch)
     return _EXIT_CODES[all_findings.worst]
+
+
+def _row(record: LinkRecord, codes: Sequence[str]) -> dict[str, Any]:
+    written = record.written
+    mass = None if written is None or not math.isfinite(written.mass_kg) else written.mass_kg
+    row: dict[str, Any] = dict.fromkeys(_HEADS)
+    row |= {"link": record.name, "mass_kg": mass, "verdict": ", ".join(codes) or _quiet(record)}
+    if mass is None or mass <= 0.0 or written is None:
+        return row
+    if record.volumes_m3:
+        row["density_kg_m3"] = mass / record.volumes_m3[0]
+    points = record.points_m if record.extent_m > 0.0 else None
+    if points is not None and is_legal_inertia(written.inertia_kg_m2):
+        fit = box_fit(written.body, points)
+        row |= {"equivalent_box_m": fit.equivalent_m, "bounding_box_m": fit.bounding_m}
+    return row
+
+
+def _quiet(record: LinkRecord) -> str:
+    if record.is_computed:
+        return "ok (computed from its collisions)"
+    if record.has_unreadable:
+        return "unreadable"
+    if record.written is None:
+        return "ok (a frame without mass)"
+    return "ok" if record.extent_m > 0.0 else "ok (no shapes to compare with)"
+
+
+def _text(value: Any) -> str:
+    if value is None:
+        return "-"
+    if isinstance(value, tuple):
+        return " × ".join(f"{item:.3g}" for item in value)
+    return value if isinstance(value, str) else f"{value:.4g}"
 
 
 def _located(name: str, workspace: Workspace, diagnostics: Diagnostics) -> Path | None:
@@ -88,7 +157,7 @@ def _show(
     else:
         render(diagnostics, stream=stream)
         if records:
-            print(table(link_rows(records, findings)), file=stream)
+            print(_table(_link_rows(records, findings)), file=stream)
         print(_verdict(diagnostics, len(records)), file=stream)
     if patch is not None:
         _write(patch, options.output)
@@ -128,7 +197,7 @@ def _json(
 ) -> str:
     return json.dumps(
         {
-            "links": link_rows(records, findings),
+            "links": _link_rows(records, findings),
             "findings": [
                 {
                     "code": item.code,

@@ -6,8 +6,7 @@ import argparse
 import sys
 from typing import Any
 
-from gazelle.cli.ros2.calls import absolute, call_service, nodes_offering
-from gazelle.cli.ros2.graph import cli_node, graph_of_ros2
+from gazelle.cli.ros2.graph import absolute, call_service, cli_node, graph_of_ros2, nodes_offering
 from gazelle.cli.ros2.verbs import Command, Verb, add_strategy_arguments, fail, run_command
 from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Entity, Node

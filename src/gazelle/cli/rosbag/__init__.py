@@ -1,10 +1,15 @@
-"""``rosbag``: recording, playing and rewriting bags."""
+"""``rosbag``: its subcommands; `play` and `record` are the nodes of the same names."""
 
 from __future__ import annotations
 
-from gazelle.cli.tool import Tool, run_tool
+import threading
 
-__all__ = ["main"]
+from gazelle.cli.tool import Tool, joined, run_tool
+from gazelle.graph import Graph, Node
+from gazelle.graph.names import CommandLine, parse_command_line
+from gazelle.process_exit import at_stop_signal
+
+__all__ = ["main", "play", "record"]
 
 _USAGE = """Usage: rosbag <subcommand> [options] [args]
 
@@ -24,6 +29,54 @@ Available subcommands:
 
 For additional information, see http://wiki.ros.org/rosbag
 """
+
+
+def main(argv: list[str]) -> int:
+    """Run a subcommand of ``rosbag``."""
+    return run_tool(_TOOL, argv)
+
+
+def play(words: list[str]) -> int:
+    """Play bags on the graph until they end, or until Ctrl-C."""
+    from gazelle.bag.playing import Controls
+    from gazelle.nodes.rosbag.play import play as play_bags
+    from gazelle.nodes.rosbag.play import play_options
+
+    line = parse_command_line(words)
+    options, paths = play_options(line.rest)
+    controls = Controls(paused=options.pause)
+    at_stop_signal(controls.stop)
+    with joined() as graph:
+        node = _node(graph, line, "play")
+        node.on_shutdown(lambda _reason: controls.stop())
+        return play_bags(node, options, paths, controls)
+
+
+def record(words: list[str]) -> int:
+    """Record topics into a bag until Ctrl-C, or until a limit is reached."""
+    from gazelle.nodes.rosbag.record import main_options
+    from gazelle.nodes.rosbag.record import record as record_bag
+
+    line = parse_command_line(words)
+    options, args = main_options(line.rest)
+    stop = threading.Event()
+    at_stop_signal(stop.set)
+    with joined() as graph:
+        node = _node(graph, line, "record")
+        graph.clock.follow(node)
+        node.on_shutdown(lambda _reason: stop.set())
+        return record_bag(graph, node, options, args, stop)
+
+
+def _node(graph: Graph, line: CommandLine, name: str) -> Node:
+    return graph.create_node(
+        line.name or name,
+        namespace=line.namespace,
+        remappings=line.remappings,
+        anonymous=line.name is None,
+    )
+
+
 _TOOL = Tool(
     "rosbag",
     {
@@ -33,16 +86,11 @@ _TOOL = Tool(
         "filter": "gazelle.cli.rosbag.filter:run",
         "fix": "gazelle.cli.rosbag.check:fix",
         "info": "gazelle.cli.rosbag.info:run",
-        "play": "gazelle.cli.rosbag.play:run",
-        "record": "gazelle.cli.rosbag.record:run",
+        "play": play,
+        "record": record,
         "reindex": "gazelle.cli.rosbag.compress:reindex",
     },
     _USAGE,
     0,
     takes_remappings=False,
 )
-
-
-def main(argv: list[str]) -> int:
-    """Run a subcommand of ``rosbag``."""
-    return run_tool(_TOOL, argv)

@@ -21,7 +21,7 @@ from gazelle.bag import (
 )
 from gazelle.bag.conversion import copy_bag
 from gazelle.bag.opening import tell_of_unindexed
-from gazelle.cli.rosbag.progress import ProgressMeter
+from gazelle.cli.rosbag.compress import ProgressMeter
 from gazelle.cli.tool import ToolError, option_parser
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.errors import GazelleError

@@ -7,8 +7,7 @@ import time
 from collections import deque
 from typing import NamedTuple
 
-from gazelle.cli.rostopic.topics import wait_for_topic
-from gazelle.cli.rostopic.waiting import join_as_node
+from gazelle.cli.rostopic.topics import join_as_node, wait_for_topic
 from gazelle.cli.tool import global_name, joined, option_parser
 from gazelle.graph import RawMessage
 

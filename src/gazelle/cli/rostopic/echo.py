@@ -10,8 +10,7 @@ from optparse import OptionParser, Values
 from typing import Any, Protocol
 
 from gazelle.cli.ros_types import topic_class
-from gazelle.cli.rostopic.topics import FoundTopic, wait_for_topic
-from gazelle.cli.rostopic.waiting import join_as_node, uses_sim_time
+from gazelle.cli.rostopic.topics import FoundTopic, join_as_node, uses_sim_time, wait_for_topic
 from gazelle.cli.text.fields import FieldError, field_type, field_value
 from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
 from gazelle.interfaces import Time, strify
@@ -162,8 +161,7 @@ class Echo:
         return f"{_CLEAR if options.clear else ''}{text}\n---\n"
 
     def _row(self, value: Any) -> str:
-        from gazelle.cli.text.ros1_text import field_filter
-        from gazelle.cli.text.table import csv_header, csv_row
+        from gazelle.cli.text.ros1_text import csv_header, csv_row, field_filter
 
         options, now_ns = self._options, self._clock.now_ns()
         keep = field_filter(strings=options.nostr, arrays=options.noarr)

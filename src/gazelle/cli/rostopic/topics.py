@@ -1,8 +1,9 @@
-"""Which topic, and which field of it, a word means."""
+"""Which topic, and which field of it, a word means; the node of subcommands that go on."""
 
 from __future__ import annotations
 
 import sys
+import threading
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -10,10 +11,10 @@ from gazelle.cli.ros_types import message_class, shown_type
 from gazelle.cli.text.fields import Step, has_field, parse_path
 from gazelle.cli.tool import hint
 from gazelle.errors import GazelleError
-from gazelle.graph import ANY_TYPE, Entity, Graph, TopicInfo
+from gazelle.graph import ANY_TYPE, Entity, Graph, Node, TopicInfo
 from gazelle.graph.graph_info import topics_of
 
-__all__ = ["FoundTopic", "find_topic", "wait_for_topic"]
+__all__ = ["FoundTopic", "find_topic", "join_as_node", "uses_sim_time", "wait_for_topic"]
 
 _LOOK_S = 1.0
 
@@ -30,6 +31,29 @@ class FoundTopic(NamedTuple):
     name: str
     type_name: str
     steps: tuple[Step, ...]
+
+
+def join_as_node(
+    graph: Graph, *, clock: bool = True, rosout: bool = True
+) -> tuple[Node, threading.Event]:
+    """Return a node of a name of its own, and the event of its end (``rosnode kill``).
+
+    Args:
+        graph: the graph.
+        clock: follow ``/clock`` while ``/use_sim_time`` is true.
+        rosout: announce ``/rosout``.
+    """
+    node = graph.create_node("rostopic", anonymous=True, rosout=rosout)
+    ended = threading.Event()
+    node.on_shutdown(lambda _reason: ended.set())
+    if clock:
+        graph.clock.follow(node)
+    return node, ended
+
+
+def uses_sim_time(graph: Graph) -> bool:
+    """Return whether the parameter says that time is simulated."""
+    return graph.parameters.get("/use_sim_time", False) is True
 
 
 def find_topic(entities: Iterable[Entity], word: str) -> FoundTopic | None:

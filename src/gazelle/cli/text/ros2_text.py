@@ -2,19 +2,33 @@
 
 The rules are those of rosidl_runtime_py's ``message_to_yaml`` and ``message_to_csv`` and of the
 ``__repr__`` of generated messages.
+
+``ros2 topic echo`` of a joint state at 1 kHz leaves a millisecond for each message; so YAML blocks
+are written here, letter for letter as PyYAML writes them and many times as fast.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from gazelle.cli.text.yaml_blocks import NotSimpleError, yaml_blocks
 from gazelle.interfaces import FieldType, Message
 from gazelle.interfaces.definition import FORMATS, NUMPY_NAMES, Array, attribute_name
 
-__all__ = ["WHOLE", "Shortening", "message_csv", "message_repr", "message_yaml", "value_text"]
+__all__ = [
+    "WHOLE",
+    "NotSimpleError",
+    "Shortening",
+    "message_csv",
+    "message_repr",
+    "message_yaml",
+    "value_text",
+    "yaml_blocks",
+]
 
 # IDL's names of the basic types, which the notes of --no-arr show.
 _IDL = {
@@ -24,6 +38,10 @@ _CODES = {
     "float32": "f", "float64": "d", "int8": "b", "uint8": "B", "char": "B", "int16": "h",
     "uint16": "H", "int32": "i", "uint32": "I", "int64": "q", "uint64": "Q",
 }  # fmt: skip
+
+
+class NotSimpleError(Exception):
+    """A text has several lines; how it is written depends on where it stands."""
 
 
 class Shortening(NamedTuple):
@@ -41,6 +59,20 @@ class Shortening(NamedTuple):
 
 
 WHOLE = Shortening()
+
+
+def yaml_blocks(fields: dict[str, Any]) -> str:
+    """Return fields as ``yaml.dump`` writes them in block style, in their order.
+
+    Args:
+        fields: numbers, texts, dictionaries, and lists of one of these.
+
+    Raises:
+        NotSimpleError: PyYAML has to write it.
+    """
+    if not fields:
+        return "{}\n"
+    return "\n".join(_lines(fields, "")) + "\n"
 
 
 def message_yaml(message: Message, how: Shortening = WHOLE, *, flow_style: bool = False) -> str:
@@ -86,6 +118,62 @@ def value_text(value: Any, kind: FieldType | None) -> str:
             f"array('{_CODES[kind.base]}', {items})" if items else f"array('{_CODES[kind.base]}')"
         )
     return _repr(value, kind)
+
+
+def _lines(fields: dict[str, Any], indent: str) -> Iterator[str]:
+    for name, value in fields.items():
+        key = f"{indent}{_quoted(name)}:"
+        if isinstance(value, dict) and value:
+            yield key
+            yield from _lines(value, indent + "  ")
+        elif isinstance(value, list) and value:
+            yield key
+            for item in value:
+                yield from _item(item, indent)
+        else:
+            yield f"{key} {_scalar(value)}"
+
+
+def _item(item: Any, indent: str) -> Iterator[str]:
+    if isinstance(item, dict) and item:
+        lines = _lines(item, indent + "  ")
+        yield f"{indent}- {next(lines)[len(indent) + 2 :]}"
+        yield from lines
+    else:
+        yield f"{indent}- {_scalar(item)}"
+
+
+def _scalar(value: Any) -> str:
+    if isinstance(value, float):
+        return _float(value)
+    if isinstance(value, str):
+        return _quoted(value)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if value in ({}, []):
+        return str(value)
+    raise NotSimpleError
+
+
+def _float(value: float) -> str:
+    """YAML 1.1 wants a point in front of an exponent."""
+    if math.isfinite(value):
+        text = repr(value)
+        return text if "." in text else text.replace("e", ".0e", 1)
+    return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
+
+
+@lru_cache(maxsize=4096)
+def _quoted(text: str) -> str:
+    from gazelle.documents.yaml import MESSAGE_STYLE, dump_yaml
+
+    dumped = dump_yaml([text], MESSAGE_STYLE)
+    # YAML has more line breaks than the newline; splitlines knows them all.
+    if len(dumped.splitlines()) != 1:
+        raise NotSimpleError
+    return dumped[2:-1]
 
 
 def _dumped(plain: dict[str, Any], *, flow_style: bool) -> str:

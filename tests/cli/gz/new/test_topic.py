@@ -16,7 +16,7 @@ from tests.patience import stretched
 from gazelle.cli.gz.new.front import is_new
 from gazelle.cli.gz.new.message_types import message_of, ros_types_of
 from gazelle.cli.gz.options import GzError
-from gazelle.cli.gz.protobuf_parser import read_protobuf_text
+from gazelle.cli.gz.protobuf_text import read_protobuf_text
 from gazelle.cli.main import main
 from gazelle.graph import Graph
 from gazelle.interfaces import message_type

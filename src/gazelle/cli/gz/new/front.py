@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from gazelle.cli.gz.new import model, service, sim, topic
-from gazelle.cli.gz.options import GzCommand, help_text
-from gazelle.cli.gz.running import ended, run_with_options
+from gazelle.cli.gz.options import GzCommand, ended, help_text, run_with_options
 from gazelle.cli.sdf.sdf_file import say
 
 __all__ = ["NEW_COMMANDS", "explain", "is_new", "run"]

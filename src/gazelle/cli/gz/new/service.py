@@ -9,8 +9,7 @@ from typing import Any
 from gazelle.cli.gz.new.message_types import message_of, text_fields
 from gazelle.cli.gz.new.world_services import WORLD_SERVICES
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number
-from gazelle.cli.gz.protobuf_parser import read_protobuf_text
-from gazelle.cli.gz.protobuf_text import protobuf_text
+from gazelle.cli.gz.protobuf_text import protobuf_text, read_protobuf_text
 from gazelle.cli.gz.world_link import WorldLink, world_link
 from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import learn_workspace_types

@@ -9,14 +9,19 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from gazelle._version import __version__
-from gazelle.cli.gz.new.gui_config import lets_world_go
 from gazelle.cli.gz.options import GzError
 from gazelle.cli.sdf.sdf_file import say
+from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics, did_you_mean, render_text
+from gazelle.documents import read_text_limited
 from gazelle.workspace import Workspace
 
-__all__ = ["SimStart", "read_sim", "run"]
+__all__ = ["SimStart", "lets_world_go", "read_sim", "run"]
 
+_CONTROL = re.compile(r"(?:lib)?WorldControl(?:\.so)?")
+_DECLARATION = re.compile(r"\s*<\?xml.*?\?>", re.DOTALL)
+_YES = frozenset({"true", "1"})
+_NO = frozenset({"false", "0"})
 _HELP = """
 Run and manage Gazebo simulations; here with Gazelle's simulator.
 
@@ -98,6 +103,37 @@ class SimStart:
         return words
 
 
+def lets_world_go(world: str, gui_config: str, diagnostics: Diagnostics | None = None) -> bool:
+    """Tell whether the window's ``WorldControl`` starts a world without ``-r``.
+
+    It does where ``<start_paused>`` says no. A file of ``--gui-config`` counts in place of the
+    world's own ``<gui>``.
+
+    Args:
+        world: the world's file, empty for the empty world.
+        gui_config: the file that is named, empty for none.
+        diagnostics: hears what is wrong in `gui_config`; the world's reader tells of the world.
+
+    Raises:
+        OSError, UnicodeDecodeError: `gui_config` cannot be read.
+    """
+    file = Path(gui_config or world)
+    try:
+        text = read_text_limited(file) if str(file) != "." else ""
+    except (OSError, UnicodeDecodeError):
+        if gui_config:
+            raise
+        return False
+    # A configuration has no root of its own.
+    inside = _DECLARATION.sub("", text, count=1)
+    heard = diagnostics if gui_config and diagnostics is not None else Diagnostics()
+    root = parse_xml(f"<gui>{inside}</gui>", str(file), heard)
+    if root is None:
+        return False
+    guis = (root,) if gui_config else (tag for tag in root.walk() if tag.name == "gui")
+    return any(_starts(plugin) for gui in guis for plugin in _plugins(gui))
+
+
 def run(words: list[str]) -> int:
     """Run a world in this process until Ctrl-C or the last iteration.
 
@@ -124,22 +160,6 @@ def run(words: list[str]) -> int:
     if "-r" not in start.flags:
         say(["gazelle: the world is paused, as gz sim has it without -r; gz world -p 0 lets it go"])
     return gzserver.main([*start.server_words, "--gz"])
-
-
-def _is_let_go(start: SimStart) -> bool:
-    """Tell whether the window's configuration starts the world, and what is wrong with it."""
-    diagnostics = Diagnostics()
-    try:
-        lets_go = lets_world_go(start.world, start.gui_config, diagnostics)
-    except (OSError, UnicodeDecodeError) as error:
-        why = getattr(error, "strerror", None) or error
-        say([
-            f"gazelle: --gui-config {start.gui_config}: {why}; the window has no configuration\n"
-            "  fix: name a file that is there, from the folder the command runs in"
-        ])  # fmt: skip
-        return False
-    say(render_text(one) for one in diagnostics)
-    return lets_go
 
 
 def read_sim(words: Iterable[str]) -> SimStart:
@@ -171,6 +191,32 @@ def read_sim(words: Iterable[str]) -> SimStart:
             hint = did_you_mean(word, known) or "see gz sim --help"
             raise GzError(f"gz sim has no option '{word}'; {hint}")
     return start
+
+
+def _plugins(gui: Tag) -> Iterable[Tag]:
+    found = (tag for tag in gui.find_all("plugin"))
+    return (tag for tag in found if _CONTROL.fullmatch(tag.attributes.get("filename", "")))
+
+
+def _starts(control: Tag) -> bool:
+    has_buttons = control.text_of("play_pause").lower() in _YES
+    return has_buttons and control.text_of("start_paused").lower() in _NO
+
+
+def _is_let_go(start: SimStart) -> bool:
+    """Tell whether the window's configuration starts the world, and what is wrong with it."""
+    diagnostics = Diagnostics()
+    try:
+        lets_go = lets_world_go(start.world, start.gui_config, diagnostics)
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", None) or error
+        say([
+            f"gazelle: --gui-config {start.gui_config}: {why}; the window has no configuration\n"
+            "  fix: name a file that is there, from the folder the command runs in"
+        ])  # fmt: skip
+        return False
+    say(render_text(one) for one in diagnostics)
+    return lets_go
 
 
 def _parted(words: Iterable[str]) -> Iterable[str]:

@@ -11,8 +11,7 @@ from typing import Any
 from gazelle.cli.gz import topic as classic
 from gazelle.cli.gz.new.message_types import gz_type_of, message_of, ros_types_of, text_fields
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number, seconds
-from gazelle.cli.gz.protobuf_parser import read_protobuf_text
-from gazelle.cli.gz.protobuf_text import protobuf_text
+from gazelle.cli.gz.protobuf_text import protobuf_text, read_protobuf_text
 from gazelle.cli.gz.world_link import WorldLink, world_link
 from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import learn_workspace_types

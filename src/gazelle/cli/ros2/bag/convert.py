@@ -1,4 +1,4 @@
-"""``ros2 bag convert``."""
+"""``ros2 bag convert`` and ``ros2 bag reindex``."""
 
 from __future__ import annotations
 
@@ -6,19 +6,35 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from gazelle.bag import BagError, BagMessage, create_bag, open_bag
+from gazelle.bag import BagError, BagMessage, create_bag, open_bag, rosbag2
 from gazelle.bag.conversion import copy_bag
 from gazelle.bag.formats import MCAP
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.documents.yaml import YamlError, load_yaml_file
 
-__all__ = ["main"]
+__all__ = ["convert", "reindex"]
 
 _KNOWN = {"uri", "storage_id", "all", "all_topics", "topics", "exclude_topics"}
 _KNOWN |= {"compression_format", "compression_mode"}
 
 
-def main(argv: list[str]) -> int:
+def reindex(argv: list[str]) -> int:
+    """Write a bag's ``metadata.yaml`` from its files."""
+    about = "Reconstruct metadata file for a bag"
+    parser = argparse.ArgumentParser(prog="ros2 bag reindex", description=about)
+    parser.add_argument("bag_path", help="Bag to open")
+    parser.add_argument("-s", "--storage", help="accepted: the files themselves tell their format")
+    options = parser.parse_args(argv)
+    path = Path(options.bag_path)
+    if not path.is_dir():
+        raise BagError(f"Bag path '{path}' is not the folder of a bag")
+    print(f"Reindexing files in {path}")
+    rosbag2.reindex(path)
+    print("Reindexing complete.")
+    return 0
+
+
+def convert(argv: list[str]) -> int:
     """Write bags as a YAML file says, from one or more bags."""
     about = "Given an input bag, write out a new bag with different settings"
     parser = argparse.ArgumentParser(prog="ros2 bag convert", description=about)

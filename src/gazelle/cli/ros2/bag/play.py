@@ -10,7 +10,7 @@ from gazelle.bag import Connection, bag_types, open_bag
 from gazelle.bag.opening import tell_of_unindexed
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.playing.controls import keyboard
-from gazelle.cli.ros2.bag.speaking import say
+from gazelle.cli.ros2.bag import say
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.graph import Graph
 from gazelle.process_exit import at_stop_signal

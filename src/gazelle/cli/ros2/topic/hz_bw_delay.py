@@ -10,10 +10,9 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from gazelle.cli.ros2.graph import cli_node, full_name, graph_of_ros2
-from gazelle.cli.ros2.topic.waiting import wait_for_type
-from gazelle.cli.ros2.types import ros2_message_class
+from gazelle.cli.ros2.graph import cli_node, full_name, graph_of_ros2, wait_for_type
 from gazelle.cli.ros2.verbs import add_direct_arguments, positive_int
+from gazelle.cli.ros_types import ros2_message_class
 from gazelle.cli.rostopic.bw import BandwidthMeter
 from gazelle.cli.rostopic.delay import DelayMeter
 from gazelle.cli.rostopic.echo import expression

@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 
 from gazelle.cli.ros2.graph import cli_node, full_name, graph_of_ros2, types_by_name
 from gazelle.cli.ros2.topic.qos import add_qos_arguments, chosen_profile
-from gazelle.cli.ros2.types import stated_message_class
 from gazelle.cli.ros2.verbs import add_direct_arguments, positive_float, whole
-from gazelle.cli.text.ros2_filling import filled, yaml_values
+from gazelle.cli.ros_types import stated_message_class
+from gazelle.cli.text.fill_message import filled, yaml_values
 from gazelle.cli.text.ros2_text import message_repr
 from gazelle.cli.tool import ToolError
 from gazelle.errors import GraphError

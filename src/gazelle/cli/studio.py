@@ -1,0 +1,108 @@
+"""``gazelle studio``: the browser page on a running graph."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import threading
+import webbrowser
+from pathlib import Path
+
+from gazelle.graph import Graph
+from gazelle.process_exit import at_stop_signal
+from gazelle.studio import Server, Studio
+from gazelle.studio.windows.page_owner import offer
+
+__all__ = ["main"]
+
+_LOOK_S = 0.5
+
+
+def main(argv: list[str]) -> int:
+    """Run until Ctrl-C, SIGTERM or ``rosnode kill``."""
+    options = _parser().parse_args(argv)
+    stop = threading.Event()
+    at_stop_signal(stop.set)
+    with Graph.open() as graph:
+        studio = Studio(graph, options.folder)
+        studio.node.on_shutdown(lambda _reason: stop.set())
+        _show_panels(studio, options.panel)
+        with Server(studio, host=options.host, port=options.port) as server:
+            offer(server)
+            print(f"Studio: {server.url}", flush=True)
+            if not server.is_local:
+                _warn_of_network(options.host)
+            if options.browser:
+                _open_browser(server.url)
+            _wait(stop)
+    return 0
+
+
+def _warn_of_network(host: str) -> None:
+    print(
+        f"studio: everybody who reaches {host} and has this address steers the graph, and it goes "
+        "through the network unencrypted; 'ssh -L' to a page on 127.0.0.1 keeps it to yourself",
+        file=sys.stderr,
+    )
+
+
+def _show_panels(studio: Studio, files: list[str]) -> None:
+    """Have the first page open the panels of files; they are in its menu too."""
+    for words in files:
+        for source in studio.desk.name_file(words):
+            studio.pages.show(f"plugin:{source.name}")
+
+
+def _folder(text: str) -> Path:
+    folder = Path(text).expanduser()
+    if not folder.is_dir():
+        raise argparse.ArgumentTypeError(f"there is no folder {text}")
+    return folder
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="gazelle studio",
+        description="Serves the page that shows worlds, robots, topics and plots of a graph.",
+    )
+    parser.add_argument(
+        "--port", type=int, help="TCP port, 0 for any; the first free one from 8090 on otherwise"
+    )
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        help="address to listen on; whoever has the printed URL gets in, it carries a token",
+    )
+    parser.add_argument(
+        "--folder",
+        type=_folder,
+        metavar="DIR",
+        help="pages write files below it and nowhere else; default: the current folder",
+    )
+    parser.add_argument(
+        "--no-browser", dest="browser", action="store_false", help="only print the URL"
+    )
+    parser.add_argument(
+        "--panel",
+        action="append",
+        default=[],
+        metavar="FILE.py[:CLASS]",
+        help="show a panel of your own (docs: Write a panel); may be given more than once",
+    )
+    return parser
+
+
+def _open_browser(url: str) -> None:
+    """A machine without a browser is none of our business: the URL was printed."""
+    try:
+        webbrowser.open(url)
+    except (webbrowser.Error, OSError) as error:
+        print(f"no browser could be started ({error}); open the URL yourself", file=sys.stderr)
+
+
+def _wait(stop: threading.Event) -> None:
+    try:
+        while not stop.wait(_LOOK_S):
+            pass
+    except KeyboardInterrupt:
+        return
