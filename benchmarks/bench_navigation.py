@@ -42,8 +42,7 @@ from gazelle.navigation.costmap import (
     inflated,
 )
 from gazelle.navigation.localization import AmclOptions
-from gazelle.navigation.localization.laser_model import ScanModel, chosen_beams
-from gazelle.navigation.localization.likelihood_field import LikelihoodMap
+from gazelle.navigation.localization.laser_model import LikelihoodMap, ScanModel, chosen_beams
 from gazelle.navigation.planners import (
     GlobalPlannerOptions,
     NavfnOptions,

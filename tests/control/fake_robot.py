@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.interface_values import InterfaceBank
 from gazelle.control.robot import JointResource, Robot
-from gazelle.control.table import ControllerTable
 from gazelle.description.model import Model
 from gazelle.parameters import Parameter, ParameterTable
 

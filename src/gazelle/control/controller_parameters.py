@@ -1,18 +1,40 @@
-"""Reads the parameters of a controller; keys that nobody asked for are reported."""
+"""Tables that describe a controller, and reading its parameters by them.
+
+The reader takes its defaults from a table, and `docs/controllers.md` is generated from it, so the
+page cannot say anything else than the code does. Keys that nobody asked for are reported.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from gazelle.control.errors import ControllerError
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.parameters import ParameterTable
-from gazelle.parameters.owner import ParameterOwner
-from gazelle.parameters.reader import ParameterReader
-from gazelle.parameters.sources import TreeSource
+from gazelle.parameters import ParameterTable, Topic
+from gazelle.parameters.reader import ParameterOwner, ParameterReader, TreeSource
 
-__all__ = ["controller_parameters"]
+__all__ = ["ControllerTable", "controller_parameters"]
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerTable:
+    """Everything the documentation says about one family of controllers.
+
+    Attributes:
+        parameters: family, summary and rows; types of both generations, of which ROS 1's have the
+            hardware interface in them.
+        interfaces: what it claims and reads, in words.
+        topics: topics, services and actions.
+        behaviour: facts of behaviour, one sentence each, with their source.
+    """
+
+    parameters: ParameterTable
+    interfaces: str
+    topics: tuple[Topic, ...] = ()
+    behaviour: tuple[str, ...] = ()
+
 
 # Keys every controller may have that the controller manager itself reads. Launch files give the
 # description to all nodes of the process.
@@ -27,6 +49,7 @@ _MANAGED = frozenset(
         "robot_description",
     }
 )
+
 # Keys of every controller's that change nothing here, and why.
 _IDLE = {"fallback_controllers": "a controller that fails is stopped, no other takes its place"}
 

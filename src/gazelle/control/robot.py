@@ -1,16 +1,45 @@
-"""A robot as controllers see it: interfaces, joints with limits, and the hardware behind them."""
+"""A robot as controllers see it: interfaces, joints with limits, and the hardware behind them.
+
+Beside it what hardware itself needs of the simulator.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle.control.hardware.lifecycle import HardwareLifecycle
 from gazelle.control.interface_values import InterfaceBank
 from gazelle.description.model import Model
+from gazelle.diagnostics import Diagnostics
 
-__all__ = ["HardwareComponent", "JointLimits", "JointResource", "Robot"]
+if TYPE_CHECKING:
+    from gazelle.engine import Engine
+
+__all__ = [
+    "HardwareComponent",
+    "HardwareHost",
+    "JointLimits",
+    "JointResource",
+    "ParameterStore",
+    "Robot",
+]
+
+
+class HardwareHost(Protocol):
+    """The world that simulated hardware belongs to."""
+
+    engine: Engine
+    diagnostics: Diagnostics
+
+
+class ParameterStore(Protocol):
+    """The ROS 1 parameter store, by global names."""
+
+    def get(self, name: str, default: Any = ...) -> Any:
+        """Return a parameter or a namespace, or `default`."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)

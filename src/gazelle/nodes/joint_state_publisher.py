@@ -22,8 +22,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private_parameters, start_node, ticks
 from gazelle.nodes.robot_description import published_robot_of, robot_of
 from gazelle.parameters import Parameter, ParameterTable, refused
-from gazelle.parameters.coercion import number_of
-from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.reader import ParameterReader, number_of
 from gazelle.parameters.trees import flattened
 
 __all__ = ["PARAMETERS", "default_position", "run"]

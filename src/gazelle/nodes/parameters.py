@@ -16,9 +16,7 @@ from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters, Param
 from gazelle.nodes.arguments import NodeArguments, file_params
 from gazelle.nodes.log_output import keep_log, print_ros2
 from gazelle.parameters import Parameter, ParameterTable
-from gazelle.parameters.owner import ParameterOwner
-from gazelle.parameters.reader import ParameterReader
-from gazelle.parameters.sources import TreeSource
+from gazelle.parameters.reader import ParameterOwner, ParameterReader, TreeSource
 from gazelle.parameters.trees import flattened, nested, values_only
 
 if TYPE_CHECKING:

@@ -14,16 +14,19 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gazelle.parameters.parameter import Parameter, ParameterKind, refused
-    from gazelle.parameters.table import ParameterTable
-    from gazelle.parameters.topic import Topic, TopicKind
+    from gazelle.parameters.table import (
+        Parameter,
+        ParameterKind,
+        ParameterTable,
+        Topic,
+        TopicKind,
+        refused,
+    )
 
 __all__ = ["Parameter", "ParameterKind", "ParameterTable", "Topic", "TopicKind", "refused"]
-
-_MODULES = {"ParameterTable": "table", "Topic": "topic", "TopicKind": "topic"}
 
 
 def __getattr__(name: str) -> Any:
     if name in __all__:
-        return getattr(import_module(f"{__name__}.{_MODULES.get(name, 'parameter')}"), name)
+        return getattr(import_module(f"{__name__}.table"), name)
     raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

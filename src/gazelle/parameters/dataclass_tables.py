@@ -11,8 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, field, fields, replace
 from typing import Any
 
-from gazelle.parameters.parameter import Parameter, ParameterKind
-from gazelle.parameters.table import ParameterTable
+from gazelle.parameters.table import Parameter, ParameterKind, ParameterTable
 
 __all__ = [
     "flag",

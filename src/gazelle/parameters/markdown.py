@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from gazelle.parameters.parameter import Parameter
-from gazelle.parameters.table import ParameterTable
+from gazelle.parameters.table import Parameter, ParameterTable
 
 __all__ = ["facts", "headed", "in_code", "only_in", "parameter_lines", "table_section"]
 

@@ -1,23 +1,180 @@
-"""Reads parameters by a table: typed values, defaults, and what is wrong, all of it told."""
+"""Reads parameters by a table: typed values, defaults, and what is wrong, all of it told.
+
+Values come from a source: a tree, or whatever else offers the names below a prefix.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import fields
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, Final, Protocol, TypeVar
 
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.parameters.coercion import flag_of, number_of, shortened
-from gazelle.parameters.owner import ParameterOwner
-from gazelle.parameters.parameter import Parameter
-from gazelle.parameters.sources import MISSING, ParameterSource, TreeSource
-from gazelle.parameters.table import ParameterTable
-from gazelle.parameters.trees import nested
+from gazelle.errors import GazelleError
+from gazelle.parameters.table import Parameter, ParameterTable
+from gazelle.parameters.trees import flattened, nested
 
-__all__ = ["ParameterReader"]
+__all__ = [
+    "MISSING",
+    "ParameterOwner",
+    "ParameterReader",
+    "ParameterSource",
+    "TreeSource",
+    "branch_of",
+    "flag_of",
+    "number_of",
+    "shortened",
+]
+
+
+# Nav2's files list some fifty libraries in one parameter.
+_MAX_LENGTH = 60
+
+
+def number_of(value: Any) -> float | None:
+    """Return a value as a number, also of a text; None when it is none or too large for one."""
+    if isinstance(value, bool):
+        return None
+    try:
+        return float(value)
+    except (OverflowError, TypeError, ValueError):
+        return None
+
+
+def flag_of(value: Any) -> bool | None:
+    """Return a value as a truth value: itself, 0 or 1, ``true`` or ``false`` in any case."""
+    if isinstance(value, bool) or (isinstance(value, int | float) and value in (0, 1)):
+        return bool(value)
+    if isinstance(value, str) and value.lower() in ("true", "false"):
+        return value.lower() == "true"
+    return None
+
+
+def shortened(value: Any) -> str:
+    """Return a value in words; of a long one its beginning and how much there is."""
+    text = repr(value)
+    if len(text) <= _MAX_LENGTH:
+        return text
+    count = f" of {len(value)}" if isinstance(value, list | tuple) else ""
+    return f"{text[:_MAX_LENGTH]}…{count}"
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterOwner:
+    """A controller, plug-in, node, or a part of one.
+
+    Attributes:
+        name: its own, such as ``arm_controller`` or ``/move_base/local_costmap``.
+        label: what messages begin with, such as ``controller 'arm_controller'``; the name when
+            empty.
+        unknown: of a parameter that the table lacks; ``{name}`` and ``{family}`` stand in it.
+        idle: of one without effect; ``{name}``, ``{value}`` and ``{why}`` stand in it.
+        bad_phrase: what ROS prints where a value is of the wrong kind.
+        managed: first words of names that somebody else reads.
+        refused: names of every such owner's that change nothing, with the reason.
+        takes_nan: whether ``.nan`` is a value, by which ROS 2's controllers write that there is
+            none.
+        missing: what `ParameterReader.require` raises.
+    """
+
+    name: str
+    label: str = ""
+    unknown: str = "parameter '{name}' is not one of {family}; it has no effect"
+    idle: str = "parameter '{name}' ({value}) has no effect here: {why}"
+    bad_phrase: str = ""
+    managed: frozenset[str] = frozenset()
+    refused: Mapping[str, str] = field(default_factory=dict)
+    takes_nan: bool = False
+    missing: type[Exception] = GazelleError
+
+    @property
+    def beginning(self) -> str:
+        """What messages begin with."""
+        return self.label or self.name
+
+    def below(self, key: str) -> ParameterOwner:
+        """Return the owner of a part."""
+        return replace(self, name=f"{self.name}/{key}", label="")
+
+
+MISSING: Final = object()
+
+"""What a source has for a name that nobody gave a value."""
+
+
+class ParameterSource(Protocol):
+    """Values by name: a tree of YAML, a ``<plugin>`` element, a store."""
+
+    def find(self, name: str) -> Any:
+        """Return the value of a name with dots, `MISSING` when there is none."""
+        ...
+
+    def leaves(self) -> Iterable[tuple[str, Any]]:
+        """Return all that was given, by name with dots."""
+        ...
+
+    def full_name(self, name: str) -> str:
+        """Return the name that a user knows a parameter by, such as ``/mira/arm/pid/p``."""
+        ...
+
+    def place(self, name: str) -> SourceSpan | None:
+        """Return where a parameter stands, None when that is not known."""
+        ...
+
+
+class TreeSource:
+    """Values of a tree, such as YAML files give.
+
+    Args:
+        tree: nested, or keys with dots or slashes.
+        full_name: see `ParameterSource.full_name`.
+        place: see `ParameterSource.place`.
+
+    Attributes:
+        tree: the values, nested.
+    """
+
+    def __init__(
+        self,
+        tree: Mapping[str, Any],
+        *,
+        full_name: Callable[[str], str] = str,
+        place: Callable[[str], SourceSpan | None] = lambda name: None,
+    ) -> None:
+        self.tree = nested(tree)
+        self._full_name = full_name
+        self._place = place
+
+    def find(self, name: str) -> Any:
+        """Return the value of a name with dots, `MISSING` when there is none."""
+        return branch_of(self.tree, name)
+
+    def leaves(self) -> Iterable[tuple[str, Any]]:
+        """Return all that was given; an empty branch is a leaf."""
+        return flattened(self.tree)
+
+    def full_name(self, name: str) -> str:
+        """Return the name that a user knows a parameter by."""
+        return self._full_name(name)
+
+    def place(self, name: str) -> SourceSpan | None:
+        """Return where a parameter stands."""
+        return self._place(name)
+
+
+def branch_of(tree: Mapping[str, Any], name: str) -> Any:
+    """Return what a tree has at a name with dots, `MISSING` when there is nothing."""
+    branch: Any = tree
+    for word in name.split("."):
+        if not isinstance(branch, Mapping) or word not in branch:
+            return MISSING
+        branch = branch[word]
+    return branch
+
 
 _T = TypeVar("_T")
+
 _READ = {
     "any": "raw", "flag": "flag", "group": "group", "integer": "integer", "number": "number",
     "numbers": "numbers", "text": "text", "texts": "texts", "words": "texts",

@@ -8,9 +8,7 @@ from typing import Any, Protocol
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.parameters import Parameter, ParameterTable, refused
-from gazelle.parameters.owner import ParameterOwner
-from gazelle.parameters.reader import ParameterReader
-from gazelle.parameters.sources import TreeSource
+from gazelle.parameters.reader import ParameterOwner, ParameterReader, TreeSource
 from gazelle.parameters.trees import nested
 from gazelle.simulator.recovery import DIVERGENCE, OnDivergence
 

@@ -11,8 +11,10 @@ from tests.control.plant import MS, Plant, PlantJoint, make_controller, make_rob
 from tests.control.recording_ports import RecordingPorts
 
 from gazelle.control.controllers.joint_error import JointRange
-from gazelle.control.controllers.joint_group_position import JointGroupPositionController
-from gazelle.control.controllers.ros1_joint_pid_controllers import JointPositionController
+from gazelle.control.controllers.ros1_joint_pid_controllers import (
+    JointGroupPositionController,
+    JointPositionController,
+)
 from gazelle.control.errors import ControllerError
 from gazelle.control.robot import JointLimits
 from gazelle.description.model import JointType

@@ -7,7 +7,7 @@ import pytest
 from gazelle.control import Pid
 from gazelle.control.pid import Pid as ControlPid
 from gazelle.control.pid import PidGains
-from gazelle.control.python_controllers.times import ControlPeriod
+from gazelle.control.python_controllers.controller_api import ControlPeriod
 
 
 def test_it_computes_as_control_toolbox_does():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gazelle.mapping.pose_graph.constraints import Edges, no_edges
-from gazelle.mapping.pose_graph.sparsity import pattern_of
+from gazelle.mapping.pose_graph.optimizer import pattern_of
 
 COUNT = 12
 LOOPS = [(0, 6), (2, 9), (2, 9), (1, 11)]

@@ -14,7 +14,7 @@ from gazelle.navigation.filters import (
     ScanArrays,
     apply_chain,
 )
-from gazelle.navigation.filters.laser_filter_parameters import BoundsOptions
+from gazelle.navigation.filters.laser_filters import BoundsOptions
 
 
 def _scan(ranges: list[float], intensities: list[float] | None = None) -> ScanArrays:

@@ -5,12 +5,16 @@ from __future__ import annotations
 from gazelle.control.checks.all_checks import LoopDynamics, check_control
 from gazelle.control.checks.configured_controllers import (
     ConfiguredController,
+    MoveItController,
     configured_controllers,
+    moveit_controllers,
 )
-from gazelle.control.checks.gain_stability import largest_stable_factor, spectral_radius
-from gazelle.control.checks.inertia import joint_inertias
+from gazelle.control.checks.gain_stability import (
+    joint_inertias,
+    largest_stable_factor,
+    spectral_radius,
+)
 from gazelle.control.checks.joint_names import Disagreement, disagreements, table_text
-from gazelle.control.checks.moveit import MoveItController, moveit_controllers
 
 __all__ = [
     "ConfiguredController",

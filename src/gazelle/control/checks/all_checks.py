@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from gazelle.control.checks.configured_controllers import (
     ConfiguredController,
     Gains,
+    MoveItController,
     configured_controllers,
 )
 from gazelle.control.checks.gain_stability import largest_stable_factor
 from gazelle.control.checks.joint_names import disagreements, table_text
-from gazelle.control.checks.moveit import MoveItController
 from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
 from gazelle.control.robot import JointResource
 from gazelle.description.model import Joint

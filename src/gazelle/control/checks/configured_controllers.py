@@ -1,4 +1,4 @@
-"""Which joints the configured controllers name, and with which gains."""
+"""Joints and gains that the configured controllers name, and what MoveIt believes of them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,55 @@ from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSou
 from gazelle.diagnostics import SourceSpan
 from gazelle.parameters.trees import nested
 
-__all__ = ["ConfiguredController", "Gains", "configured_controllers"]
+__all__ = [
+    "ConfiguredController",
+    "Gains",
+    "MoveItController",
+    "configured_controllers",
+    "moveit_controllers",
+]
+
+
+_MANAGER = "moveit_simple_controller_manager"
+
+
+@dataclass(frozen=True, slots=True)
+class MoveItController:
+    """A controller that MoveIt sends trajectories to."""
+
+    name: str
+    joints: tuple[str, ...]
+
+
+def moveit_controllers(tree: Mapping[str, Any]) -> tuple[MoveItController, ...]:
+    """Read the parameters of a ``move_group``, of ROS 1 or ROS 2.
+
+    ROS 1 has a ``controller_list`` of dictionaries (``controllers.yaml``), ROS 2 names and a
+    branch for each (``moveit_controllers.yaml``). An empty result means there are none.
+    """
+    listed = tree.get("controller_list")
+    if isinstance(listed, list):
+        return tuple(_from_list(listed))
+    branch = tree.get(_MANAGER, tree)
+    names = branch.get("controller_names") if isinstance(branch, Mapping) else None
+    if not isinstance(names, list):
+        return ()
+    found = ((str(name), branch.get(str(name))) for name in names)
+    return tuple(
+        MoveItController(name, _texts(row.get("joints")) if isinstance(row, Mapping) else ())
+        for name, row in found
+    )
+
+
+def _from_list(rows: list[Any]) -> Iterator[MoveItController]:
+    for row in rows:
+        if isinstance(row, Mapping) and isinstance(row.get("name"), str):
+            yield MoveItController(row["name"].strip("/"), _texts(row.get("joints")))
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    return tuple(str(item) for item in value) if isinstance(value, list) else ()
+
 
 # Parameters whose values are names of joints, over all controllers of both generations.
 _JOINT_KEYS = (

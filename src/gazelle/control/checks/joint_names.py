@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from gazelle.control.checks.configured_controllers import ConfiguredController
-from gazelle.control.checks.moveit import MoveItController
+from gazelle.control.checks.configured_controllers import ConfiguredController, MoveItController
 from gazelle.control.robot import JointResource
 from gazelle.diagnostics import did_you_mean
 from gazelle.diagnostics.suggestions import nearest_names

@@ -6,7 +6,10 @@ steering joint), ROS 2's the four joints of a car.
 
 from __future__ import annotations
 
-from gazelle.control.controllers.ackermann_drive_ros1 import ROS1_ROWS, Ros1AckermannDrive
+import math
+from typing import Any
+
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.controllers.drive_controller import Drive, DriveController
 from gazelle.control.controllers.steering_controllers_library import (
@@ -16,11 +19,127 @@ from gazelle.control.controllers.steering_controllers_library import (
     library_rows,
     library_topics,
 )
-from gazelle.control.table import ControllerTable
 from gazelle.control.wheels.drive_parameters import limit_rows
-from gazelle.parameters import Parameter, ParameterTable, Topic
+from gazelle.control.wheels.kinematics import SteeringGeometry
+from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel
+from gazelle.control.wheels.odometry_publisher import OdometryOutput, read_frames
+from gazelle.control.wheels.speed_limiter import SpeedLimiter, read_limits
+from gazelle.control.wheels.velocity_command import REST, TwistInput
+from gazelle.control.wheels.wheel_geometry import joint_offset_m, measure, wheel_radius_m
+from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
 
-__all__ = ["AckermannSteeringController"]
+__all__ = ["ROS1_ROWS", "AckermannSteeringController", "Ros1AckermannDrive"]
+
+
+def _row(key: str, kind: ParameterKind, default: object, meaning: str, unit: str = "") -> Parameter:
+    return Parameter(key, kind, default, meaning, unit=unit, ros_versions=(1,))
+
+
+ROS1_ROWS = (
+    _row("rear_wheel", "text", "rear_wheel_joint", "driven joint"),
+    _row("front_steer", "text", "front_steer_joint", "steering joint"),
+    _row("wheel_separation_h", "number", None, "wheelbase; from the URDF when absent", "m"),
+    _row("wheel_radius", "number", None, "rear wheel; from the URDF when absent", "m"),
+    _row("wheel_separation_h_multiplier", "number", 1.0, "corrects the wheelbase in odometry"),
+    _row("wheel_radius_multiplier", "number", 1.0, "corrects the radius in odometry"),
+    _row("steer_pos_multiplier", "number", 1.0, "corrects the steering angle in odometry"),
+    _row("cmd_vel_timeout", "number", 0.5, "how long a command holds", "s"),
+    _row("publish_rate", "number", 50.0, "rate of odometry and tf", "Hz"),
+    Parameter(
+        "allow_multiple_cmd_vel_publishers",
+        "refused",
+        True,
+        "senders are not counted; all of them are heard",
+        ros_versions=(1,),
+    ),
+)
+
+
+class Ros1AckermannDrive:
+    """Passes a command's linear.x to the wheel and its angular.z, as an angle, to the steering."""
+
+    def __init__(self, context: ControllerContext) -> None:
+        parameters, ports = context.parameters, context.ports
+        self._bank = context.robot.bank
+        wheel, steer = parameters.text("rear_wheel"), parameters.text("front_steer")
+        self.commands: tuple[str, ...] = (f"{wheel}/velocity", f"{steer}/position")
+        self.states: tuple[str, ...] = (f"{wheel}/position", f"{steer}/position")
+        self._command_places = context.command_places(self.commands)
+        self._state_places = context.state_places(self.states)
+        self._read_geometry(context, wheel, steer)
+        self._open_loop = parameters.flag("open_loop")
+        self._limiters = (
+            SpeedLimiter(read_limits(parameters, "linear.x", 1)),
+            SpeedLimiter(read_limits(parameters, "angular.z", 1)),
+        )
+        self._applied = (0.0, 0.0)
+        self._odometry = PlanarOdometry(parameters.integer("velocity_rolling_window_size"))
+        self._travel = WheelTravel()
+        frames = read_frames(context, namespace_prefix=False)
+        rate_hz = parameters.number("publish_rate")
+        self._output = OdometryOutput(context, frames, rate_hz=rate_hz)
+        self._input = TwistInput(ports, parameters.number("cmd_vel_timeout"), uses_stamps=False)
+        self._input.listen("~/cmd_vel")
+
+    def start(self, time_ns: int) -> None:
+        """Stand still and count time from now."""
+        self._brake()
+        for limiter in self._limiters:
+            limiter.reset()
+        self._input.open(time_ns)
+        self._output.start(time_ns, self._odometry)
+        self._travel.clear()
+
+    def update(self, time_ns: int, period_ns: int) -> None:
+        """Follow the wheel, then command it."""
+        period_s = period_ns * 1e-9
+        if not self._follow(period_s):
+            return
+        self._output.publish(time_ns, self._odometry)
+        twist = self._input.current(time_ns) or REST
+        linear = self._limiters[0].limit(twist.linear_x, period_s)
+        angle = self._limiters[1].limit(twist.angular_z, period_s)
+        self._applied = (linear, angle)
+        self._bank.commands[self._command_places] = (linear / self._radius_m, angle)
+
+    def stop(self, time_ns: int) -> None:
+        """Brake and steer straight."""
+        self._input.close()
+        self._brake()
+
+    def changed(self, values: dict[str, Any]) -> str:
+        """Take over whether to send tf."""
+        self._output.changed(values)
+        return ""
+
+    def _brake(self) -> None:
+        self._applied = (0.0, 0.0)
+        self._bank.commands[self._command_places] = 0.0
+
+    def _read_geometry(self, context: ControllerContext, wheel: str, steer: str) -> None:
+        parameters, model = context.parameters, context.robot.model
+        base_m = measure(
+            context, "wheel_separation_h", lambda: abs(joint_offset_m(model, wheel, steer, 0))
+        )
+        self._radius_m = measure(context, "wheel_radius", lambda: wheel_radius_m(model, wheel))
+        self._geometry = SteeringGeometry(
+            base_m * parameters.number("wheel_separation_h_multiplier"),
+            self._radius_m * parameters.number("wheel_radius_multiplier"),
+        )
+        self._angle_factor = parameters.number("steer_pos_multiplier")
+
+    def _follow(self, period_s: float) -> bool:
+        if self._open_loop:
+            self._odometry.drive_open_loop(self._applied[0], 0.0, self._applied[1], period_s)
+            return True
+        position, angle = self._bank.states[self._state_places].tolist()
+        if math.isnan(position) or math.isnan(angle):
+            return False
+        (turned,) = self._travel.step((position,))
+        linear = turned * self._geometry.wheel_radius_m / period_s
+        angular = self._geometry.yaw_rate(linear, angle * self._angle_factor)
+        self._odometry.drive(linear, 0.0, angular, period_s)
+        return True
 
 
 def _track(key: str, meaning: str) -> Parameter:
@@ -33,6 +152,7 @@ _TRACKS = (
     _track("rear_wheel_track", "up to Humble, with front_steering: true; both axles get it"),
     _track("front_wheel_track", "up to Humble, with front_steering: false; both axles get it"),
 )
+
 _ROS1_TOPICS = (
     Topic("~/cmd_vel", "geometry_msgs/Twist", "listens", ros_versions=(1,)),
     Topic(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from gazelle.control.table import ControllerTable
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.parameters import Topic
 from gazelle.parameters.markdown import facts, headed, in_code, only_in, parameter_lines
 

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import WRENCH_INTERFACES, fill_wrench
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Array, Indices
-from gazelle.control.table import ControllerTable
 from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic
 

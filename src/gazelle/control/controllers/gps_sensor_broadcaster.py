@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import sensor_places
-from gazelle.control.table import ControllerTable
 from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 

@@ -7,11 +7,11 @@ from enum import Enum
 from typing import Any, ClassVar
 
 from gazelle.control.controller_node import GoalPort
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.pid import Pid, offer_live_gains, read_gains
-from gazelle.control.pid.reading import gain_rows
-from gazelle.control.table import ControllerTable
+from gazelle.control.pid.gains import gain_rows
 from gazelle.parameters import Parameter, ParameterTable, Topic
 
 __all__ = ["GRIPPER_ROWS", "GripperActionController", "GripperGoal", "Outcome"]

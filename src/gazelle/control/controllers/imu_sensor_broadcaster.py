@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import IMU_INTERFACES, fill_imu, sensor_places
 from gazelle.control.interface_values import Array
-from gazelle.control.table import ControllerTable
 from gazelle.geometry import Pose, quat_xyzw_from_rpy
 from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic

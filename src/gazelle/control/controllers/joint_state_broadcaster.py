@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Indices
-from gazelle.control.table import ControllerTable
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.publish_rate import PublishRate
 from gazelle.control.interface_values import Array, Indices
-from gazelle.control.table import ControllerTable
 from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 

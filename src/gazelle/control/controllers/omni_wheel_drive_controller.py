@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.table import ControllerTable
 from gazelle.control.wheels.drive_parameters import frame_rows
+from gazelle.control.wheels.kinematics import OmniDrive
 from gazelle.control.wheels.odometry import PlanarOdometry, WheelTravel, offer_set_odometry
 from gazelle.control.wheels.odometry_publisher import OdometryOutput, read_covariance, read_frames
-from gazelle.control.wheels.omni import OmniDrive
 from gazelle.control.wheels.velocity_command import REST, TwistInput
 from gazelle.control.wheels.wheel_geometry import positive
 from gazelle.parameters import Parameter, ParameterTable, Topic

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_error import shortest_angular_distance
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Array, Indices
 from gazelle.control.pid import Pid, PidGains, PidStatePort, offer_live_gains, read_gains
-from gazelle.control.pid.reading import gain_rows
-from gazelle.control.table import ControllerTable
+from gazelle.control.pid.gains import gain_rows
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterKind, ParameterTable, Topic

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import (
     POSE_INTERFACES,
     sensor_places,
 )
 from gazelle.control.interface_values import Array
-from gazelle.control.table import ControllerTable
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_pose, set_transform

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache
 from importlib import import_module
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller
-from gazelle.control.table import ControllerTable
 
 __all__ = ["all_tables", "controller_class", "known_types"]
 
@@ -14,12 +14,12 @@ __all__ = ["all_tables", "controller_class", "known_types"]
 _FAMILIES: tuple[tuple[str, str], ...] = (
     ("joint_state_controller", "JointStateController"),
     ("joint_state_broadcaster", "JointStateBroadcaster"),
-    ("joint_command", "JointCommandController"),
+    ("forward_command_controllers", "JointCommandController"),
     ("forward_command_controllers", "JointGroupCommandController"),
     ("forward_command_controllers", "MultiInterfaceCommandController"),
     ("ros1_joint_pid_controllers", "JointPositionController"),
-    ("joint_velocity", "JointVelocityController"),
-    ("joint_group_position", "JointGroupPositionController"),
+    ("ros1_joint_pid_controllers", "JointVelocityController"),
+    ("ros1_joint_pid_controllers", "JointGroupPositionController"),
     ("pid_controller", "PidController"),
     ("ros1_sensor_controllers", "ImuSensorController"),
     ("imu_sensor_broadcaster", "ImuSensorBroadcaster"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, ClassVar, NamedTuple
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.publish_rate import PublishRate
 from gazelle.control.controllers.sensor_messages import (
@@ -15,7 +16,6 @@ from gazelle.control.controllers.sensor_messages import (
     sensor_places,
 )
 from gazelle.control.interface_values import Array
-from gazelle.control.table import ControllerTable
 from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 

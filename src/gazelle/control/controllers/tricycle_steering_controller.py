@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.controllers.drive_controller import Drive, DriveController
 from gazelle.control.controllers.steering_controllers_library import (
@@ -11,7 +12,6 @@ from gazelle.control.controllers.steering_controllers_library import (
     library_rows,
     library_topics,
 )
-from gazelle.control.table import ControllerTable
 from gazelle.parameters import Parameter, ParameterTable
 
 __all__ = ["TricycleSteeringController"]

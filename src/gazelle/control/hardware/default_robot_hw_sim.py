@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from gazelle.control.hardware.joint_states import JOINT_STATES, JointStates
+from gazelle.control.hardware.engine_joints import JOINT_STATES, JointStates
 from gazelle.control.hardware.ros1_joint_group import Ros1Section
 from gazelle.control.hardware.ros1_joints import Ros1Joint
 from gazelle.control.hardware.sensor_states import SensorStates

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from gazelle.control.hardware.joint_states import JointStates
+from gazelle.control.hardware.engine_joints import JointStates
 from gazelle.control.hardware.ros2_joint_group import Ros2Section
 from gazelle.control.hardware.ros2_joints import Ros2Joint, Ros2Mimic
 from gazelle.control.hardware.ros2_tags import HardwareTag

@@ -12,16 +12,16 @@ from gazelle.control.angles import (
     shortest_angular_distance,
     shortest_angular_distance_with_limits,
 )
-from gazelle.control.hardware.joint_commands import (
+from gazelle.control.hardware.engine_joints import (
     EffortWriter,
     FeedbackLaw,
+    JointStates,
     JointWriter,
     effort_writer,
     pid_law,
     position_writer,
     velocity_writer,
 )
-from gazelle.control.hardware.joint_states import JointStates
 from gazelle.control.hardware.ros1_joints import Ros1Joint
 from gazelle.control.interface_values import Array, InterfaceBank
 from gazelle.control.joint_limits import EffortLimits, PositionLimits, VelocityLimits

@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.control.controller_parameters import controller_parameters
-from gazelle.control.hardware.host import HardwareHost, ParameterStore
 from gazelle.control.hardware.robot_description import ControlDescription
 from gazelle.control.joint_limits import limits_from_parameters, limits_of
 from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
 from gazelle.control.pid import PidGains, read_gains
-from gazelle.control.pid.reading import gain_rows
-from gazelle.control.robot import JointLimits, JointResource
+from gazelle.control.pid.gains import gain_rows
+from gazelle.control.robot import HardwareHost, JointLimits, JointResource, ParameterStore
 from gazelle.control.transmissions.transmission import read_transmission
 from gazelle.description.model import (
     JointType,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
-from gazelle.control.hardware.host import HardwareHost, ParameterStore
 from gazelle.control.hardware.robot_description import ControlDescription, description_of
 from gazelle.control.hardware.ros1_joints import (
     gains_parameters,
@@ -16,7 +15,7 @@ from gazelle.control.hardware.ros1_joints import (
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates, sensor_parts
 from gazelle.control.interface_values import InterfaceBank
 from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
-from gazelle.control.robot import Robot
+from gazelle.control.robot import HardwareHost, ParameterStore, Robot
 from gazelle.description.model import Model
 
 __all__ = ["RobotParameters", "build_ros1_robot"]

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gazelle.control.hardware.joint_commands import (
+from gazelle.control.hardware.engine_joints import (
     EffortWriter,
     FeedbackLaw,
+    JointStates,
     JointWriter,
     effort_writer,
     pid_law,
     position_writer,
     velocity_writer,
 )
-from gazelle.control.hardware.joint_states import JointStates
 from gazelle.control.hardware.ros2_joints import Ros2Joint
 from gazelle.control.interface_values import Array, Indices, InterfaceBank
 from gazelle.control.pid import PidBank

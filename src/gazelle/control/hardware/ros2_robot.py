@@ -7,13 +7,12 @@ from typing import Any
 
 from gazelle.control.hardware.gazebo_system import GazeboSystem, SystemOptions
 from gazelle.control.hardware.generic_system import GENERIC_PARAMETERS, GenericSystem
-from gazelle.control.hardware.host import HardwareHost
 from gazelle.control.hardware.lifecycle import HardwareLifecycle
 from gazelle.control.hardware.ros2_joints import read_mimics, read_ros2_joints, resource_of
 from gazelle.control.hardware.ros2_tags import HardwareTag, read_hardware_tags
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates
 from gazelle.control.interface_values import InterfaceBank
-from gazelle.control.robot import Robot
+from gazelle.control.robot import HardwareHost, Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import did_you_mean
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from gazelle.control.pid.gains import AntiWindup, PidGains
+from gazelle.control.pid.gains import AntiWindup, PidGains, read_gains
 from gazelle.control.pid.pid import Pid
 from gazelle.control.pid.pid_array import PidBank
-from gazelle.control.pid.pid_ros import offer_live_gains
-from gazelle.control.pid.reading import read_gains
-from gazelle.control.pid.state import PidStatePort
+from gazelle.control.pid.pid_ros import PidStatePort, offer_live_gains
 
 __all__ = [
     "AntiWindup",

@@ -1,4 +1,7 @@
-"""Lets others change the gains of a running PID: dynamic_reconfigure or ROS 2 parameters."""
+"""What the graph sees of a PID, as control_toolbox's ``PidROS``.
+
+Its gains by dynamic_reconfigure or as ROS 2 parameters, its state as ``control_msgs/PidState``.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,45 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from gazelle.control.controller_node import LiveParameter, LivePort
+from gazelle.control.controller_node import LiveParameter, LivePort, Ports
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.pid.gains import PidGains
 from gazelle.control.pid.pid import Pid
 from gazelle.control.pid.pid_array import PidBank
+from gazelle.interfaces import message_type
+from gazelle.interfaces.stamps import stamped
 
-__all__ = ["offer_live_gains"]
+__all__ = ["PidStatePort", "offer_live_gains"]
+
+
+class PidStatePort:
+    """Tells what a PID computes, to those who subscribe (parameter ``publish_state``)."""
+
+    def __init__(self, ports: Ports, topic: str) -> None:
+        """Offer the topic, such as ``~/pid/state``."""
+        self._publisher = ports.publisher(topic, "control_msgs/PidState")
+
+    def publish(self, pid: Pid, time_ns: int, period_ns: int) -> None:
+        """Send what the PID computed last."""
+        if not self._publisher.matched:
+            return
+        seconds, rest = divmod(period_ns, 1_000_000_000)
+        gains, (error, integral, rate) = pid.gains, pid.errors
+        p_term, i_term, d_term = pid.terms
+        duration: Any = message_type("builtin_interfaces/Duration")
+        message = stamped("control_msgs/PidState", time_ns)
+        message.timestep = duration(sec=seconds, nanosec=rest)
+        message.error = message.p_error = error
+        message.error_dot = message.d_error = rate
+        message.i_error = integral
+        message.p_term, message.i_term, message.d_term = p_term, i_term, d_term
+        message.i_max, message.i_min = gains.i_max, gains.i_min
+        message.output = pid.command
+        self._publisher.publish(message)
+
 
 _FIELDS = {"i_clamp_max": "i_max", "i_clamp_min": "i_min", "u_clamp_max": "u_max"}
+
 _FIELDS |= {"u_clamp_min": "u_min"}
 
 

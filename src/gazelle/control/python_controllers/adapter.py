@@ -1,21 +1,39 @@
-"""Makes a user's class a controller."""
+"""Makes a user's class a controller, and finds where in it an error arose."""
 
 from __future__ import annotations
 
 import inspect
+import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, ClassVar
 
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.python_controllers.controller_api import UserNode, UserRobot
-from gazelle.control.python_controllers.source_positions import located
-from gazelle.control.python_controllers.times import ControlPeriod, ControlTime
-from gazelle.control.table import ControllerTable
+from gazelle.control.python_controllers.controller_api import (
+    ControlPeriod,
+    ControlTime,
+    UserNode,
+    UserRobot,
+)
 from gazelle.parameters import ParameterTable
 
-__all__ = ["PythonController", "adapted"]
+__all__ = ["PythonController", "adapted", "located"]
+
+
+def located(error: BaseException, folder: Path) -> str:
+    """Return an error in words, with file and line of the last frame below a folder."""
+    words = f"{type(error).__name__}: {error}"
+    if isinstance(error, SyntaxError) and error.filename:
+        return f"{error.filename}:{error.lineno}: {words}"
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if Path(frame.filename).is_relative_to(folder)]
+    if not own:
+        return words
+    last = own[-1]
+    return f"{last.filename}:{last.lineno} in {last.name}(): {words}"
+
 
 _ARGUMENTS = {
     "init": "robot and node",

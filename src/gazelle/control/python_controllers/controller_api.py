@@ -1,4 +1,4 @@
-"""Robot, joints and node as a user's controller sees them; names of ROS and of PR2's time."""
+"""Robot, joints, node and times as a user's controller sees them, by names of ROS and PR2."""
 
 from __future__ import annotations
 
@@ -9,14 +9,46 @@ from gazelle.control.controller_node import PublisherPort
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import InterfaceBank
-from gazelle.control.python_controllers.times import ControlTime
 from gazelle.diagnostics import did_you_mean
+from gazelle.interfaces import Duration, Time
 
 if TYPE_CHECKING:
     from gazelle.control.pid import Pid as ControlPid
     from gazelle.control.pid import PidGains
 
-__all__ = ["UserJoint", "UserNode", "UserRobot"]
+__all__ = ["ControlPeriod", "ControlTime", "UserJoint", "UserNode", "UserRobot"]
+
+
+_NS = 1_000_000_000
+
+
+class ControlTime(Time):
+    """A moment of simulated time: ``to_sec()``, ``secs``, ``nsecs``, ``float()``."""
+
+    __slots__ = ()
+
+    @classmethod
+    def of(cls, time_ns: int) -> ControlTime:
+        """Return the time of so many nanoseconds."""
+        return cls(*divmod(time_ns, _NS))
+
+    def __float__(self) -> float:
+        return self.to_sec()
+
+
+class ControlPeriod(Duration):
+    """The time since the last update: ``to_sec()``, ``secs``, ``nsecs``, ``float()``."""
+
+    __slots__ = ()
+
+    @classmethod
+    def of(cls, period_ns: int) -> ControlPeriod:
+        """Return the period of so many nanoseconds."""
+        return cls(*divmod(period_ns, _NS))
+
+    def __float__(self) -> float:
+        return self.to_sec()
+
 
 _REQUIRED: Any = object()
 

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gazelle.control.controllers.controller import Controller
 from gazelle.control.errors import ControllerError
-from gazelle.control.python_controllers.adapter import adapted
-from gazelle.control.python_controllers.source_positions import located
+from gazelle.control.python_controllers.adapter import adapted, located
 from gazelle.extensions import ExtensionGroup, find_entry_point, folder_of, told
 from gazelle.workspace.python_files import import_python_file
 

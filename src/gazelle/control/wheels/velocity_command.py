@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from gazelle.control.controller_node import Ports
-from gazelle.control.wheels.mecanum import PlanarTwist
+from gazelle.control.wheels.kinematics import PlanarTwist
 from gazelle.interfaces.stamps import ns_of
 
 __all__ = ["REST", "TwistInput"]

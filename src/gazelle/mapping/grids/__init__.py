@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from gazelle.mapping.grids.map_io import read_map, read_map_image
+from gazelle.mapping.grids.map_io import (
+    MapWriteError,
+    SaveOptions,
+    read_map,
+    read_map_image,
+    write_map,
+)
 from gazelle.mapping.grids.map_yaml import MapFile, read_map_file
 from gazelle.mapping.grids.occupancy_grid import OccupancyGrid
 from gazelle.mapping.grids.pixels import MapMode, cells_of_pixels, pixels_of_cells
-from gazelle.mapping.grids.writing import MapWriteError, SaveOptions, write_map
 
 __all__ = [
     "MapFile",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from gazelle.mapping.logs.carmen import read_carmen
 from gazelle.mapping.logs.log_formats import LogRecord, read_log
+from gazelle.mapping.logs.log_record import duration_s, stamp_problem
 from gazelle.mapping.logs.numpy_archive import read_archive
-from gazelle.mapping.logs.stamps import duration_s, stamp_problem
 from gazelle.mapping.logs.trajectory_files import write_carmen, write_tum
 
 __all__ = [

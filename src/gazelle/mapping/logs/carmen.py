@@ -17,8 +17,7 @@ import numpy as np
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.mapping.laser_scan import Scan
-from gazelle.mapping.logs.lines import lines_of
-from gazelle.mapping.logs.log_record import LogRecord
+from gazelle.mapping.logs.log_record import LogRecord, lines_of
 from gazelle.mapping.se2 import between
 
 __all__ = ["read_carmen"]

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.mapping.logs.carmen import read_carmen
-from gazelle.mapping.logs.lines import opened
-from gazelle.mapping.logs.log_record import LogRecord
+from gazelle.mapping.logs.log_record import LogRecord, opened
 from gazelle.mapping.logs.numpy_archive import read_archive
 
 __all__ = ["LogRecord", "is_carmen", "read_log"]

@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.mapping.scan_matching import line_kernels, matching_kernels
+from gazelle.mapping.scan_matching import matching_kernels
 from gazelle.mapping.scan_matching.match_arguments import FieldCells, Lines
 from gazelle.mapping.scan_matching.settings import FieldSettings
 
@@ -82,7 +82,7 @@ def field_of(
     places = np.zeros((across, across), np.int32)
     sums = np.empty((len(points_m) + 1, 6))
     lines = Lines(places, sums, x0, y0, line_cell_m)
-    used = line_kernels.accumulate(lines, points_m)
+    used = matching_kernels.accumulate(lines, points_m)
     return Field(values, x0, y0, cell_m, lines._replace(sums=sums[:used]))
 
 

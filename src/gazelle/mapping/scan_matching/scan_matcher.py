@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.mapping.scan_matching import line_kernels, matching_kernels
+from gazelle.mapping.scan_matching import matching_kernels
 from gazelle.mapping.scan_matching.likelihood_field import Field
 from gazelle.mapping.scan_matching.match_arguments import LineTerms, Toward, Window
 from gazelle.mapping.scan_matching.settings import MatchSettings
@@ -123,7 +123,7 @@ def _on_lines(
     """
     if field.lines is None:
         return pose, information
-    found, told, used = line_kernels.refine_on_lines(
+    found, told, used = matching_kernels.refine_on_lines(
         field.lines, points_m, pose, prior, _line_terms(settings), settings.iterations
     )
     moved = math.dist(found[:2], pose[:2]), abs(float(wrap_angle(found[2] - pose[2])))

@@ -10,8 +10,7 @@ from gazelle.mapping.pose_graph.optimizer import optimise
 from gazelle.mapping.scan_matching.scan_matcher import Match, Prior, match
 from gazelle.mapping.se2 import Poses, between, wrap_angle
 from gazelle.mapping.slam.keyframes import Keyframes
-from gazelle.mapping.slam.settings import PolishSettings, SlamSettings
-from gazelle.mapping.slam.slam_parameters import SlamParameters
+from gazelle.mapping.slam.slam_parameters import PolishSettings, SlamParameters, SlamSettings
 
 __all__ = ["polished"]
 

@@ -11,7 +11,7 @@ from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.se2 import Poses, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.ray_kernels import BeamCounts, count_beams
-from gazelle.mapping.slam.settings import DrawingSettings
+from gazelle.mapping.slam.slam_parameters import DrawingSettings
 
 __all__ = ["MapDrawer", "draw"]
 

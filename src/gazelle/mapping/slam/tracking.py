@@ -14,8 +14,7 @@ from gazelle.mapping.scan_matching.scan_matcher import Match, Prior, match, refi
 from gazelle.mapping.se2 import Poses, between, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.pose_selection import surroundings, weighed
-from gazelle.mapping.slam.settings import JumpSettings
-from gazelle.mapping.slam.slam_parameters import SlamParameters
+from gazelle.mapping.slam.slam_parameters import JumpSettings, SlamParameters
 
 __all__ = ["Tracker", "is_jump", "motion_information"]
 

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from gazelle.geometry import Pose
 from gazelle.motion.collision.collision_model import CollisionBody, may_touch
-from gazelle.motion.collision.convex_rows import ConvexRows, rows_of
-from gazelle.motion.collision.convex_solids import Solid
+from gazelle.motion.collision.convex_solids import ConvexRows, Solid, rows_of
 from gazelle.motion.collision.gjk_kernels import (
     APART,
     CENTRE,

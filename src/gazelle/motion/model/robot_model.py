@@ -15,8 +15,7 @@ from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.model.joint_groups import JointGroup, groups_of
-from gazelle.motion.model.joints import JointKind, RobotJoint
-from gazelle.motion.model.tree import joints_of, root_of
+from gazelle.motion.model.joints import JointKind, RobotJoint, joints_of, root_of
 
 __all__ = ["RobotModel"]
 

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from gazelle.motion.scene.matrix import AllowedCollisions
-from gazelle.motion.scene.objects import (
+from gazelle.motion.scene.planning_scene import (
+    AllowedCollisions,
     AttachedBody,
     PlacedShape,
+    PlanningScene,
     SceneMesh,
     SceneShape,
     WorldObject,
 )
-from gazelle.motion.scene.planning_scene import PlanningScene
 
 __all__ = [
     "AllowedCollisions",

@@ -1,19 +1,164 @@
-"""A robot in its surroundings at one moment."""
+"""A robot in its surroundings at one moment: what is around it, what it carries, what may touch."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
+from gazelle.description.model import MeshShape, Plane, Solid
+from gazelle.description.srdf import Srdf
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
-from gazelle.geometry import Pose
+from gazelle.geometry import IDENTITY_POSE, Pose
 from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.model import RobotModel
-from gazelle.motion.scene.matrix import AllowedCollisions
-from gazelle.motion.scene.objects import AttachedBody, WorldObject
 
-__all__ = ["PlanningScene"]
+__all__ = [
+    "AllowedCollisions",
+    "AttachedBody",
+    "PlacedShape",
+    "PlanningScene",
+    "SceneMesh",
+    "SceneShape",
+    "WorldObject",
+]
+
+
+Pair = frozenset[str]
+
+
+@dataclass(frozen=True)
+class AllowedCollisions:
+    """MoveIt's allowed collision matrix.
+
+    A pair's own entry counts before the defaults of its members. Of two defaults both have to
+    allow; a member without a default has no say.
+
+    Attributes:
+        pairs: True for pairs that may touch, False for pairs that may not.
+        defaults: the same for one member with everything else.
+    """
+
+    pairs: Mapping[Pair, bool] = field(default_factory=dict)
+    defaults: Mapping[str, bool] = field(default_factory=dict)
+
+    @classmethod
+    def from_srdf(cls, srdf: Srdf) -> AllowedCollisions:
+        """Return what an SRDF disables and enables; disabled pairs have the last word."""
+        pairs = {frozenset((item.link1, item.link2)): False for item in srdf.enabled_pairs}
+        pairs |= {frozenset((item.link1, item.link2)): True for item in srdf.disabled_pairs}
+        return cls(pairs, dict.fromkeys(srdf.no_default_collisions, True))
+
+    def allows(self, first: str, second: str) -> bool:
+        """Return whether two may touch."""
+        own = self.pairs.get(frozenset((first, second)))
+        if own is not None:
+            return own
+        said = [self.defaults[name] for name in (first, second) if name in self.defaults]
+        return bool(said) and all(said)
+
+    def with_pair(self, first: str, second: str, allowed: bool) -> AllowedCollisions:
+        """Return the matrix with an entry for one pair."""
+        return replace(self, pairs={**self.pairs, frozenset((first, second)): allowed})
+
+    def with_pairs(self, name: str, others: Iterable[str], allowed: bool) -> AllowedCollisions:
+        """Return the matrix with entries for one member and several others."""
+        new = {frozenset((name, other)): allowed for other in others if other != name}
+        return replace(self, pairs={**self.pairs, **new})
+
+    def with_default(self, name: str, allowed: bool | None) -> AllowedCollisions:
+        """Return the matrix with a member's default; None takes it away."""
+        defaults = {key: value for key, value in self.defaults.items() if key != name}
+        if allowed is not None:
+            defaults[name] = allowed
+        return replace(self, defaults=defaults)
+
+    def without(self, name: str) -> AllowedCollisions:
+        """Return the matrix without any entry of a member."""
+        pairs = {pair: value for pair, value in self.pairs.items() if name not in pair}
+        return replace(self.with_default(name, None), pairs=pairs)
+
+
+@dataclass(frozen=True, eq=False)
+class SceneMesh:
+    """Triangles that came as numbers, such as a message's.
+
+    Attributes:
+        vertices_m: (n, 3).
+        faces: (m, 3) places of vertices; the hull of the vertices is meant when there are none.
+    """
+
+    vertices_m: FloatArray
+    faces: np.ndarray[tuple[int, int], np.dtype[np.int32]]
+
+    def __post_init__(self) -> None:
+        if self.vertices_m.ndim != 2 or self.vertices_m.shape[1] != 3 or not len(self.vertices_m):
+            raise ValueError(f"vertices have shape {self.vertices_m.shape}, (n, 3) is needed")
+        if not np.isfinite(self.vertices_m).all():
+            raise ValueError("a mesh has vertices that are not finite")
+        if self.faces.size and not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices_m):
+            raise ValueError("a mesh has triangles with vertices that are not there")
+
+
+SceneShape = Solid | Plane | MeshShape | SceneMesh
+
+
+@dataclass(frozen=True)
+class PlacedShape:
+    """A shape in an object's frame."""
+
+    shape: SceneShape
+    T_object_shape: Pose = IDENTITY_POSE
+
+
+@dataclass(frozen=True)
+class WorldObject:
+    """A thing made of shapes.
+
+    Attributes:
+        name: unique in the scene, and no link's name.
+        shapes: what collides; a plane lies through its frame's origin, see `Plane`.
+        T_frame_object: pose in the robot's frame; in the link's frame once it is attached.
+        type_name: key of an object data base, kept for messages.
+        subframes: poses in the object's frame by name.
+    """
+
+    name: str
+    shapes: tuple[PlacedShape, ...]
+    T_frame_object: Pose = IDENTITY_POSE
+    type_name: str = ""
+    subframes: Mapping[str, Pose] = field(default_factory=dict)
+
+    @classmethod
+    def single(cls, name: str, shape: SceneShape, T_frame_object: Pose) -> WorldObject:
+        """Return a thing of one shape."""
+        return cls(name, (PlacedShape(shape),), T_frame_object)
+
+    def at(self, T_frame_object: Pose) -> WorldObject:
+        """Return the thing elsewhere."""
+        return replace(self, T_frame_object=T_frame_object)
+
+
+@dataclass(frozen=True)
+class AttachedBody:
+    """A thing that a link carries.
+
+    Attributes:
+        body: the thing; its pose is in the link's frame.
+        link: what carries it.
+        touch_links: links that it may touch; the carrying link always may.
+    """
+
+    body: WorldObject
+    link: str
+    touch_links: frozenset[str] = frozenset()
+
+    @property
+    def name(self) -> str:
+        """The thing's name."""
+        return self.body.name
 
 
 @dataclass(frozen=True, eq=False)

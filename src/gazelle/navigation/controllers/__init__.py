@@ -10,11 +10,6 @@ from gazelle.navigation.controllers.controller import (
     Velocity,
 )
 from gazelle.navigation.controllers.mppi import MppiController, MppiOptions
-from gazelle.navigation.controllers.options import (
-    DwaOptions,
-    DwbOptions,
-    TrajectoryPlannerOptions,
-)
 from gazelle.navigation.controllers.registry import (
     CONTROLLERS,
     REFUSED_CONTROLLERS,
@@ -23,6 +18,11 @@ from gazelle.navigation.controllers.registry import (
 )
 from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController, PursuitOptions
 from gazelle.navigation.controllers.sampling_controller import SamplingController
+from gazelle.navigation.controllers.sampling_profiles import (
+    DwaOptions,
+    DwbOptions,
+    TrajectoryPlannerOptions,
+)
 from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = [

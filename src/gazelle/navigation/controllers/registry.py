@@ -8,15 +8,16 @@ from typing import Any
 
 from gazelle.navigation.controllers.controller import Controller
 from gazelle.navigation.controllers.mppi import MppiController, MppiOptions
-from gazelle.navigation.controllers.options import (
-    DwaOptions,
-    DwbOptions,
-    TrajectoryPlannerOptions,
-)
 from gazelle.navigation.controllers.recovery_maneuver import Maneuvering, Pace
 from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController, PursuitOptions
 from gazelle.navigation.controllers.sampling_controller import SamplingController
-from gazelle.navigation.controllers.sampling_profiles import dwa_profile, dwb_profile
+from gazelle.navigation.controllers.sampling_profiles import (
+    DwaOptions,
+    DwbOptions,
+    TrajectoryPlannerOptions,
+    dwa_profile,
+    dwb_profile,
+)
 from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = ["CONTROLLERS", "REFUSED_CONTROLLERS", "ControllerKind", "ControllerSetting"]

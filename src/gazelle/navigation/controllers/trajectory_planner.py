@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from gazelle.navigation.controllers.controller import Command, NoCommand, RobotState, Velocity
 from gazelle.navigation.controllers.followed_plan import FollowedPlan, angle_between
-from gazelle.navigation.controllers.options import TrajectoryPlannerOptions
 from gazelle.navigation.controllers.rollout_arguments import Distances, RolloutTerms, Timing
+from gazelle.navigation.controllers.sampling_profiles import TrajectoryPlannerOptions
 from gazelle.navigation.controllers.stop_rotate import Arrival
 from gazelle.navigation.costmap.cost_grid import CostGrid
 from gazelle.navigation.costmap.footprint import Footprint, footprint_cost

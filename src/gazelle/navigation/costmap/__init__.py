@@ -29,8 +29,11 @@ from gazelle.navigation.costmap.costmap_options import (
 from gazelle.navigation.costmap.footprint import Footprint, footprint_cost
 from gazelle.navigation.costmap.inflation_layer import InflationLayer, inflated, inflation_costs
 from gazelle.navigation.costmap.layered_costmap import Layer, LayeredCostmap
-from gazelle.navigation.costmap.observation import Observation, observation_of_scan
-from gazelle.navigation.costmap.obstacle_layer import ObstacleLayer
+from gazelle.navigation.costmap.obstacle_layer import (
+    Observation,
+    ObstacleLayer,
+    observation_of_scan,
+)
 from gazelle.navigation.costmap.static_layer import StaticLayer, costs_of_map
 
 __all__ = [

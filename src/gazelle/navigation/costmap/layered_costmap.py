@@ -14,8 +14,7 @@ from gazelle.navigation.costmap.cost_grid import FREE, UNKNOWN, CostGrid, Window
 from gazelle.navigation.costmap.costmap_options import CostmapOptions
 from gazelle.navigation.costmap.footprint import Footprint
 from gazelle.navigation.costmap.inflation_layer import InflationLayer
-from gazelle.navigation.costmap.observation import Observation
-from gazelle.navigation.costmap.obstacle_layer import ObstacleLayer, copy_overlap
+from gazelle.navigation.costmap.obstacle_layer import Observation, ObstacleLayer, copy_overlap
 from gazelle.navigation.costmap.static_layer import StaticLayer
 
 __all__ = ["Layer", "LayeredCostmap"]

@@ -6,10 +6,10 @@ from gazelle.navigation.filters.laser_filters import (
     FILTERS,
     REFUSED_FILTERS,
     FilterSetup,
+    ScanArrays,
     ScanFilter,
     apply_chain,
 )
-from gazelle.navigation.filters.record import ScanArrays
 from gazelle.navigation.filters.scan_projection import (
     CloudSlice,
     FlatScan,

@@ -1,4 +1,4 @@
-"""The filters of the package laser_filters, by their names."""
+"""The filters of the package laser_filters, by their names, with their parameters and defaults."""
 
 from __future__ import annotations
 
@@ -10,25 +10,162 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.filters.laser_filter_parameters import (
-    BoundsOptions,
-    BoxOptions,
-    FootprintOptions,
-    IntensityOptions,
-    InterpolationOptions,
-    MedianOptions,
-    RangeOptions,
-    SectorOptions,
-    ShadowOptions,
-    SpeckleOptions,
-)
-from gazelle.navigation.filters.record import ScanArrays
 from gazelle.parameters import Parameter, refused
+from gazelle.parameters.dataclass_tables import flag, integer, number, text
 
-__all__ = ["FILTERS", "REFUSED_FILTERS", "FilterSetup", "ScanFilter", "apply_chain"]
+__all__ = [
+    "FILTERS",
+    "REFUSED_FILTERS",
+    "BoundsOptions",
+    "BoxOptions",
+    "FilterSetup",
+    "FootprintOptions",
+    "IntensityOptions",
+    "InterpolationOptions",
+    "MedianOptions",
+    "RangeOptions",
+    "ScanArrays",
+    "ScanFilter",
+    "SectorOptions",
+    "ShadowOptions",
+    "SpeckleOptions",
+    "apply_chain",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class RangeOptions:
+    """``LaserScanRangeFilter``."""
+
+    lower_threshold: float = number(0.0, "nearer beams are taken out", "m")
+    upper_threshold: float = number(100000.0, "farther beams are taken out", "m")
+    use_message_range_limits: bool = flag(False, "the lidar's own limits count instead")
+    lower_replacement_value: float = number(math.nan, "what nearer beams become", "m")
+    upper_replacement_value: float = number(math.nan, "what farther beams become", "m")
+
+
+@dataclass(frozen=True, slots=True)
+class BoundsOptions:
+    """``LaserScanAngularBoundsFilter`` and ``LaserScanAngularBoundsFilterInPlace``."""
+
+    lower_angle: float = number(0.0, "where the sector begins", "rad")
+    upper_angle: float = number(0.0, "where it ends", "rad")
+
+
+@dataclass(frozen=True, slots=True)
+class IntensityOptions:
+    """``LaserScanIntensityFilter``."""
+
+    lower_threshold: float = number(8000.0, "beams of less intensity are taken out")
+    upper_threshold: float = number(100000.0, "beams of more intensity are taken out")
+    invert: bool = flag(False, "the others are taken out")
+
+
+@dataclass(frozen=True, slots=True)
+class BoxOptions:
+    """``LaserScanBoxFilter``."""
+
+    box_frame: str = text("", "frame of the box, the lidar's when empty")
+    min_x: float = number(0.0, "the box begins here", "m")
+    max_x: float = number(0.0, "the box ends here", "m")
+    min_y: float = number(0.0, "the box begins here", "m")
+    max_y: float = number(0.0, "the box ends here", "m")
+    min_z: float = number(0.0, "the box begins here", "m")
+    max_z: float = number(0.0, "the box ends here", "m")
+    invert: bool = flag(False, "what lies outside is taken out")
+
+
+@dataclass(frozen=True, slots=True)
+class ShadowOptions:
+    """``ScanShadowsFilter``."""
+
+    min_angle: float = number(10.0, "flatter lines between neighbours are shadows", "deg")
+    max_angle: float = number(170.0, "and so are those beyond", "deg")
+    window: int = integer(1, "neighbours that are looked at on each side")
+    neighbors: int = integer(20, "farther beams so near to a shadow are taken out")
+    remove_shadow_start_point: bool = flag(False, "take out beams without a range, too")
+
+
+@dataclass(frozen=True, slots=True)
+class InterpolationOptions:
+    """``InterpolationFilter``, which has none."""
+
+
+@dataclass(frozen=True, slots=True)
+class MedianOptions:
+    """``LaserMedianSpatialFilter``."""
+
+    window_size: int = integer(3, "beams whose median counts")
+
+
+@dataclass(frozen=True, slots=True)
+class SpeckleOptions:
+    """``LaserScanSpeckleFilter``."""
+
+    max_range: float = number(2.0, "farther beams stay", "m")
+    max_range_difference: float = number(0.1, "neighbours that differ by less agree", "m")
+    filter_window: int = integer(2, "neighbours that are looked at, the beam among them")
+
+
+@dataclass(frozen=True, slots=True)
+class SectorOptions:
+    """``LaserScanSectorFilter``."""
+
+    angle_min: float = number(0.0, "where the sector begins", "rad")
+    angle_max: float = number(0.0, "where it ends", "rad")
+    range_min: float = number(0.0, "nearer beams are not of it", "m")
+    range_max: float = number(math.inf, "farther beams are not of it; the lidar's when inf", "m")
+    clear_inside: bool = flag(True, "the sector is taken out, else all but it")
+
+
+@dataclass(frozen=True, slots=True)
+class FootprintOptions:
+    """``LaserScanFootprintFilter``."""
+
+    inscribed_radius: float = number(0.0, "half of the square that is taken out", "m")
+    target_frame: str = text("base_link", "frame in whose origin the square is")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ScanArrays:
+    """A scan.
+
+    Attributes:
+        angle_min_rad: direction of the first beam.
+        increment_rad: from one beam to the next.
+        ranges_m: (n,).
+        intensities: (n,), or empty.
+        range_min_m, range_max_m: limits of the lidar.
+    """
+
+    angle_min_rad: float
+    increment_rad: float
+    ranges_m: NDArray[np.float64]
+    intensities: NDArray[np.float64]
+    range_min_m: float
+    range_max_m: float
+
+    @property
+    def angles_rad(self) -> NDArray[np.float64]:
+        """Directions of the beams, (n,)."""
+        steps = np.arange(len(self.ranges_m), dtype=float)
+        return np.asarray(self.angle_min_rad + self.increment_rad * steps, float)
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """Ends of the beams in the lidar's frame, (n, 2); NaN and infinity stay."""
+        angles = self.angles_rad
+        ends = np.empty((len(angles), 2))
+        with np.errstate(invalid="ignore"):
+            ends[:, 0] = self.ranges_m * np.cos(angles)
+            ends[:, 1] = self.ranges_m * np.sin(angles)
+        return ends
+
 
 _Filter = Callable[[ScanArrays, Any, "Transform"], ScanArrays]
+
 Transform = Callable[[str, NDArray[np.float64]], NDArray[np.float64]]
+
 """Takes a frame and points of the lidar's frame (n, 3), returns them in that frame."""
 
 
@@ -248,6 +385,7 @@ FILTERS: Mapping[str, ScanFilter] = {
         _footprint, FootprintOptions, "Takes out what lies in the robot."
     ),
 }
+
 """Filters by type, without the package's name."""
 
 REFUSED_FILTERS: Mapping[str, str] = {
@@ -258,4 +396,5 @@ REFUSED_FILTERS: Mapping[str, str] = {
     "LaserScanPolygonFilter": "LaserScanBoxFilter takes out beams by place",
     "LaserMedianFilter": "LaserMedianSpatialFilter smooths over neighbours",
 }
+
 """Why a filter is not there, and what is."""

@@ -14,8 +14,12 @@ from gazelle.mapping.laser_scan import Scan
 from gazelle.navigation.localization.amcl_options import AmclOptions
 from gazelle.navigation.localization.beam_refinement import Refiner
 from gazelle.navigation.localization.global_localization import chances_of, places_like
-from gazelle.navigation.localization.laser_model import Beams, ScanModel, chosen_beams
-from gazelle.navigation.localization.likelihood_field import LikelihoodMap
+from gazelle.navigation.localization.laser_model import (
+    Beams,
+    LikelihoodMap,
+    ScanModel,
+    chosen_beams,
+)
 from gazelle.navigation.localization.motion_model import moved
 
 __all__ = ["Amcl", "Estimate", "best_cluster", "statistics"]

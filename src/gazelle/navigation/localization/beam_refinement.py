@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.localization.likelihood_field import LikelihoodMap
+from gazelle.navigation.localization.laser_model import LikelihoodMap
 
 __all__ = ["Refiner"]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.navigation.localization.beam_refinement import Refiner
-from gazelle.navigation.localization.likelihood_field import LikelihoodMap
+from gazelle.navigation.localization.laser_model import LikelihoodMap
 
 __all__ = ["chances_of", "places_like"]
 

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from gazelle.navigation.planners.path_planning import make_plan
-from gazelle.navigation.planners.plan import NoPlan, Plan, PlanFailure
-from gazelle.navigation.planners.planner import PlannerKind, PlannerOptions
+from gazelle.navigation.planners.planner import (
+    NoPlan,
+    Plan,
+    PlanFailure,
+    PlannerKind,
+    PlannerOptions,
+)
 from gazelle.navigation.planners.planner_options import (
     GlobalPlannerOptions,
     Nav2NavfnOptions,

@@ -26,11 +26,14 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.robot_pose import Frames
 from gazelle.nodes.parameters import private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
-from gazelle.parameters.coercion import flag_of, number_of
 from gazelle.parameters.dataclass_tables import table_of
-from gazelle.parameters.owner import ParameterOwner
-from gazelle.parameters.reader import ParameterReader
-from gazelle.parameters.sources import TreeSource
+from gazelle.parameters.reader import (
+    ParameterOwner,
+    ParameterReader,
+    TreeSource,
+    flag_of,
+    number_of,
+)
 
 __all__ = ["FILTER_TABLES", "PARAMETERS", "chain_of", "run"]
 

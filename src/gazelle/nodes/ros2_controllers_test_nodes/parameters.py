@@ -12,9 +12,7 @@ from gazelle.graph import Graph, Node
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import log_findings, offer_parameters, parameter_tree, start_node
 from gazelle.parameters import ParameterTable
-from gazelle.parameters.owner import ParameterOwner
-from gazelle.parameters.reader import ParameterReader
-from gazelle.parameters.sources import TreeSource
+from gazelle.parameters.reader import ParameterOwner, ParameterReader, TreeSource
 from gazelle.parameters.trees import flattened, nested, values_only
 
 __all__ = ["GOAL", "GoalParameters", "are_numbers", "reader_of", "start"]

@@ -13,7 +13,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import YamlError, load_yaml
 from gazelle.errors import LaunchError
-from gazelle.parameters.coercion import flag_of
+from gazelle.parameters.reader import flag_of
 
 __all__ = ["Direction", "ServiceRow", "TopicRow", "read_argument", "read_file"]
 

@@ -18,8 +18,7 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.parameters import parameter_tree, private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable
-from gazelle.parameters.coercion import number_of
-from gazelle.parameters.reader import ParameterReader
+from gazelle.parameters.reader import ParameterReader, number_of
 
 __all__ = ["PARAMETERS", "model_text", "run"]
 

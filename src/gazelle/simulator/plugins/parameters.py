@@ -12,9 +12,7 @@ from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import bool_from, floats_from
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.parameters import Parameter
-from gazelle.parameters.owner import ParameterOwner
-from gazelle.parameters.reader import ParameterReader
-from gazelle.parameters.sources import MISSING
+from gazelle.parameters.reader import MISSING, ParameterOwner, ParameterReader
 from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["PluginReader", "RosBlock", "TagSource"]

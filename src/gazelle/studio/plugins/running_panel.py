@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from gazelle.compat.import_hooks import install as make_messages_importable
-from gazelle.control.python_controllers.source_positions import located
+from gazelle.control.python_controllers.adapter import located
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import Graph
 from gazelle.studio.errors import StudioError

@@ -12,7 +12,7 @@ from gazelle.graph.names import resolve
 from gazelle.nodes import joint_state_publisher as joints
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.turtlesim import turtlesim_node
-from gazelle.parameters.coercion import flag_of
+from gazelle.parameters.reader import flag_of
 from gazelle.studio.windows.page_owner import SERVICE, Request, is_switched_off, present, say
 
 __all__ = ["joint_state_publisher", "joint_state_publisher_gui", "turtlesim"]

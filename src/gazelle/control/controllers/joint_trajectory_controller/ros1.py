@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gazelle.control.controller_node import GoalPort
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_trajectory_controller.command_outputs import (
     Forwarding,
@@ -14,7 +15,7 @@ from gazelle.control.controllers.joint_trajectory_controller.command_outputs imp
     TrajectoryOutput,
     report_idle_gains,
 )
-from gazelle.control.controllers.joint_trajectory_controller.ros2_table import ROS2_TABLE
+from gazelle.control.controllers.joint_trajectory_controller.ros2_parameters import ROS2_TABLE
 from gazelle.control.controllers.joint_trajectory_controller.state_messages import (
     Feedback,
     StateReport,
@@ -27,10 +28,15 @@ from gazelle.control.controllers.joint_trajectory_controller.tracked_joints impo
 )
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Array
-from gazelle.control.pid.reading import gain_rows
-from gazelle.control.table import ControllerTable
-from gazelle.control.trajectory.ros1_trajectory import SegmentTrajectory, Track, hold, ramp_down
-from gazelle.control.trajectory.splicing import Splice, splice
+from gazelle.control.pid.gains import gain_rows
+from gazelle.control.trajectory.ros1_trajectory import (
+    SegmentTrajectory,
+    Splice,
+    Track,
+    hold,
+    ramp_down,
+    splice,
+)
 from gazelle.control.trajectory.tolerances import Tolerances, goal_tolerances, violated
 from gazelle.control.trajectory.waypoints import (
     ErrorCode,

@@ -7,13 +7,14 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gazelle.control.controller_node import GoalPort
+from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_trajectory_controller.ros1 import ROS1_TABLE
 from gazelle.control.controllers.joint_trajectory_controller.ros2_parameters import (
+    ROS2_TABLE,
     Ros2Setup,
     live_problem,
 )
-from gazelle.control.controllers.joint_trajectory_controller.ros2_table import ROS2_TABLE
 from gazelle.control.controllers.joint_trajectory_controller.state_messages import (
     Feedback,
     StateReport,
@@ -24,10 +25,8 @@ from gazelle.control.controllers.joint_trajectory_controller.state_messages impo
 from gazelle.control.controllers.joint_trajectory_controller.tracked_joints import read_tolerances
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Array
-from gazelle.control.table import ControllerTable
-from gazelle.control.trajectory.ros2_trajectory import PointTrajectory
+from gazelle.control.trajectory.ros2_trajectory import PointTrajectory, decelerating, holding
 from gazelle.control.trajectory.splines import JointState
-from gazelle.control.trajectory.stopping import decelerating, holding
 from gazelle.control.trajectory.tolerances import (
     ToleranceError,
     Tolerances,

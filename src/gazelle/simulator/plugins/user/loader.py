@@ -9,7 +9,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from gazelle.control.python_controllers.source_positions import located
+from gazelle.control.python_controllers.adapter import located
 from gazelle.extensions import folder_of, told
 from gazelle.simulator.handles import ModelOfSimulation, SensorOfSimulation
 from gazelle.simulator.plugins.context import PluginContext, Resources

@@ -17,8 +17,7 @@ from gazelle.navigation.localization import MOTION_MODELS, Amcl, AmclOptions, mo
 from gazelle.navigation.localization.amcl import best_cluster, statistics
 from gazelle.navigation.localization.amcl_kernels import ParticleNeed, cast_ray, resample
 from gazelle.navigation.localization.beam_refinement import Refiner
-from gazelle.navigation.localization.laser_model import ScanModel, chosen_beams
-from gazelle.navigation.localization.likelihood_field import LikelihoodMap
+from gazelle.navigation.localization.laser_model import LikelihoodMap, ScanModel, chosen_beams
 
 _QUIET = AmclOptions(
     odom_alpha1=0.0, odom_alpha2=0.0, odom_alpha3=0.0, odom_alpha4=0.0, odom_alpha5=0.0

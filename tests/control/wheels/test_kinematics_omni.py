@@ -6,8 +6,7 @@ import math
 
 import pytest
 
-from gazelle.control.wheels.mecanum import PlanarTwist
-from gazelle.control.wheels.omni import OmniDrive
+from gazelle.control.wheels.kinematics import OmniDrive, PlanarTwist
 
 
 @pytest.mark.parametrize("count", [3, 4, 5])

@@ -15,12 +15,12 @@ from tests.mapping import buildings as b
 import gazelle.mapping
 from gazelle.mapping.slam import SlamParameters
 from gazelle.mapping.slam.keyframes import keyframe_of
-from gazelle.mapping.slam.settings import DrawingSettings, SlamSettings
+from gazelle.mapping.slam.slam_parameters import DrawingSettings, SlamSettings
 
 ROOT = Path(gazelle.mapping.__file__).parent
 # Numbers of a module's own that are no tuning: of data structures, of the room that only warms up.
 OTHER = {
-    "matching/branch_and_bound_kernels.py": {
+    "scan_matching/branch_and_bound_kernels.py": {
         "LEAF",
         "_SIDE",
         "_FULL",
@@ -29,7 +29,7 @@ OTHER = {
         "_FEW",
         "_MAX_DEPTH",
     },
-    "matching/branch_and_bound.py": {"_MAX_DEPTH"},
+    "scan_matching/branch_and_bound.py": {"_MAX_DEPTH"},
     "pose_graph/constraints.py": {"DOUBTFUL", "UNKNOWN", "_MIN_SIGMA", "_FAINT"},
     "slam/occupancy_counts.py": {"_OCCUPIED"},
     "slam/kernel_warm_up.py": {"_PATIENCE_S", "_OFF_M"},
@@ -48,7 +48,7 @@ def _numbers(file: Path) -> set[str]:
 
 
 def test_algorithms_have_no_numbers_besides_their_settings() -> None:
-    for folder in ("loops", "matching", "pose_graph", "slam"):
+    for folder in ("loop_detection", "scan_matching", "pose_graph", "slam"):
         for file in sorted((ROOT / folder).glob("*.py")):
             name = file.relative_to(ROOT).as_posix()
             assert _numbers(file) <= OTHER.get(name, set()), name

@@ -9,10 +9,10 @@ import pytest
 from tests.control.plant import PlantJoint, make_controller, make_robot, run
 
 from gazelle.control.controllers.forward_command_controllers import (
+    JointCommandController,
     JointGroupCommandController,
     MultiInterfaceCommandController,
 )
-from gazelle.control.controllers.joint_command import JointCommandController
 from gazelle.control.errors import ControllerError
 from gazelle.diagnostics import Diagnostics
 from gazelle.interfaces import message_type

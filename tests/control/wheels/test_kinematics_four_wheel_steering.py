@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from gazelle.control.wheels.four_wheel_steering import FourWheelSteering, virtual_angle
+from gazelle.control.wheels.kinematics import FourWheelSteering, virtual_angle
 
 BASE = FourWheelSteering(0.6, 0.05, 0.2, 1.0)
 LAW = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.control.wheels.mecanum import MecanumDrive, PlanarTwist
+from gazelle.control.wheels.kinematics import MecanumDrive, PlanarTwist
 
 DRIVE = MecanumDrive(0.05, 0.4)
 

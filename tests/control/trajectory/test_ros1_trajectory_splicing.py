@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from tests.control.trajectory_messages import point, trajectory
 
-from gazelle.control.trajectory.ros1_trajectory import SegmentTrajectory, hold
-from gazelle.control.trajectory.splicing import Splice, splice
+from gazelle.control.trajectory.ros1_trajectory import SegmentTrajectory, Splice, hold, splice
 from gazelle.control.trajectory.tolerances import Tolerances
 from gazelle.control.trajectory.waypoints import TrajectoryError, check_joints, read_waypoints
 

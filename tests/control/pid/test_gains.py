@@ -9,7 +9,7 @@ import pytest
 
 from gazelle.control.controller_parameters import controller_parameters
 from gazelle.control.pid import AntiWindup, PidGains, read_gains
-from gazelle.control.pid.reading import gain_rows
+from gazelle.control.pid.gains import gain_rows
 from gazelle.diagnostics import Diagnostics
 from gazelle.parameters import ParameterTable
 

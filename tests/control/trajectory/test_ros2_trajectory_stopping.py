@@ -3,9 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gazelle.control.trajectory.ros2_trajectory import PointTrajectory
+from gazelle.control.trajectory.ros2_trajectory import PointTrajectory, decelerating, holding
 from gazelle.control.trajectory.splines import JointState
-from gazelle.control.trajectory.stopping import decelerating, holding
 
 MS = 1_000_000
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.control.wheels.differential import DifferentialDrive
+from gazelle.control.wheels.kinematics import DifferentialDrive
 
 
 @pytest.mark.parametrize("twist", [(0.4, 0.0), (0.0, 1.2), (-0.3, 0.7)])
