@@ -9,9 +9,21 @@ from typing import Any, ClassVar
 from gazelle.errors import GazelleError
 from gazelle.nodes.nav2.behavior_trees.ros_interface import RosInterface
 
-__all__ = ["Blackboard", "Decorator", "Leaf", "Ports", "Status", "SubTree", "TreeError", "TreeNode"]
+__all__ = [
+    "FRAME_PORTS",
+    "Blackboard",
+    "Decorator",
+    "Leaf",
+    "Ports",
+    "Status",
+    "SubTree",
+    "TreeError",
+    "TreeNode",
+]
 
 
+FRAME_PORTS = ("global_frame", "robot_base_frame")
+"""Inputs of nodes that ask where the robot is."""
 _REQUIRED: Any = object()
 
 
