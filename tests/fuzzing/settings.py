@@ -47,8 +47,7 @@ from gazelle.nodes.robot_localization.ekf_node import config_of, matrix_of
 from gazelle.nodes.robot_localization.parameters import ekf_table
 from gazelle.nodes.ros_gz.bridge_config import read_file
 from gazelle.nodes.slam.cartographer.configuration import read_configuration
-from gazelle.nodes.slam.options import options_of
-from gazelle.nodes.slam.ros_packages import SLAM_NODES
+from gazelle.nodes.slam.parameters import SLAM_NODES, options_of
 from gazelle.nodes.teleop.twist_joy import read_driving
 from gazelle.nodes.twist_mux.parameters import read_inputs
 from gazelle.parameters.trees import nested

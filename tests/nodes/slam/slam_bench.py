@@ -15,8 +15,7 @@ from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces import message_type
 from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.slam.mapper import Mapper
-from gazelle.nodes.slam.options import SlamOptions, options_of
-from gazelle.nodes.slam.ros_packages import SLAM_NODES
+from gazelle.nodes.slam.parameters import SLAM_NODES, SlamOptions, options_of
 from gazelle.parameters.trees import nested
 
 POSES = [(0.1 * k - 1, 0.05 * k - 0.5, 0.05 * k) for k in range(20)]

@@ -14,7 +14,7 @@ import numpy as np
 from gazelle.geometry import Pose
 from gazelle.graph.tf import StampedPose
 from gazelle.mapping.slam import SlamParameters
-from gazelle.nodes.slam.options import SlamOptions
+from gazelle.nodes.slam.parameters import SlamOptions
 
 
 def _bench() -> Any:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 
 from gazelle.nodes.frontier_exploration.bounded_explore_layer import BOUNDED_EXPLORE, EXPLORE_SERVER
-from gazelle.nodes.slam.explore import EXPLORE
-from gazelle.nodes.slam.ros_packages import SLAM_NODES
+from gazelle.nodes.slam.explore_lite import EXPLORE
+from gazelle.nodes.slam.parameters import SLAM_NODES
 from gazelle.parameters.markdown import table_section
 
 __all__ = ["page"]

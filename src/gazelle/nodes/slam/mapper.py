@@ -16,7 +16,7 @@ from gazelle.mapping.se2 import Poses, between, compose, inverse
 from gazelle.mapping.slam import MapDrawer, Slam
 from gazelle.nodes.map_server.occupancy_grid import message_of_grid
 from gazelle.nodes.navigation.robot_pose import Frames
-from gazelle.nodes.slam.options import SlamOptions
+from gazelle.nodes.slam.parameters import SlamOptions
 from gazelle.nodes.slam.scan_messages import PlacedScan, ScanQueue
 
 if TYPE_CHECKING:

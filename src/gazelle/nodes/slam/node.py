@@ -20,11 +20,10 @@ from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.map_server.occupancy_grid import message_of_grid
 from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node, ticks
 from gazelle.nodes.slam.cartographer.configuration import flags_of, read_configuration
-from gazelle.nodes.slam.explore import run_explore
+from gazelle.nodes.slam.explore_lite import run_explore
 from gazelle.nodes.slam.mapper import Mapper
-from gazelle.nodes.slam.options import SlamNode, SlamOptions, options_of
-from gazelle.nodes.slam.ros_packages import SLAM_NODES
-from gazelle.nodes.slam.toolbox import ToolboxServices
+from gazelle.nodes.slam.parameters import SLAM_NODES, SlamNode, SlamOptions, options_of
+from gazelle.nodes.slam.slam_toolbox import ToolboxServices
 from gazelle.parameters.trees import nested
 from gazelle.workspace.ament_index import known_workspace
 

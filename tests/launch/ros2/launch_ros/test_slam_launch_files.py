@@ -10,7 +10,7 @@ import yaml
 from gazelle.launch.ros2 import LaunchContext
 from gazelle.launch.ros2.launch_description_sources import PythonLaunchDescriptionSource
 from gazelle.launch.ros2.launch_ros.node_executable import node_command
-from gazelle.nodes.slam.ros_packages import SLAM_NODES
+from gazelle.nodes.slam.parameters import SLAM_NODES
 from gazelle.workspace.ament_index import get_package_share_directory
 
 

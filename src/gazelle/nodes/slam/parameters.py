@@ -1,24 +1,157 @@
 """The SLAM nodes of ROS by their parameters: names and defaults are theirs.
 
 gmapping (wiki.ros.org/gmapping), slam_karto (wiki.ros.org/slam_karto), hector_mapping
-(wiki.ros.org/hector_mapping), slam_toolbox (its README and ``mapper_params_online_async.yaml``).
+(wiki.ros.org/hector_mapping), slam_toolbox (its README and ``mapper_params_online_async.yaml``),
+cartographer (its Lua files).
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
-from gazelle.nodes.slam.options import SlamNode, SlamOptions, used
+from gazelle.mapping.slam import SlamParameters
 from gazelle.parameters import Parameter, ParameterTable, refused
+from gazelle.parameters.reader import ParameterReader
 
-__all__ = ["CARTOGRAPHER", "GMAPPING", "HECTOR", "KARTO", "SLAM_NODES", "TOOLBOX"]
+__all__ = [
+    "CARTOGRAPHER",
+    "GMAPPING",
+    "HECTOR",
+    "KARTO",
+    "SLAM_NODES",
+    "TOOLBOX",
+    "SlamNode",
+    "SlamOptions",
+    "options_of",
+    "used",
+]
 
-_DEFAULTS = SlamOptions()
+
+_ENGINE = frozenset(one.name for one in fields(SlamParameters))
+
+_MAX_DISTANCE_M = 30.0
+"""Fields of all that is seen would be too large, and beams that long err by their angle."""
 _NO_PARTICLES = "the map is a graph of poses, not a filter with particles"
 _OWN_MATCHER = "matching is Gazelle's own: its windows follow from odometry's errors"
 _OWN_SOLVER = "the graph is solved by Gazelle's own sparse least squares"
 _GROWS = "the map grows where the robot goes"
 _SHOWS = "drawings and timings of the original's inside"
+
+_KARTO_IDLE = (
+    *refused(_OWN_MATCHER, "use_scan_matching", "use_scan_barycenter",
+             "scan_buffer_maximum_scan_distance", "link_match_minimum_response_fine",
+             "link_scan_maximum_distance", "correlation_search_space_dimension",
+             "correlation_search_space_resolution", "correlation_search_space_smear_deviation",
+             "distance_variance_penalty", "angle_variance_penalty", "fine_search_angle_offset",
+             "coarse_search_angle_offset", "coarse_angle_resolution", "minimum_angle_penalty",
+             "minimum_distance_penalty", "use_response_expansion"),
+    *refused("places are found by branch and bound and believed when several agree",
+             "loop_search_maximum_distance",
+             "loop_match_minimum_chain_size", "loop_match_maximum_variance_coarse",
+             "loop_match_minimum_response_coarse", "loop_match_minimum_response_fine",
+             "loop_search_space_dimension", "loop_search_space_resolution",
+             "loop_search_space_smear_deviation"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class SlamOptions:
+    """Options of a SLAM node.
+
+    Attributes:
+        base_frame, odom_frame, map_frame: ends of transforms.
+        scan_topic: of the lidar.
+        map_period_s: between two maps, 0 for one per kept scan.
+        tf_period_s: between two transforms, 0 for none.
+        tf_ahead_s: how far transforms are dated ahead.
+        throttle: every so many-th scan is used.
+        least_interval_s: between two scans that are used.
+        resolution_m: of the map.
+        occupied_share: of beams that end in an occupied cell.
+        range_limit_m: longer ranges say nothing.
+        publishes_tf: whether the transform from the map is sent.
+        mode: ``mapping``, or ``localization`` in a map that stays as it is.
+        map_file: graph of poses to begin with.
+        start_pose: where the robot is in it, (x, y, yaw).
+        slam: of the engine.
+    """
+
+    base_frame: str = "base_link"
+    odom_frame: str = "odom"
+    map_frame: str = "map"
+    scan_topic: str = "scan"
+    map_period_s: float = 5.0
+    tf_period_s: float = 0.05
+    tf_ahead_s: float = 0.05
+    throttle: int = 1
+    least_interval_s: float = 0.0
+    resolution_m: float = 0.05
+    occupied_share: float = 0.25
+    range_limit_m: float = 1e9
+    publishes_tf: bool = True
+    mode: str = "mapping"
+    map_file: str = ""
+    start_pose: tuple[float, ...] = ()
+    slam: SlamParameters = field(default_factory=SlamParameters)
+
+
+_DEFAULTS = SlamOptions()
+
+
+@dataclass(frozen=True, slots=True)
+class SlamNode:
+    """One package's SLAM node.
+
+    Attributes:
+        table: its parameters.
+        uses: which option each of them is.
+        base: options that it has and no parameter tells.
+        services: it answers as slam_toolbox does.
+    """
+
+    table: ParameterTable
+    uses: Mapping[str, str]
+    base: SlamOptions = SlamOptions()
+    services: bool = False
+
+
+def used(
+    key: str, default: Any, option: str, meaning: str, low: float | None = None, unit: str = ""
+) -> tuple[Parameter, str]:
+    """Return the row of a parameter that is an option, and that option."""
+    kind = {str: "text", bool: "flag", int: "integer", list: "numbers"}.get(type(default), "number")
+    return Parameter(key, kind, default, meaning, unit, low), option  # type: ignore[arg-type]
+
+
+_KARTO_USES = (
+    used("odom_frame", "odom", "odom_frame", "odometry's frame"),
+    used("map_frame", "map", "map_frame", "the map's frame"),
+    used("map_update_interval", 5.0, "map_period_s", "between two maps", 0.0, "s"),
+    used("throttle_scans", 1, "throttle", "every so many-th scan is used", 1),
+    used("resolution", 0.05, "resolution_m", "side of a cell of the map", 0.001, "m"),
+    used("transform_publish_period", 0.05, "tf_period_s", "between two transforms", 0.0, "s"),
+    used("do_loop_closing", True, "loop_closing", "whether places are recognised"),
+    used("scan_buffer_size", 70, "submap_scans", "scans are matched with so many kept ones", 1),
+)
+
+
+def options_of(slam_node: SlamNode, settings: ParameterReader) -> SlamOptions:
+    """Return the options that parameters name; others keep the engine's values."""
+    own: dict[str, Any] = {}
+    engine: dict[str, Any] = {}
+    for key, option in slam_node.uses.items():
+        row = slam_node.table.row(key)
+        value = settings.value(row)
+        (engine if option in _ENGINE else own)[option] = value
+    for frame in ("base_frame", "odom_frame", "map_frame"):
+        if frame in own:
+            own[frame] = str(own[frame]).removeprefix("/")
+    if "max_range_m" in engine:
+        engine["max_range_m"] = min(_MAX_DISTANCE_M, engine["max_range_m"])
+    slam = replace(slam_node.base.slam, **engine)
+    return replace(slam_node.base, slam=slam, **own)
 
 
 def _slam_node(
@@ -64,32 +197,6 @@ _GMAPPING = _slam_node(
         *refused(_GROWS, "xmin", "ymin", "xmax", "ymax"),
         *refused("the scan's frame tells how the lidar is mounted", "inverted_laser"),
     ),
-)  # fmt: skip
-
-_KARTO_USES = (
-    used("odom_frame", "odom", "odom_frame", "odometry's frame"),
-    used("map_frame", "map", "map_frame", "the map's frame"),
-    used("map_update_interval", 5.0, "map_period_s", "between two maps", 0.0, "s"),
-    used("throttle_scans", 1, "throttle", "every so many-th scan is used", 1),
-    used("resolution", 0.05, "resolution_m", "side of a cell of the map", 0.001, "m"),
-    used("transform_publish_period", 0.05, "tf_period_s", "between two transforms", 0.0, "s"),
-    used("do_loop_closing", True, "loop_closing", "whether places are recognised"),
-    used("scan_buffer_size", 70, "submap_scans", "scans are matched with so many kept ones", 1),
-)
-_KARTO_IDLE = (
-    *refused(_OWN_MATCHER, "use_scan_matching", "use_scan_barycenter",
-             "scan_buffer_maximum_scan_distance", "link_match_minimum_response_fine",
-             "link_scan_maximum_distance", "correlation_search_space_dimension",
-             "correlation_search_space_resolution", "correlation_search_space_smear_deviation",
-             "distance_variance_penalty", "angle_variance_penalty", "fine_search_angle_offset",
-             "coarse_search_angle_offset", "coarse_angle_resolution", "minimum_angle_penalty",
-             "minimum_distance_penalty", "use_response_expansion"),
-    *refused("places are found by branch and bound and believed when several agree",
-             "loop_search_maximum_distance",
-             "loop_match_minimum_chain_size", "loop_match_maximum_variance_coarse",
-             "loop_match_minimum_response_coarse", "loop_match_minimum_response_fine",
-             "loop_search_space_dimension", "loop_search_space_resolution",
-             "loop_search_space_smear_deviation"),
 )  # fmt: skip
 
 _KARTO = _slam_node(
@@ -227,7 +334,6 @@ SLAM_NODES = {
     "cartographer": _CARTOGRAPHER,
 }
 """By family."""
-
 GMAPPING = _GMAPPING.table
 KARTO = _KARTO.table
 HECTOR = _HECTOR.table

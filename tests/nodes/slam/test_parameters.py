@@ -17,8 +17,7 @@ from gazelle.mapping.slam import SlamParameters, save_graph
 from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.slam.cartographer.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.docs import page
-from gazelle.nodes.slam.options import SlamOptions
-from gazelle.nodes.slam.ros_packages import SLAM_NODES
+from gazelle.nodes.slam.parameters import SLAM_NODES, SlamOptions
 from gazelle.parameters.trees import nested
 
 ROOT = Path(__file__).parents[3]
