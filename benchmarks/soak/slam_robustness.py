@@ -26,7 +26,7 @@ from gazelle.mapping.se2 import between, compose
 from gazelle.mapping.slam import Slam, SlamParameters
 
 BROKEN_M = 0.5
-FIXED = ("loop_closing", "polish")
+FIXED = ("loop_closing", "global_refinement")
 
 
 def disturbed(records: Sequence[LogRecord], seed: int) -> tuple[list[LogRecord], np.ndarray]:

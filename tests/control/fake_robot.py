@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.robot import JointResource, Robot
 from gazelle.description.model import Model
 from gazelle.parameters import Parameter, ParameterTable
@@ -20,8 +20,10 @@ class Hardware:
     name, type, plugin = "block", "system", "test/Hardware"
     writes_every_step = False
 
-    def __init__(self, bank: InterfaceBank, joints: tuple[JointResource, ...]) -> None:
-        self.bank, self.joints = bank, joints
+    def __init__(
+        self, interface_values: InterfaceValues, joints: tuple[JointResource, ...]
+    ) -> None:
+        self.interface_values, self.joints = interface_values, joints
         self.log: list[Any] = []
         self.refusal = ""
 
@@ -99,13 +101,13 @@ def fake_robot(ros_version: int) -> tuple[Robot, Hardware]:
     interfaces = ("position", "velocity", "effort")
     names = ("hardware_interface/EffortJointInterface",)
     joints = tuple(JointResource(name, interfaces, interfaces, names) for name in ("left", "right"))
-    bank = InterfaceBank()
+    interface_values = InterfaceValues()
     for joint in joints:
         for interface in interfaces:
-            bank.add_state(f"{joint.name}/{interface}", 0.0)
-            bank.add_command(f"{joint.name}/{interface}")
-    bank.freeze()
-    hardware = Hardware(bank, joints)
+            interface_values.add_state(f"{joint.name}/{interface}", 0.0)
+            interface_values.add_command(f"{joint.name}/{interface}")
+    interface_values.freeze()
+    hardware = Hardware(interface_values, joints)
     return Robot(
-        ros_version, Model("mira"), bank, (hardware,), {j.name: j for j in joints}
+        ros_version, Model("mira"), interface_values, (hardware,), {j.name: j for j in joints}
     ), hardware

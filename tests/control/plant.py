@@ -12,7 +12,7 @@ from tests.control.recording_ports import RecordingPorts
 
 from gazelle.control.controller_parameters import controller_parameters
 from gazelle.control.controllers.controller import Controller, ControllerContext
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.robot import JointLimits, JointResource, Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
@@ -59,15 +59,15 @@ class Plant:
     name, type, plugin = "plant", "system", "test/Plant"
     writes_every_step = False
 
-    def __init__(self, bank: InterfaceBank, rows: Sequence[PlantJoint]) -> None:
-        self._bank, self._rows = bank, tuple(rows)
+    def __init__(self, interface_values: InterfaceValues, rows: Sequence[PlantJoint]) -> None:
+        self._interface_values, self._rows = interface_values, tuple(rows)
         self.joints = tuple(_resource(row) for row in rows)
         self.switches: list[tuple[frozenset[str], frozenset[str]]] = []
         for row in rows:
             for interface in row.states:
-                bank.add_state(f"{row.name}/{interface}")
+                interface_values.add_state(f"{row.name}/{interface}")
             for interface in row.commands:
-                bank.add_command(f"{row.name}/{interface}")
+                interface_values.add_command(f"{row.name}/{interface}")
         self._limit = np.array([row.limits.max_effort or math.inf for row in rows])
         self.reset()
 
@@ -83,7 +83,9 @@ class Plant:
         for place, row in enumerate(self._rows):
             for interface in row.states:
                 value = getattr(self, interface)[place]
-                self._bank.states[self._bank.state_index[f"{row.name}/{interface}"]] = value
+                self._interface_values.states[
+                    self._interface_values.state_index[f"{row.name}/{interface}"]
+                ] = value
 
     def write(self, time_ns: int, period_ns: int) -> None:
         """Take over the commands."""
@@ -97,7 +99,7 @@ class Plant:
         """Forget the commands of what was released."""
         self.switches.append((start, stop))
         for name in stop:
-            self._bank.commands[self._bank.command_index[name]] = math.nan
+            self._interface_values.commands[self._interface_values.command_index[name]] = math.nan
 
     def step(self, period_s: float) -> None:
         """Move on; constant efforts act on constant inertias, so this is exact."""
@@ -130,7 +132,9 @@ class Plant:
     def _command(self, row: PlantJoint) -> tuple[str, float]:
         for interface in ("effort", "velocity", "position"):
             if interface in row.commands:
-                value = self._bank.commands[self._bank.command_index[f"{row.name}/{interface}"]]
+                value = self._interface_values.commands[
+                    self._interface_values.command_index[f"{row.name}/{interface}"]
+                ]
                 if not math.isnan(value):
                     return interface, float(value)
         return "", 0.0
@@ -145,16 +149,16 @@ def make_robot(
     model: Model | None = None,
 ) -> tuple[Robot, Plant]:
     """Return a robot over a plant; sensors are {name: {interface: value}} and never change."""
-    bank = InterfaceBank()
-    plant = Plant(bank, joints)
+    interface_values = InterfaceValues()
+    plant = Plant(interface_values, joints)
     for sensor, values in (sensors or {}).items():
         for interface, value in values.items():
-            bank.add_state(f"{sensor}/{interface}", value)
-    bank.freeze()
+            interface_values.add_state(f"{sensor}/{interface}", value)
+    interface_values.freeze()
     robot = Robot(
         ros_version,
         model or Model("robot"),
-        bank,
+        interface_values,
         (plant,),
         {joint.name: joint for joint in plant.joints},
         {

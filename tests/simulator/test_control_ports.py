@@ -9,7 +9,7 @@ import pytest
 
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.controller_node import LiveParameter
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 from gazelle.control.robot import Robot
 from gazelle.description.model import Model, World
@@ -147,9 +147,9 @@ def test_an_action_is_found_by_name_until_its_controller_closes(server):
 
 
 def _manager(server: WorldServer, resources: Resources, ros_version: int) -> ControllerManager:
-    bank = InterfaceBank()
-    bank.freeze()
-    robot = Robot(ros_version, Model("mira"), bank, (), {})
+    interface_values = InterfaceValues()
+    interface_values.freeze()
+    robot = Robot(ros_version, Model("mira"), interface_values, (), {})
     manager = ControllerManager(
         robot,
         namespace="mira",

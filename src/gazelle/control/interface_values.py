@@ -8,13 +8,13 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Array", "Indices", "InterfaceBank"]
+__all__ = ["Array", "Indices", "InterfaceValues"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 
-class InterfaceBank:
+class InterfaceValues:
     """State and command interfaces by name, ``joint/interface`` as ros2_control writes them.
 
     Hardware registers its interfaces, `freeze` allocates the arrays; from then on hardware and
@@ -47,7 +47,7 @@ class InterfaceBank:
         """Register a state interface and return its place.
 
         Raises:
-            ValueError: the bank is frozen or has it already.
+            ValueError: the interfaces are frozen or it is there already.
         """
         return self._add(self.state_index, self._initial_states, name, initial)
 
@@ -55,7 +55,7 @@ class InterfaceBank:
         """Register a command interface and return its place.
 
         Raises:
-            ValueError: the bank is frozen or has it already.
+            ValueError: the interfaces are frozen or it is there already.
         """
         return self._add(self.command_index, self._initial_commands, name, initial)
 

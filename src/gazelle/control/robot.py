@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle.control.hardware.lifecycle import HardwareLifecycle
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
 
@@ -112,11 +112,11 @@ class HardwareComponent(Protocol):
         ...
 
     def read(self, time_ns: int, period_ns: int) -> None:
-        """Put what is measured into the bank's states."""
+        """Put what is measured into the states."""
         ...
 
     def write(self, time_ns: int, period_ns: int) -> None:
-        """Act on the bank's commands; limits are enforced here."""
+        """Act on the commands; limits are enforced here."""
         ...
 
     def check_switch(self, start: frozenset[str], stop: frozenset[str]) -> str:
@@ -139,7 +139,7 @@ class Robot:
     Attributes:
         ros_version: 1 for ros_control, 2 for ros2_control.
         model: description of the robot.
-        bank: values; interfaces are named ``joint/interface``, without the model's name.
+        interface_values: named ``joint/interface``, without the model's name.
         components: hardware, in the order of the file.
         joints: by name, over all components.
         sensors: state interfaces of sensors by the sensor's name, in order.
@@ -151,7 +151,7 @@ class Robot:
 
     ros_version: int
     model: Model
-    bank: InterfaceBank
+    interface_values: InterfaceValues
     components: tuple[HardwareComponent, ...]
     joints: Mapping[str, JointResource]
     sensors: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
@@ -178,9 +178,9 @@ class Robot:
 
     def switch(self, start: frozenset[str], stop: frozenset[str]) -> None:
         """Tell the hardware what is claimed and released."""
-        places = self.bank.command_places(
-            [name for name in start | stop if name in self.bank.command_index]
+        places = self.interface_values.command_places(
+            [name for name in start | stop if name in self.interface_values.command_index]
         )
-        self.bank.stiffness[places] = self.bank.damping[places] = 0.0
+        self.interface_values.stiffness[places] = self.interface_values.damping[places] = 0.0
         for component in self.components:
             component.switch(start, stop)

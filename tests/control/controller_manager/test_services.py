@@ -188,7 +188,7 @@ def test_ros2_hardware_is_read_but_not_written_while_inactive(ros2):
 def test_ros2_hardware_that_is_unconfigured_has_no_interfaces(ros2):
     bench, ports, call = ros2
     robot = bench.manager.robot
-    names = (*robot.bank.command_index, *robot.bank.state_index)
+    names = (*robot.interface_values.command_index, *robot.interface_values.state_index)
     robot.lifecycle.owners = dict.fromkeys(names, "block")
     call("load_controller", name="a")
     call("configure_controller", name="a")

@@ -285,7 +285,7 @@ def test_stopped_controller_brakes_and_takes_no_commands():
     bench = _bench()
     bench.run(0.1, "~/cmd_vel", twist(0.3))
     bench.controller.stop(bench.time_ns)
-    assert bench.robot.bank.commands.tolist() == [0.0, 0.0]
+    assert bench.robot.interface_values.commands.tolist() == [0.0, 0.0]
     bench.ports.send("~/cmd_vel", twist(1.0))
     bench.controller.start(bench.time_ns)
     bench.run(0.01)

@@ -23,8 +23,8 @@ ROWS = [PlantJoint("a", 2.0, position=0.1), PlantJoint("b", 4.0, position=0.2)]
 
 
 def _command(robot: object, name: str) -> float:
-    bank = robot.bank  # type: ignore[attr-defined]
-    return float(bank.commands[bank.command_index[name]])
+    interface_values = robot.interface_values  # type: ignore[attr-defined]
+    return float(interface_values.commands[interface_values.command_index[name]])
 
 
 @pytest.mark.parametrize("interface", ["effort", "velocity", "position"])
@@ -85,7 +85,7 @@ def test_ros2_group_waits_for_a_command_and_stops_with_zeros(interface: str) -> 
     controller.stop(0)
     assert _command(robot, f"b/{interface}") == (2.0 if interface == "position" else 0.0)
     controller.start(0)
-    robot.bank.commands[:] = np.nan
+    robot.interface_values.commands[:] = np.nan
     controller.update(0, 1)
     assert math.isnan(_command(robot, f"a/{interface}"))
 

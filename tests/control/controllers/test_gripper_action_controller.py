@@ -54,8 +54,8 @@ class Bench:
 
     @property
     def command(self) -> float:
-        (place,) = self.robot.bank.command_places(self.controller.commands)
-        return float(self.robot.bank.commands[place])
+        (place,) = self.robot.interface_values.command_places(self.controller.commands)
+        return float(self.robot.interface_values.commands[place])
 
 
 @pytest.mark.parametrize("ros_version", [1, 2])

@@ -185,7 +185,9 @@ def test_broadcaster_publishes_chosen_interfaces_of_chosen_joints() -> None:
 
 def test_broadcaster_takes_what_is_configured_when_it_starts() -> None:
     robot, _ = make_robot(ROWS)
-    robot.lifecycle.owners = {name: name.split("/")[0] for name in robot.bank.state_index}
+    robot.lifecycle.owners = {
+        name: name.split("/")[0] for name in robot.interface_values.state_index
+    }
     robot.lifecycle.set("b", HardwareState.UNCONFIGURED)
     controller, ports = make_controller(JointStateBroadcaster, robot, {})
     for state, names in ((HardwareState.INACTIVE, ["a", "b"]), (HardwareState.UNCONFIGURED, ["a"])):

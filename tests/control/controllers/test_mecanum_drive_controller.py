@@ -97,6 +97,6 @@ def test_stop_stops_the_wheels_and_a_missing_joint_is_named():
     bench = _bench()
     bench.run(0.1, "~/reference", twist(0.3))
     bench.controller.stop(bench.time_ns)
-    assert bench.robot.bank.commands.tolist() == [0.0] * 4
+    assert bench.robot.interface_values.commands.tolist() == [0.0] * 4
     with pytest.raises(ControllerError, match="no 'front_left_wheel_command_joint_name' given"):
         WheeledBench(MecanumDriveController, rolling(*NAMES), {}, ros_version=2)

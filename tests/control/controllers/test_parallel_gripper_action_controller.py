@@ -57,8 +57,8 @@ class Bench:
         return self.ports.send_goal(ACTION, request)
 
     def command(self, name: str) -> float:
-        (place,) = self.robot.bank.command_places([f"finger/{name}"])
-        return float(self.robot.bank.commands[place])
+        (place,) = self.robot.interface_values.command_places([f"finger/{name}"])
+        return float(self.robot.interface_values.commands[place])
 
 
 def test_the_position_is_commanded_and_reached() -> None:

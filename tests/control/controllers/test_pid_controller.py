@@ -82,10 +82,14 @@ def test_it_holds_where_it_begins_or_waits() -> None:
     controller, ports = _make(robot, waiting, p=5.0)
     controller.start(0)
     controller.update(0, MS)
-    assert math.isnan(robot.bank.commands[robot.bank.command_index["a/effort"]])
+    assert math.isnan(
+        robot.interface_values.commands[robot.interface_values.command_index["a/effort"]]
+    )
     ports.send("~/reference", Reference(dof_names=[], values=[1.0]))
     controller.update(0, MS)
-    assert robot.bank.commands[robot.bank.command_index["a/effort"]] == pytest.approx(1.5)
+    assert robot.interface_values.commands[
+        robot.interface_values.command_index["a/effort"]
+    ] == pytest.approx(1.5)
 
 
 def test_wrapped_angles_and_saturated_commands() -> None:
@@ -123,7 +127,9 @@ def test_references_are_sorted_by_name_and_wrong_ones_refused() -> None:
     ports.send("~/reference", Reference(dof_names=["b", "x"], values=[2.0, 1.0]))
     ports.send("~/reference", Reference(dof_names=["b"], values=[2.0]))
     controller.update(0, MS)
-    assert list(robot.bank.commands[robot.bank.command_places(controller.commands)]) == [1.0, 2.0]
+    assert list(
+        robot.interface_values.commands[robot.interface_values.command_places(controller.commands)]
+    ) == [1.0, 2.0]
     first, second = (text for _, text in ports.lines)
     assert "DoF name 'a' not found" in first
     assert (

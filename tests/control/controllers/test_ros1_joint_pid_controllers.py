@@ -263,5 +263,8 @@ def test_it_tells_what_its_effort_loses_per_position_and_velocity() -> None:
     controller, _ = make_controller(JointPositionController, robot, parameters, type_name=EFFORT)
     controller.start(0)
     run(robot, controller, 1)
-    place = robot.bank.command_index["a/effort"]
-    assert (robot.bank.stiffness[place], robot.bank.damping[place]) == (8.0, 1.0)
+    place = robot.interface_values.command_index["a/effort"]
+    assert (robot.interface_values.stiffness[place], robot.interface_values.damping[place]) == (
+        8.0,
+        1.0,
+    )

@@ -43,7 +43,10 @@ def test_it_tells_what_its_effort_loses_per_velocity() -> None:
     controller, _ = make_controller(JointVelocityController, robot, parameters)
     controller.start(0)
     run(robot, controller, 1)
-    place = robot.bank.command_index["a/effort"]
-    assert (robot.bank.stiffness[place], robot.bank.damping[place]) == (0.0, 8.0)
+    place = robot.interface_values.command_index["a/effort"]
+    assert (robot.interface_values.stiffness[place], robot.interface_values.damping[place]) == (
+        0.0,
+        8.0,
+    )
     robot.switch(frozenset(), frozenset({"a/effort"}))
-    assert robot.bank.damping[place] == 0.0
+    assert robot.interface_values.damping[place] == 0.0

@@ -102,7 +102,9 @@ class TypeBench:
 
     def command(self, name: str) -> float:
         """The present command of an interface such as ``a/effort``."""
-        return float(self.robot.bank.commands[self.robot.bank.command_index[name]])
+        return float(
+            self.robot.interface_values.commands[self.robot.interface_values.command_index[name]]
+        )
 
     def messages(self, topic: str) -> list[Any]:
         """What was published."""

@@ -45,7 +45,7 @@ class WheeledBench:
 
     Attributes:
         time_ns: of the next update.
-        twists: after each step, what the commands said: a copy of the bank's commands.
+        twists: after each step, what the commands said: a copy of the robot's.
     """
 
     def __init__(
@@ -82,12 +82,12 @@ class WheeledBench:
             self.time_ns = run(
                 self.robot, self.controller, 1, period_ns=self.period_ns, time_ns=self.time_ns
             )
-            self.commands.append(self.robot.bank.commands.tolist())
+            self.commands.append(self.robot.interface_values.commands.tolist())
 
     def command(self, name: str) -> float:
         """The present command of an interface."""
-        bank = self.robot.bank
-        return float(bank.commands[bank.command_index[name]])
+        interface_values = self.robot.interface_values
+        return float(interface_values.commands[interface_values.command_index[name]])
 
     def last(self, topic: str) -> Any:
         """The message published last."""

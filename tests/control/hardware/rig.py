@@ -84,13 +84,15 @@ class Rig:
         """Give commands, ``j_effort=1.0`` for ``j/effort``."""
         for key, value in values.items():
             name = "/".join(key.rsplit("_", 1))
-            self.robot.bank.commands[self.robot.bank.command_index[name]] = value
+            self.robot.interface_values.commands[
+                self.robot.interface_values.command_index[name]
+            ] = value
 
     def state(self, name: str) -> float:
         """Return a state as controllers see it."""
-        (place,) = self.robot.bank.state_places([name])
+        (place,) = self.robot.interface_values.state_places([name])
         self.robot.read(self.engine.time_ns, 0)
-        return float(self.robot.bank.states[place])
+        return float(self.robot.interface_values.states[place])
 
     def run(self, steps: int, **values: float) -> np.ndarray:
         """Read, command and write at every period as the loaders do; return positions (steps, N).

@@ -28,7 +28,7 @@ def test_an_effort_is_cut_at_its_limit_and_controllers_see_that() -> None:
     rig.claim("j/effort")
     rig.run(500, j_effort=99.0)
     assert rig.velocity("j") == pytest.approx(3.0 / INERTIA * 0.5, rel=1e-9)
-    assert rig.robot.bank.commands.tolist() == [3.0]
+    assert rig.robot.interface_values.commands.tolist() == [3.0]
 
 
 def test_the_velocity_limit_cuts_efforts_and_does_not_brake() -> None:
@@ -273,6 +273,6 @@ def test_efforts_are_measured_once_somebody_asks() -> None:
     rig = effort_rig()
     rig.claim("j/effort")
     rig.run(10, j_effort=2.0)
-    place = rig.robot.bank.state_index["j/effort"]
-    assert math.isnan(rig.robot.bank.states[place])
+    place = rig.robot.interface_values.state_index["j/effort"]
+    assert math.isnan(rig.robot.interface_values.states[place])
     assert rig.state("j/effort") == 2.0

@@ -86,15 +86,17 @@ def test_sensors_and_gpios_can_have_commands() -> None:
         '<state_interface name="in"><param name="initial_value">3</param></state_interface></gpio>'
     )
     plain = mock(joint("j"), sensor, gpio)
-    assert set(plain.robot.bank.command_index) == {"j/position", "io/out"}
+    assert set(plain.robot.interface_values.command_index) == {"j/position", "io/out"}
     assert math.isnan(plain.state("ft/force.x"))
     assert plain.state("io/in") == 3.0
-    plain.robot.bank.commands[plain.robot.bank.command_index["io/out"]] = 1.0
+    plain.robot.interface_values.commands[plain.robot.interface_values.command_index["io/out"]] = (
+        1.0
+    )
     assert plain.state("io/out") == 1.0
     rig = mock(joint("j"), sensor, gpio, mock_sensor_commands="true", mock_gpio_commands="true")
-    index = rig.robot.bank.command_index
+    index = rig.robot.interface_values.command_index
     assert set(index) == {"j/position", "ft/force.x", "io/out", "io/in"}
-    rig.robot.bank.commands[index["ft/force.x"]] = 7.0
+    rig.robot.interface_values.commands[index["ft/force.x"]] = 7.0
     assert rig.state("ft/force.x") == 7.0
 
 
@@ -103,17 +105,17 @@ def test_dynamics_integrate_the_command_that_is_claimed() -> None:
     rig.claim("j/velocity")
     rig.command(j_velocity=2.0)
     tick(rig, 100)
-    bank = rig.robot.bank
-    assert bank.states[bank.state_index["j/position"]] == pytest.approx(2.0)
+    interface_values = rig.robot.interface_values
+    assert interface_values.states[interface_values.state_index["j/position"]] == pytest.approx(2.0)
     rig.claim("j/acceleration")
     rig.command(j_acceleration=-1.0)
     tick(rig, 100)
-    assert bank.states[bank.state_index["j/velocity"]] == pytest.approx(1.0)
+    assert interface_values.states[interface_values.state_index["j/velocity"]] == pytest.approx(1.0)
     rig.claim("j/position")
-    start = bank.states[bank.state_index["j/position"]]
+    start = interface_values.states[interface_values.state_index["j/position"]]
     rig.command(j_position=start + 0.01)
     tick(rig)
-    assert bank.states[bank.state_index["j/velocity"]] == pytest.approx(1.0)
+    assert interface_values.states[interface_values.state_index["j/velocity"]] == pytest.approx(1.0)
 
 
 def test_dynamics_allow_one_command_a_joint() -> None:

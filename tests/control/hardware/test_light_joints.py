@@ -25,14 +25,14 @@ def light(inertia, friction=0.0):
 
 def follow(rig, gains, target, steps):
     """Run a PID on the joint's effort as controllers do; return positions and efforts."""
-    pid, bank = Pid(gains), rig.robot.bank
-    place = bank.command_index["j/effort"]
+    pid, interface_values = Pid(gains), rig.robot.interface_values
+    place = interface_values.command_index["j/effort"]
     seen = []
     for _ in range(steps):
         now, step_ns = rig.engine.time_ns, rig.engine.step_ns
         rig.robot.read(now, step_ns)
-        bank.commands[place] = pid.compute(target - rig.position("j"), STEP_S)
-        bank.answer(place, gains.p, gains.d)
+        interface_values.commands[place] = pid.compute(target - rig.position("j"), STEP_S)
+        interface_values.answer(place, gains.p, gains.d)
         rig.robot.write(now, step_ns)
         rig.engine.step()
         seen.append((rig.position("j"), rig.engine.joint("rig::j").effort))

@@ -17,7 +17,11 @@ def test_joints_have_the_interface_of_their_transmission() -> None:
         for part in (rotor(name), transmission(name, kind))
     ]
     rig = ros1_rig(*parts)
-    assert list(rig.robot.bank.command_index) == ["a/effort", "b/position", "c/velocity"]
+    assert list(rig.robot.interface_values.command_index) == [
+        "a/effort",
+        "b/position",
+        "c/velocity",
+    ]
     assert rig.robot.joints["b"].hardware_interfaces == (
         "hardware_interface/PositionJointInterface",
         "hardware_interface/JointStateInterface",
@@ -29,7 +33,7 @@ def test_an_interface_without_its_package_is_understood() -> None:
     rig = ros1_rig(
         rotor("a"), transmission("a", prefix=""), rotor("b"), transmission("b", "Position", "")
     )
-    assert list(rig.robot.bank.command_index) == ["a/effort", "b/position"]
+    assert list(rig.robot.interface_values.command_index) == ["a/effort", "b/position"]
     text = message(rig, "control.hardware-interface-prefix")
     assert "hardware interfaces of a, b lack 'hardware_interface/'" in text
     assert "Deprecated syntax, please prepend" in text
@@ -41,7 +45,7 @@ def test_of_several_interfaces_the_first_counts() -> None:
         "<hardwareInterface>hardware_interface/PositionJointInterface</hardwareInterface></joint>",
     )
     rig = ros1_rig(rotor("j"), more)
-    assert list(rig.robot.bank.command_index) == ["j/effort"]
+    assert list(rig.robot.interface_values.command_index) == ["j/effort"]
     assert "specifies multiple hardware interfaces" in message(
         rig, "control.hardware-interface-extra"
     )
@@ -53,7 +57,7 @@ def test_transmission_of_2011_is_driven_by_efforts() -> None:
         "<mechanicalReduction>1</mechanicalReduction></transmission>"
     )
     rig = ros1_rig(rotor("j"), old)
-    assert list(rig.robot.bank.command_index) == ["j/effort"]
+    assert list(rig.robot.interface_values.command_index) == ["j/effort"]
     text = message(rig, "control.hardware-interface-missing")
     assert "it is driven by efforts, as on the PR2" in text
 
@@ -65,13 +69,13 @@ def test_an_interface_in_the_actuator_is_used() -> None:
         "</hardwareInterface></actuator></transmission>"
     )
     rig = ros1_rig(rotor("j"), moved)
-    assert list(rig.robot.bank.command_index) == ["j/velocity"]
+    assert list(rig.robot.interface_values.command_index) == ["j/velocity"]
     assert "belongs into <joint>" in message(rig, "control.hardware-interface-missing")
 
 
 def test_an_unknown_interface_leaves_a_joint_that_can_be_read() -> None:
     rig = ros1_rig(rotor("j"), transmission("j", "Effrot"))
-    assert rig.robot.bank.command_index == {}
+    assert rig.robot.interface_values.command_index == {}
     assert rig.state("j/position") == 0.0
     text = message(rig, "control.hardware-interface-unknown")
     assert "No matching hardware interface found" in text
@@ -95,7 +99,7 @@ def test_a_fixed_joint_cannot_be_driven() -> None:
 
 def test_two_transmissions_of_one_joint_count_once() -> None:
     rig = ros1_rig(rotor("j"), transmission("j"), transmission("j", "Position"))
-    assert list(rig.robot.bank.command_index) == ["j/effort"]
+    assert list(rig.robot.interface_values.command_index) == ["j/effort"]
     assert "the first one counts" in message(rig, "control.transmission-twice")
 
 
@@ -112,7 +116,7 @@ def test_a_differential_drives_each_of_its_joints_directly() -> None:
         f"{roles}</transmission>"
     )
     rig = ros1_rig(rotor("a"), rotor("b"), pair)
-    assert list(rig.robot.bank.command_index) == ["a/effort", "b/effort"]
+    assert list(rig.robot.interface_values.command_index) == ["a/effort", "b/effort"]
     assert "has more than one joint" in message(rig, "control.transmission-joints")
     text = message(rig, "control.transmission-idle")
     assert "mechanical reductions have no effect on simulated joints" in text

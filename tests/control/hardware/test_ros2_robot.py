@@ -20,8 +20,13 @@ def test_interfaces_are_those_of_the_block() -> None:
     rig = ros2_rig(
         rotor("a"), rotor("b"), block(joint("a", ("effort",)), joint("b", states=states))
     )
-    assert list(rig.robot.bank.command_index) == ["a/effort", "b/position"]
-    assert set(rig.robot.bank.state_index) == {"a/position", "a/velocity", "a/effort", "b/position"}
+    assert list(rig.robot.interface_values.command_index) == ["a/effort", "b/position"]
+    assert set(rig.robot.interface_values.state_index) == {
+        "a/position",
+        "a/velocity",
+        "a/effort",
+        "b/position",
+    }
     assert rig.robot.joints["a"].command_interfaces == ("effort",)
     assert rig.robot.joints["b"].limits.max_velocity == 4.0
     assert (rig.hardware.name, rig.hardware.type) == ("hw", "system")
@@ -85,7 +90,7 @@ def test_a_wrong_joint_is_left_out_with_the_nearest_name() -> None:
 
 def test_an_interface_that_is_not_simulated_is_left_out() -> None:
     rig = ros2_rig(rotor("j"), block(joint("j", ("positon", "effort"))))
-    assert list(rig.robot.bank.command_index) == ["j/effort"]
+    assert list(rig.robot.interface_values.command_index) == ["j/effort"]
     assert "did you mean 'position'?" in message(rig, "control.ros2-control-interface")
 
 

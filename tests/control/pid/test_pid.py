@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gazelle.control.pid import AntiWindup, Pid, PidBank, PidGains
+from gazelle.control.pid import AntiWindup, Pid, PidArray, PidGains
 
 PERIOD_S = 0.001
 
@@ -164,7 +164,7 @@ def test_newer_strategies_repeat_the_command_and_pass_nan_on() -> None:
 
 def test_bank_computes_what_single_pids_compute() -> None:
     gains = (*GAINS, PidGains(1.0, 2.0, 0.5, 3.0, -3.0, u_max=2.0, strategy=AntiWindup.NONE))
-    bank, singles = PidBank(gains), [Pid(row) for row in gains]
+    pids, singles = PidArray(gains), [Pid(row) for row in gains]
     noise = np.random.default_rng(3)
     for step in range(400):
         errors = noise.normal(size=len(gains))
@@ -174,33 +174,33 @@ def test_bank_computes_what_single_pids_compute() -> None:
         if step == 200:
             for place, pid in enumerate(singles):
                 pid.gains = replace(pid.gains, i=1.5)
-                bank.set_gains(place, pid.gains)
+                pids.set_gains(place, pid.gains)
         period_s = 0.0 if step == 50 else PERIOD_S
         if rates is None:
             wanted = [p.compute(float(e), period_s) for p, e in zip(singles, errors, strict=True)]
         else:
             rows = zip(singles, errors, rates, strict=True)
             wanted = [p.compute_with_rate(float(e), float(r), period_s) for p, e, r in rows]
-        assert bank.compute(errors, period_s, rates) == pytest.approx(wanted, nan_ok=True)
+        assert pids.compute(errors, period_s, rates) == pytest.approx(wanted, nan_ok=True)
         if step % 7:
             continue
         integrals = [pid.errors[1] for pid in singles]
-        assert bank.errors[1] == pytest.approx(integrals)
+        assert pids.errors[1] == pytest.approx(integrals)
 
 
 def test_bank_resets_some() -> None:
-    bank = PidBank(GAINS)
-    bank.compute(np.ones(len(GAINS)), PERIOD_S)
-    bank.reset([1])
-    assert bank.errors[1][1] == 0.0 and bank.errors[1][0] == PERIOD_S
-    assert bank.compute(np.zeros(len(GAINS)), 1.0)[1] == 0.0
+    pids = PidArray(GAINS)
+    pids.compute(np.ones(len(GAINS)), PERIOD_S)
+    pids.reset([1])
+    assert pids.errors[1][1] == 0.0 and pids.errors[1][0] == PERIOD_S
+    assert pids.compute(np.zeros(len(GAINS)), 1.0)[1] == 0.0
 
 
 def test_bank_leaves_the_arrays_of_others_alone() -> None:
-    bank, rates = PidBank([PidGains(2.0, 0.0, 1.0)] * 2), np.array([0.5, 0.25])
-    first = bank.compute(np.ones(2), PERIOD_S, rates)
-    bank.reset()
-    bank.compute(np.zeros(2), PERIOD_S, np.zeros(2))
+    pids, rates = PidArray([PidGains(2.0, 0.0, 1.0)] * 2), np.array([0.5, 0.25])
+    first = pids.compute(np.ones(2), PERIOD_S, rates)
+    pids.reset()
+    pids.compute(np.zeros(2), PERIOD_S, np.zeros(2))
     assert list(first) == [2.5, 2.25] and list(rates) == [0.5, 0.25]
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from gazelle.control.controller_manager import ControllerManager
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 from gazelle.control.robot import JointResource, Robot
 from gazelle.description.model import Model
@@ -67,7 +67,7 @@ class Bench:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.store, self.ports, self.diagnostics = LocalParameters(), Ports(), Diagnostics()
-        self.bank = InterfaceBank()
+        self.interface_values = InterfaceValues()
         interfaces = ("effort", "velocity")
         joints = [
             JointResource("joint_w1", interfaces, ("position", "velocity", "effort")),
@@ -76,11 +76,13 @@ class Bench:
         ]
         for joint in joints:
             for name in joint.state_interfaces:
-                self.bank.add_state(f"{joint.name}/{name}", 0.0)
+                self.interface_values.add_state(f"{joint.name}/{name}", 0.0)
             for name in joint.command_interfaces:
-                self.bank.add_command(f"{joint.name}/{name}")
-        self.bank.freeze()
-        self.robot = Robot(1, Model("pr2"), self.bank, (), {one.name: one for one in joints})
+                self.interface_values.add_command(f"{joint.name}/{name}")
+        self.interface_values.freeze()
+        self.robot = Robot(
+            1, Model("pr2"), self.interface_values, (), {one.name: one for one in joints}
+        )
 
     def package(self, name: str, **files: str) -> Path:
         """Write a package; file names have ``__`` for ``/`` and no ending."""
@@ -115,11 +117,11 @@ class Bench:
 
     def state(self, name: str, value: float) -> None:
         """Let the hardware measure something."""
-        self.bank.states[self.bank.state_index[name]] = value
+        self.interface_values.states[self.interface_values.state_index[name]] = value
 
     def command(self, name: str) -> float:
         """Return what is commanded."""
-        return float(self.bank.commands[self.bank.command_index[name]])
+        return float(self.interface_values.commands[self.interface_values.command_index[name]])
 
 
 @pytest.fixture

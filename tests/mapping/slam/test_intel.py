@@ -60,7 +60,7 @@ def test_disturbed_logs_and_other_parameters_do_not_break_the_map(
     steps += rng.normal(0, 1, steps.shape) * (0.02, 0.02, np.radians(1))
     names = ("sigma_m", "window_m", "window_rad", "odometry_m_per_m", "odometry_rad_per_rad",
              "keyframe_m", "least_loop", "max_range_m", "cell_m")  # fmt: skip
-    told = SlamParameters(polish=False)
+    told = SlamParameters(global_refinement=False)
     scaled = {name: getattr(told, name) * float(rng.uniform(0.8, 1.25)) for name in names}
     engine, pose = Slam(replace(told, **scaled)), np.zeros(3)
     for k, record in enumerate(records):

@@ -15,7 +15,7 @@ from tests.mapping import buildings as b
 import gazelle.mapping
 from gazelle.mapping.slam import SlamParameters
 from gazelle.mapping.slam.keyframes import keyframe_of
-from gazelle.mapping.slam.slam_parameters import DrawingSettings, SlamSettings
+from gazelle.mapping.slam.slam_parameters import OccupancySettings, SlamSettings
 
 ROOT = Path(gazelle.mapping.__file__).parent
 # Numbers of a module's own that are no tuning: of data structures, of the room that only warms up.
@@ -63,7 +63,7 @@ def _records(record: Any) -> Iterator[Any]:
 
 
 def test_every_setting_is_explained() -> None:
-    for record in (*_records(SlamSettings()), DrawingSettings()):
+    for record in (*_records(SlamSettings()), OccupancySettings()):
         text = str(type(record).__doc__)
         for one in fields(record):
             assert re.search(rf"\b{one.name}\b[^\n]*[:,]", text), (type(record).__name__, one.name)
@@ -77,7 +77,7 @@ def test_settings_that_are_given_count() -> None:
     scan = log.records[0][0]
     assert len(keyframe_of(scan, usual, 0.0).points_m) > 30
     assert len(keyframe_of(scan, given, 0.0).points_m) == 30
-    still = replace(usual.settings.engine, polishes=0, last_iterations=1)
+    still = replace(usual.settings.engine, global_refinements=0, last_iterations=1)
     other = replace(usual, settings=replace(usual.settings, engine=still))
     records = log.records[:200]
     ways = [b.mapped(replace(log, records=records), p).trajectory() for p in (usual, other)]

@@ -234,9 +234,9 @@ def test_sensors_of_the_block_measure_the_arm(load: Load) -> None:
     sim = load(robot(body=STATES, extra=SENSORS).replace(">0.2<", ">0.0<"))
     known = sim.server.controls.manager().robot
     names = [name for item in known.sensors.values() for name in item]
-    places = known.bank.state_places(names)
+    places = known.interface_values.state_places(names)
     sim.run(seconds=0.5)
-    values = dict(zip(names, known.bank.states[places], strict=True))
+    values = dict(zip(names, known.interface_values.states[places], strict=True))
     # Held level: the joint carries the weight of 2 kg at 0.5 m.
     assert values["imu/linear_acceleration.z"] == pytest.approx(9.8, rel=1e-3)
     assert values["imu/angular_velocity.y"] == pytest.approx(0.0, abs=1e-4)
@@ -252,11 +252,11 @@ def test_reading_of_a_sensor_stands_for_a_period_of_its_rate(load: Load, tmp_pat
     keys = f"<parameters>{path}</parameters><hold_joints>false</hold_joints>"
     sim = load(robot(keys=keys, body=STATES, extra=SENSORS))
     known = sim.server.controls.manager().robot
-    places = known.bank.state_places(["imu/angular_velocity.y"])
+    places = known.interface_values.state_places(["imu/angular_velocity.y"])
     values = []
     for _ in range(100):
         sim.step()
-        values.append(float(known.bank.states[places[0]]))
+        values.append(float(known.interface_values.states[places[0]]))
     assert len(set(values)) == 11
     assert [len(list(group)) for _, group in itertools.groupby(values)][1:-1] == [10] * 9
 
@@ -264,9 +264,9 @@ def test_reading_of_a_sensor_stands_for_a_period_of_its_rate(load: Load, tmp_pat
 @pytest.mark.parametrize("plugin", [CLASSIC, GZ])
 def test_after_a_reset_the_arm_is_at_its_initial_value_and_holds(load: Load, plugin: str) -> None:
     sim = load(robot(plugin, ""))
-    bank = sim.server.controls.manager().robot
-    bank.switch(frozenset(["j/position"]), frozenset())
-    bank.bank.commands[:] = 0.6
+    interface_values = sim.server.controls.manager().robot
+    interface_values.switch(frozenset(["j/position"]), frozenset())
+    interface_values.interface_values.commands[:] = 0.6
     sim.run(seconds=0.5)
     sim.reset()
     assert sim.joint("j").position == 0.2

@@ -110,13 +110,13 @@ def test_the_description_in_the_parameter_store_counts(load: Load) -> None:
     bare = robot(joint("j").split("<transmission")[0])
     sim = load(bare, parameters={"robot_description": robot(joint("j", "Position"))})
     assert list(sim.controller_manager().controllers) == []
-    bank = sim.server.controls.manager().robot.bank
-    assert list(bank.command_index) == ["j/position"]
+    interface_values = sim.server.controls.manager().robot.interface_values
+    assert list(interface_values.command_index) == ["j/position"]
 
 
 def test_the_description_of_another_robot_does_not_count(load: Load) -> None:
     sim = load(robot(joint("j")), parameters={"robot_description": robot(joint("other"))})
-    assert list(sim.server.controls.manager().robot.bank.command_index) == ["j/effort"]
+    assert list(sim.server.controls.manager().robot.interface_values.command_index) == ["j/effort"]
     assert "'/robot_description' is of another robot" in found(sim, "control.robot-description")
 
 
@@ -239,9 +239,9 @@ def test_imus_of_the_model_are_there_for_controllers(load: Load) -> None:
     sim = load(robot(joint("j"), sensor))
     found_robot = sim.server.controls.manager().robot
     assert found_robot.sensor_frames == {"imu_sensor": "j_link"}
-    (place,) = found_robot.bank.state_places(["imu_sensor/linear_acceleration.z"])
+    (place,) = found_robot.interface_values.state_places(["imu_sensor/linear_acceleration.z"])
     sim.run(seconds=0.1)
-    assert found_robot.bank.states[place] == pytest.approx(9.8, rel=1e-3)
+    assert found_robot.interface_values.states[place] == pytest.approx(9.8, rel=1e-3)
 
 
 @pytest.fixture

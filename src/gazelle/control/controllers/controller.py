@@ -68,9 +68,9 @@ class ControllerContext:
         Raises:
             ControllerError: one is not there; the message says what is.
         """
-        known = self.robot.bank.command_index
+        known = self.robot.interface_values.command_index
         self._check(names, known, "command")
-        return self.robot.bank.command_places(names)
+        return self.robot.interface_values.command_places(names)
 
     def state_places(self, names: Sequence[str]) -> Indices:
         """Return the places, (n,), of state interfaces.
@@ -78,9 +78,9 @@ class ControllerContext:
         Raises:
             ControllerError: one is not there; the message says what is.
         """
-        known = self.robot.bank.state_index
+        known = self.robot.interface_values.state_index
         self._check(names, known, "state")
-        return self.robot.bank.state_places(names)
+        return self.robot.interface_values.state_places(names)
 
     def _check(self, names: Sequence[str], known: dict[str, int], kind: str) -> None:
         for name in names:

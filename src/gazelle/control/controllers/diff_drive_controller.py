@@ -184,7 +184,7 @@ class WheelStateOutput:
     ) -> None:
         self._names = [*left, *right]
         self._half = len(left)
-        self._bank = context.robot.bank
+        self._interface_values = context.robot.interface_values
         self._places = [self._found(interface) for interface in ("position", "velocity", "effort")]
         zeros = np.zeros(len(self._names))
         self._target, self._last_desired, self._last_actual = zeros, zeros, zeros
@@ -215,13 +215,17 @@ class WheelStateOutput:
 
     def _found(self, interface: str) -> Indices | None:
         names = [f"{name}/{interface}" for name in self._names]
-        index = self._bank.state_index
-        return self._bank.state_places(names) if all(name in index for name in names) else None
+        index = self._interface_values.state_index
+        return (
+            self._interface_values.state_places(names)
+            if all(name in index for name in names)
+            else None
+        )
 
     def _read(self, places: Indices | None) -> Array:
         if places is None:
             return np.full(len(self._names), np.nan)
-        return self._bank.states[places]
+        return self._interface_values.states[places]
 
 
 def _point(position: Array, velocity: Array, acceleration: Array, effort: Array) -> Any:
@@ -385,7 +389,7 @@ class DiffDriveController(Controller):
             linear, angular = self._applied
             self._odometry.drive_open_loop(linear, 0.0, angular, period_s)
             return True
-        values = self.robot.bank.states[self._state_places].tolist()
+        values = self.robot.interface_values.states[self._state_places].tolist()
         if any(map(math.isnan, values)):
             return False
         half = len(self._left)
@@ -399,8 +403,8 @@ class DiffDriveController(Controller):
 
     def _command(self, left_rad_s: float, right_rad_s: float) -> None:
         half = len(self._left)
-        self.robot.bank.commands[self._command_places[:half]] = left_rad_s
-        self.robot.bank.commands[self._command_places[half:]] = right_rad_s
+        self.robot.interface_values.commands[self._command_places[:half]] = left_rad_s
+        self.robot.interface_values.commands[self._command_places[half:]] = right_rad_s
 
     def _publish_limited(self, time_ns: int, linear: float, angular: float) -> None:
         message = message_type("geometry_msgs/TwistStamped")(

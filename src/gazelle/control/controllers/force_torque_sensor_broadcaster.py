@@ -85,7 +85,7 @@ class ForceTorqueSensorBroadcaster(Controller):
         if not self._publisher.matched:
             return
         values = np.full(len(WRENCH_INTERFACES), np.nan)
-        values[self._given] = self.robot.bank.states[self._places]
+        values[self._given] = self.robot.interface_values.states[self._places]
         message = stamped("geometry_msgs/WrenchStamped", time_ns, self._frame_id)
         fill_wrench(message, (values + self._offset) * self._multiplier)
         self._publisher.publish(message)

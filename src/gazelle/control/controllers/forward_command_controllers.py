@@ -65,11 +65,11 @@ class JointCommandController(Controller):
         """Begin at rest, where the joint is."""
         self._command = 0.0
         if self._state_place >= 0:
-            self._command = self.robot.bank.states.item(self._state_place)
+            self._command = self.robot.interface_values.states.item(self._state_place)
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Pass the command on."""
-        self.robot.bank.commands[self._place] = self._command
+        self.robot.interface_values.commands[self._place] = self._command
 
     def _take(self, message: Any) -> None:
         self._command = float(message.data)
@@ -115,12 +115,12 @@ class _ForwardController(Controller):
     def update(self, time_ns: int, period_ns: int) -> None:
         """Pass the last array on."""
         if self._values is not None:
-            self.robot.bank.commands[self._places] = self._values
+            self.robot.interface_values.commands[self._places] = self._values
 
     def stop(self, time_ns: int) -> None:
         """Set everything to 0 where the original does."""
         if self.stop_value is not None:
-            self.robot.bank.commands[self._places] = self.stop_value
+            self.robot.interface_values.commands[self._places] = self.stop_value
 
     def _take(self, message: Any) -> None:
         values = np.array(message.data, dtype=np.float64)
@@ -205,7 +205,7 @@ class JointGroupCommandController(_ForwardController):
         """Begin at rest in ROS 1, with nothing in ROS 2."""
         super().start(time_ns)
         if self._state_places is not None:
-            self._values = self.robot.bank.states[self._state_places]
+            self._values = self.robot.interface_values.states[self._state_places]
         elif self.context.ros_version == 1:
             self._values = np.zeros(len(self.commands))
 

@@ -140,7 +140,7 @@ class FourWheelSteeringController(Controller):
         """Stand still and count time from now."""
         self._active = True
         self._order, self._order_since_ns, self._waiting = _STOP, -1, None
-        self.robot.bank.commands[self._command_places] = 0.0
+        self.robot.interface_values.commands[self._command_places] = 0.0
         for limiter in self._limiters:
             limiter.reset()
         self._input.open(time_ns)
@@ -161,13 +161,13 @@ class FourWheelSteeringController(Controller):
             speeds, angles = self._from_order(self._order if held else _STOP, period_s)
         else:
             speeds, angles = self._from_twist(twist or REST, period_s)
-        self.robot.bank.commands[self._command_places] = (*speeds, *angles)
+        self.robot.interface_values.commands[self._command_places] = (*speeds, *angles)
 
     def stop(self, time_ns: int) -> None:
         """Brake and steer straight."""
         self._active = False
         self._input.close()
-        self.robot.bank.commands[self._command_places] = 0.0
+        self.robot.interface_values.commands[self._command_places] = 0.0
 
     def _offer(self) -> None:
         context, parameters, ports = self.context, self.context.parameters, self.context.ports
@@ -218,7 +218,7 @@ class FourWheelSteeringController(Controller):
         return self._base.from_angles(speed, order.front, order.rear)
 
     def _follow(self, time_ns: int, period_s: float) -> None:
-        values = self.robot.bank.states[self._state_places].tolist()
+        values = self.robot.interface_values.states[self._state_places].tolist()
         if any(map(math.isnan, values)):
             return
         front, rear = virtual_angle(*values[4:6]), virtual_angle(*values[6:8])

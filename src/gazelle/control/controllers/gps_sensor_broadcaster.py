@@ -78,7 +78,7 @@ class GpsSensorBroadcaster(Controller):
         """Publish if somebody listens."""
         if not self._publisher.matched:
             return
-        values = self.robot.bank.states[self._places]
+        values = self.robot.interface_values.states[self._places]
         message = stamped("sensor_msgs/NavSatFix", time_ns, self._frame_id)
         status, service, *place = values[:5].tolist()
         message.status.status, message.status.service = int(status), int(service)

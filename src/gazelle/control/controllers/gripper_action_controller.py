@@ -206,24 +206,24 @@ class GripperActionController(Controller):
         self._effort = 0.0
         if self._pid is not None:
             self._pid.reset()
-            self.robot.bank.commands[self._command] = 0.0
+            self.robot.interface_values.commands[self._command] = 0.0
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Watch the goal and command the joint."""
         self._time_ns = time_ns
-        bank = self.robot.bank
-        position = bank.states.item(self._position)
-        velocity = bank.states.item(self._velocity)
+        interface_values = self.robot.interface_values
+        position = interface_values.states.item(self._position)
+        velocity = interface_values.states.item(self._velocity)
         error = self._target - position
         self._goal.watch(time_ns, error, position, velocity)
         if self._pid is None:
             self._effort = self._max_effort
-            bank.commands[self._command] = self._target
+            interface_values.commands[self._command] = self._target
             return
         effort = self._pid.compute_with_rate(error, -velocity, period_ns * _SECONDS)
         self._effort = min(max(effort, -self._max_effort), self._max_effort)
-        bank.commands[self._command] = self._effort
-        bank.answer(self._command, self._pid.gains.p, self._pid.gains.d)
+        interface_values.commands[self._command] = self._effort
+        interface_values.answer(self._command, self._pid.gains.p, self._pid.gains.d)
 
     def stop(self, time_ns: int) -> None:
         """End a goal."""
@@ -231,7 +231,7 @@ class GripperActionController(Controller):
         self._goal.end()
 
     def _hold(self) -> None:
-        self._target = self.robot.bank.states.item(self._position)
+        self._target = self.robot.interface_values.states.item(self._position)
         self._max_effort = self._default_effort
 
     def _message(self, position: float, outcome: Outcome | None) -> dict[str, Any]:

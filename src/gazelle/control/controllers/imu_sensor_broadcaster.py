@@ -75,7 +75,7 @@ class ImuSensorBroadcaster(Controller):
         message = stamped("sensor_msgs/Imu", time_ns, self._frame_id)
         for part, covariance in zip(_PARTS, self._covariances, strict=True):
             setattr(message, f"{part}_covariance", covariance.copy())
-        values = self.robot.bank.states[self._places]
+        values = self.robot.interface_values.states[self._places]
         fill_imu(message, values if self._offset is None else _turned(values, self._offset))
         self._publisher.publish(message)
 

@@ -85,7 +85,7 @@ class JointStateBroadcaster(Controller):
         parameters = context.parameters
         self._wishes = self._wanted()
         # Whoever asks for everything takes what is there when it starts.
-        self.takes_all_states = self._wishes == tuple(self.robot.bank.state_index)
+        self.takes_all_states = self._wishes == tuple(self.robot.interface_values.state_index)
         if not self._wishes:
             text = f"{context.name}: No state interfaces found to publish."
             if self.robot.absent:
@@ -134,7 +134,7 @@ class JointStateBroadcaster(Controller):
         joints = self.context.parameters.texts("joints")
         interfaces = self.context.parameters.texts("interfaces")
         if not joints or not interfaces:
-            return tuple(self.robot.bank.state_index)
+            return tuple(self.robot.interface_values.state_index)
         for joint in joints:
             if joint not in self.robot.sensors:
                 self.context.joint(joint)
@@ -170,7 +170,7 @@ class JointStateBroadcaster(Controller):
         return np.array(rows, dtype=np.intp), np.array(places, dtype=np.intp)
 
     def _joint_states(self, time_ns: int) -> Any:
-        states = self.robot.bank.states
+        states = self.robot.interface_values.states
         values = np.full((len(_FIELDS), len(self._names)), math.nan)
         if self._extra:
             values[:, -len(self._extra) :] = 0.0
@@ -182,7 +182,7 @@ class JointStateBroadcaster(Controller):
         return message
 
     def _dynamic_joint_states(self, time_ns: int) -> Any:
-        states = self.robot.bank.states
+        states = self.robot.interface_values.states
         value = message_type("control_msgs/InterfaceValue")
         message = stamped("control_msgs/DynamicJointState", time_ns, self._frame_id)
         message.joint_names = [*self._values, *self._extra]

@@ -82,7 +82,7 @@ class JointStateController(Controller):
             return
         values = self._template.copy()
         for row, (joints, places) in zip(values, self._columns, strict=True):
-            row[joints] = self.robot.bank.states[places]
+            row[joints] = self.robot.interface_values.states[places]
         message = stamped("sensor_msgs/JointState", time_ns)
         message.name = list(self._names)
         message.position, message.velocity, message.effort = values

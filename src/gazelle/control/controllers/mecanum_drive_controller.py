@@ -144,7 +144,7 @@ class MecanumDriveController(Controller):
     def update(self, time_ns: int, period_ns: int) -> None:
         """Follow the wheels, then command them."""
         period_s = period_ns * 1e-9
-        speeds = MecanumSpeeds(*self.robot.bank.states[self._state_places].tolist())
+        speeds = MecanumSpeeds(*self.robot.interface_values.states[self._state_places].tolist())
         if not any(map(math.isnan, speeds)):
             self._odometry.drive(*self._drive.twist(speeds), period_s)
         twist = self._input.current(time_ns)
@@ -156,7 +156,7 @@ class MecanumDriveController(Controller):
             pairs = zip(self._limiters, twist, strict=True)
             twist = PlanarTwist(*(limiter.limit(value, period_s) for limiter, value in pairs))
             values = self._drive.wheel_speeds(twist)
-        self.robot.bank.commands[self._command_places] = values
+        self.robot.interface_values.commands[self._command_places] = values
         self._output.publish(time_ns, self._odometry)
         if self._state.matched:
             self._publish_state(time_ns, speeds, twist)
@@ -165,7 +165,7 @@ class MecanumDriveController(Controller):
         """Stop the wheels."""
         self._active = False
         self._input.close()
-        self.robot.bank.commands[self._command_places] = 0.0
+        self.robot.interface_values.commands[self._command_places] = 0.0
 
     def changed(self, values: dict[str, Any]) -> str:
         """Take over the timeout and whether to send tf."""

@@ -97,14 +97,14 @@ class ParallelGripperActionController(Controller):
     def update(self, time_ns: int, period_ns: int) -> None:
         """Watch the goal and command the joint."""
         self._time_ns = time_ns
-        bank = self.robot.bank
-        position = bank.states.item(self._position)
-        velocity = bank.states.item(self._velocity)
+        interface_values = self.robot.interface_values
+        position = interface_values.states.item(self._position)
+        velocity = interface_values.states.item(self._velocity)
         self._goal.watch(time_ns, self._target - position, position, velocity)
-        bank.commands[self._command] = self._target
+        interface_values.commands[self._command] = self._target
         for place, value in zip(self._limits, self._bounds, strict=True):
             if place is not None:
-                bank.commands[place] = value
+                interface_values.commands[place] = value
 
     def stop(self, time_ns: int) -> None:
         """End a goal."""
@@ -112,7 +112,7 @@ class ParallelGripperActionController(Controller):
         self._goal.end()
 
     def _hold(self) -> None:
-        self._target = self.robot.bank.states.item(self._position)
+        self._target = self.robot.interface_values.states.item(self._position)
         self._bounds = self._defaults
 
     def _message(self, position: float, outcome: Outcome | None) -> dict[str, Any]:

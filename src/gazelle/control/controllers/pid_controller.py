@@ -213,7 +213,7 @@ class PidController(Controller):
 
     def _measure(self) -> None:
         if self._state_places is not None:
-            self._measured = self.robot.bank.states[self._state_places]
+            self._measured = self.robot.interface_values.states[self._state_places]
 
     def _update_one(self, k: int, time_ns: int, period_ns: int, period_s: float) -> None:
         reference, measured = self._reference.item(k), self._measured.item(k)
@@ -227,10 +227,10 @@ class PidController(Controller):
         if self._is_fed_forward:
             lead = self._reference.item(len(self.pids) + k) if self._has_rates else reference
             command += lead * self._feedforward[k] if math.isfinite(lead) else 0.0
-        bank = self.robot.bank
-        bank.commands[self._places[k]] = command
+        interface_values = self.robot.interface_values
+        interface_values.commands[self._places[k]] = command
         if not self._is_external:
-            bank.answer(int(self._places[k]), *self._answers(pid.gains))
+            interface_values.answer(int(self._places[k]), *self._answers(pid.gains))
         if k in self._pid_states:
             self._pid_states[k].publish(pid, time_ns, period_ns)
 
@@ -263,7 +263,7 @@ class PidController(Controller):
                 state.feedback_dot = self._measured.item(count + k)
                 state.error_dot = self._rate_error(k)
             state.time_step = period_s
-            state.output = self.robot.bank.commands.item(self._places[k])
+            state.output = self.robot.interface_values.commands.item(self._places[k])
             message.dof_states.append(state)
         return message
 

@@ -76,7 +76,7 @@ class PoseBroadcaster(Controller):
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Publish what somebody listens to."""
-        values = self.robot.bank.states[self._places]
+        values = self.robot.interface_values.states[self._places]
         if self._publisher.matched:
             message = stamped("geometry_msgs/PoseStamped", time_ns, self._frame_id)
             set_pose(message.pose, _pose(values))

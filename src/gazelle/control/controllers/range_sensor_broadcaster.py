@@ -55,5 +55,5 @@ class RangeSensorBroadcaster(Controller):
         message.radiation_type = self._radiation_type
         for word, value in self._facts.items():
             setattr(message, word, value)
-        message.range = self.robot.bank.states.item(self._place)
+        message.range = self.robot.interface_values.states.item(self._place)
         self._publisher.publish(message)

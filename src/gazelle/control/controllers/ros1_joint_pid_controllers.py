@@ -14,7 +14,7 @@ from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_error import JointRange
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Array
-from gazelle.control.pid import Pid, PidBank, PidGains, PidStatePort, offer_live_gains, read_gains
+from gazelle.control.pid import Pid, PidArray, PidGains, PidStatePort, offer_live_gains, read_gains
 from gazelle.control.pid.gains import gain_rows
 from gazelle.description.model import JointType
 from gazelle.interfaces.stamps import stamped
@@ -102,7 +102,7 @@ class PidJointController(Controller):
         message = stamped("control_msgs/JointControllerState", time_ns)
         message.set_point, message.process_value = command, process_value
         message.error, message.time_step = error, period_ns * 1e-9
-        message.command = self.robot.bank.commands.item(self._place)
+        message.command = self.robot.interface_values.commands.item(self._place)
         gains = self.pid.gains
         message.p, message.i, message.d = gains.p, gains.i, gains.d
         message.i_clamp, message.antiwindup = gains.i_max, gains.antiwindup
@@ -150,11 +150,11 @@ class JointVelocityController(PidJointController):
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Command what the PID wants."""
-        bank = self.robot.bank
-        velocity = bank.states.item(self._velocity_place)
+        interface_values = self.robot.interface_values
+        velocity = interface_values.states.item(self._velocity_place)
         error = self.command - velocity
-        bank.commands[self._place] = self.pid.compute(error, period_ns * 1e-9)
-        bank.answer(self._place, 0.0, self.pid.gains.p)
+        interface_values.commands[self._place] = self.pid.compute(error, period_ns * 1e-9)
+        interface_values.answer(self._place, 0.0, self.pid.gains.p)
         self._tell(time_ns, period_ns, process_value=velocity, error=error, command=self.command)
 
 
@@ -214,7 +214,7 @@ class JointGroupPositionController(Controller):
         self.states = tuple(f"{joint}/position" for joint in joints)
         self._places = context.command_places(self.commands)
         self._state_places = context.state_places(self.states)
-        self.pids = PidBank([required_gains(parameters, f"{joint}.pid") for joint in joints])
+        self.pids = PidArray([required_gains(parameters, f"{joint}.pid") for joint in joints])
         for place, joint in enumerate(joints):
             offer_live_gains(context, f"{joint}/pid", (self.pids, place))
         self._command: Array = np.zeros(len(joints))
@@ -222,21 +222,21 @@ class JointGroupPositionController(Controller):
 
     def start(self, time_ns: int) -> None:
         """Hold the joints where they are."""
-        self._command = self.robot.bank.states[self._state_places]
+        self._command = self.robot.interface_values.states[self._state_places]
         self._command = np.clip(self._command, self._lower, self._upper)
         self.pids.reset()
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Command what the PIDs want."""
-        bank = self.robot.bank
-        positions = bank.states[self._state_places]
+        interface_values = self.robot.interface_values
+        positions = interface_values.states[self._state_places]
         errors = self._command - positions
         # Angles nearer than half a turn are their own shortest way.
         for k in self._turning:
             if abs(errors.item(k)) >= np.pi:
                 errors[k] = self._ranges[k].error(positions.item(k), self._command.item(k))
-        bank.commands[self._places] = self.pids.compute(errors, period_ns * 1e-9)
-        bank.answer(self._places, *self.pids.stiffness_and_damping)
+        interface_values.commands[self._places] = self.pids.compute(errors, period_ns * 1e-9)
+        interface_values.answer(self._places, *self.pids.stiffness_and_damping)
 
     def _take(self, message: Any) -> None:
         values = np.array(message.data, dtype=np.float64)
@@ -286,19 +286,21 @@ class JointPositionController(PidJointController):
 
     def start(self, time_ns: int) -> None:
         """Hold the joint where it is."""
-        self.command = self._range.clip(self.robot.bank.states.item(self._position_place))
+        self.command = self._range.clip(
+            self.robot.interface_values.states.item(self._position_place)
+        )
         self.pid.reset()
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Command what the PID wants."""
-        bank = self.robot.bank
-        position = bank.states.item(self._position_place)
+        interface_values = self.robot.interface_values
+        position = interface_values.states.item(self._position_place)
         command = self._range.clip(self.command)
         error = self._range.error(position, command)
-        bank.commands[self._place] = self.pid.compute(error, period_ns * 1e-9)
+        interface_values.commands[self._place] = self.pid.compute(error, period_ns * 1e-9)
         gains = self.pid.gains
-        bank.answer(self._place, gains.p, gains.d)
+        interface_values.answer(self._place, gains.p, gains.d)
         self._tell(time_ns, period_ns, process_value=position, error=error, command=command)
 
     def _fill(self, message: Any) -> None:
-        message.process_value_dot = self.robot.bank.states.item(self._velocity_place)
+        message.process_value_dot = self.robot.interface_values.states.item(self._velocity_place)

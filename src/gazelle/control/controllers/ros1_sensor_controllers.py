@@ -75,7 +75,7 @@ class _SensorController(Controller):
         for publisher, places, frame_id in self._streams:
             if publisher.matched:
                 message = stamped(self.KIND.message, time_ns, frame_id)
-                self.KIND.fill(message, self.robot.bank.states[places])
+                self.KIND.fill(message, self.robot.interface_values.states[places])
                 publisher.publish(message)
 
     def _is_mine(self, sensor: str) -> bool:

@@ -137,7 +137,7 @@ class SteeringDrive:
 
     def __init__(self, context: ControllerContext, kind: SteeringKind) -> None:
         self._context = context
-        self._bank = context.robot.bank
+        self._interface_values = context.robot.interface_values
         parameters = context.parameters
         _, self._driven, self._steered = kind.value
         names = _JointNames(context, kind)
@@ -171,7 +171,7 @@ class SteeringDrive:
         twist = self._input.current(time_ns)
         linear, _, angular = twist or REST
         self._follow(linear, angular, period_ns * 1e-9)
-        commands = self._bank.commands
+        commands = self._interface_values.commands
         if twist is None:
             commands[self._command_places[: self._driven]] = 0.0
         else:
@@ -184,7 +184,7 @@ class SteeringDrive:
         """Let go of the joints: the driven ones stand, the steered ones stay where they are."""
         self._active = False
         self._input.close()
-        self._bank.commands[self._command_places[: self._driven]] = 0.0
+        self._interface_values.commands[self._command_places[: self._driven]] = 0.0
 
     def changed(self, values: dict[str, Any]) -> str:
         """Take over live parameters."""
@@ -219,7 +219,7 @@ class SteeringDrive:
         offer_set_odometry(ports, self._odometry, lambda: self._active)
 
     def _follow(self, linear: float, angular: float, period_s: float) -> None:
-        values = self._bank.states[self._state_places].tolist()
+        values = self._interface_values.states[self._state_places].tolist()
         known = all(map(math.isfinite, values))
         speeds, angles = tuple(values[: self._driven]), values[self._driven :]
         if known:
@@ -253,8 +253,8 @@ class SteeringDrive:
         return driven + steered
 
     def _publish_state(self, time_ns: int) -> None:
-        states = self._bank.states[self._state_places]
-        commands = self._bank.commands[self._command_places]
+        states = self._interface_values.states[self._state_places]
+        commands = self._interface_values.commands[self._command_places]
         message = message_type("control_msgs/SteeringControllerStatus")(
             header=header(time_ns, self._output.frames.odom),
             steer_positions=states[self._driven :],

@@ -9,8 +9,8 @@ from gazelle.control.hardware.engine_joints import JOINT_STATES, JointStates
 from gazelle.control.hardware.ros1_joint_group import Ros1Section
 from gazelle.control.hardware.ros1_joints import Ros1Joint
 from gazelle.control.hardware.sensor_states import SensorStates
-from gazelle.control.interface_values import InterfaceBank
-from gazelle.control.pid import PidBank, PidGains
+from gazelle.control.interface_values import InterfaceValues
+from gazelle.control.pid import PidArray, PidGains
 from gazelle.control.robot import JointResource
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ class DefaultRobotHWSim:
 
     Args:
         engine: the physics.
-        bank: takes the interfaces.
+        interface_values: takes the interfaces.
         model: name of the model in the world.
         joints: in the order of the transmissions.
         gains: of the position and velocity joints that have some, by name.
@@ -47,7 +47,7 @@ class DefaultRobotHWSim:
     def __init__(
         self,
         engine: Engine,
-        bank: InterfaceBank,
+        interface_values: InterfaceValues,
         model: str,
         joints: Sequence[Ros1Joint],
         *,
@@ -61,9 +61,9 @@ class DefaultRobotHWSim:
         self.sensors = sensors
         self._engine = engine
         self._states = JointStates(
-            engine, bank, model, [(joint.name, JOINT_STATES) for joint in joints]
+            engine, interface_values, model, [(joint.name, JOINT_STATES) for joint in joints]
         )
-        self.sections = tuple(_sections(engine, bank, model, joints, gains or {}))
+        self.sections = tuple(_sections(engine, interface_values, model, joints, gains or {}))
         self._to_hold = frozenset(held)
         self._claimed: set[str] = set()
         self._written_ns = -1
@@ -74,7 +74,7 @@ class DefaultRobotHWSim:
         return any(section.pids is not None for section in self.sections)
 
     def start(self) -> None:
-        """Hold what is to be held; called once the bank is frozen."""
+        """Hold what is to be held; called once the interfaces are frozen."""
         self._states.read()
         for section in self.sections:
             section.hold(self._to_hold - self._claimed, self._states.position)
@@ -119,7 +119,7 @@ class DefaultRobotHWSim:
 
 def _sections(
     engine: Engine,
-    bank: InterfaceBank,
+    interface_values: InterfaceValues,
     model: str,
     joints: Sequence[Ros1Joint],
     gains: Mapping[str, PidGains],
@@ -130,8 +130,8 @@ def _sections(
         with_pids = [place for place in mine if joints[place].name in gains]
         without = [place for place in mine if place not in with_pids]
         if without:
-            made.append(Ros1Section(engine, bank, model, joints, without, None))
+            made.append(Ros1Section(engine, interface_values, model, joints, without, None))
         if with_pids:
-            pids = PidBank(tuple(gains[joints[place].name] for place in with_pids))
-            made.append(Ros1Section(engine, bank, model, joints, with_pids, pids))
+            pids = PidArray(tuple(gains[joints[place].name] for place in with_pids))
+            made.append(Ros1Section(engine, interface_values, model, joints, with_pids, pids))
     return made

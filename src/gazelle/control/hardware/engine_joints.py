@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.control.interface_values import Array, InterfaceBank
-from gazelle.control.pid import PidBank
+from gazelle.control.interface_values import Array, InterfaceValues
+from gazelle.control.pid import PidArray
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine, JointGroup
@@ -36,7 +36,7 @@ class JointStates:
 
     Args:
         engine: the physics.
-        bank: takes the values; interfaces are registered at once.
+        interface_values: takes the values; interfaces are registered at once.
         model: name of the model in the world.
         joints: name and state interfaces of each joint.
 
@@ -49,7 +49,7 @@ class JointStates:
     def __init__(
         self,
         engine: Engine,
-        bank: InterfaceBank,
+        interface_values: InterfaceValues,
         model: str,
         joints: Sequence[tuple[str, Sequence[str]]],
     ) -> None:
@@ -58,18 +58,18 @@ class JointStates:
         self.position: Array = np.zeros(len(joints))
         self.velocity: Array = np.zeros(len(joints))
         self.effort: Array = np.zeros(len(joints))
-        self._bank = bank
-        self._blocks = [_Block(bank, kind, joints) for kind in JOINT_STATES]
+        self._interface_values = interface_values
+        self._blocks = [_Block(interface_values, kind, joints) for kind in JOINT_STATES]
         self._looked_up = -1
         self._wants_effort = False
 
     def read(self) -> None:
         """Measure. Efforts cost more: they are read once a controller has asked for one."""
         self.group.read(self.position, self.velocity)
-        states = self._bank.states
-        if self._looked_up != len(self._bank.looked_up):
-            self._looked_up = len(self._bank.looked_up)
-            self._wants_effort = self._blocks[2].is_among(self._bank.looked_up)
+        states = self._interface_values.states
+        if self._looked_up != len(self._interface_values.looked_up):
+            self._looked_up = len(self._interface_values.looked_up)
+            self._wants_effort = self._blocks[2].is_among(self._interface_values.looked_up)
         self._blocks[0].write(states, self.position)
         self._blocks[1].write(states, self.velocity)
         if self._wants_effort:
@@ -78,13 +78,16 @@ class JointStates:
 
 
 class _Block:
-    """The states of one kind, side by side in the bank."""
+    """The states of one kind, side by side in the interface values."""
 
     def __init__(
-        self, bank: InterfaceBank, kind: str, joints: Sequence[tuple[str, Sequence[str]]]
+        self,
+        interface_values: InterfaceValues,
+        kind: str,
+        joints: Sequence[tuple[str, Sequence[str]]],
     ) -> None:
         chosen = [place for place, (_, kinds) in enumerate(joints) if kind in kinds]
-        places = [bank.add_state(f"{joints[place][0]}/{kind}") for place in chosen]
+        places = [interface_values.add_state(f"{joints[place][0]}/{kind}") for place in chosen]
         first = places[0] if places else 0
         self._target = slice(first, first + len(places))
         self._source = None if len(chosen) == len(joints) else np.array(chosen, dtype=np.intp)
@@ -246,7 +249,7 @@ class EffortWriter(JointWriter):
 
 
 def pid_law(
-    pids: PidBank, efforts: Array, velocity: Array, max_effort: Array, *, is_position: bool
+    pids: PidArray, efforts: Array, velocity: Array, max_effort: Array, *, is_position: bool
 ) -> FeedbackLaw:
     """Return the law of efforts that PIDs of positions, or else of velocities, want.
 

@@ -17,7 +17,7 @@ from gazelle.control.hardware.ros2_joint_group import Ros2Section
 from gazelle.control.hardware.ros2_joints import Ros2Joint, Ros2Mimic
 from gazelle.control.hardware.ros2_tags import HardwareTag
 from gazelle.control.hardware.sensor_states import SensorStates
-from gazelle.control.interface_values import Array, InterfaceBank
+from gazelle.control.interface_values import Array, InterfaceValues
 from gazelle.control.robot import JointResource
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class GazeboSystem:
 
     Args:
         engine: the physics.
-        bank: takes the interfaces.
+        interface_values: takes the interfaces.
         model: name of the model in the world.
         tag: the block.
         joints: those that the model has.
@@ -68,7 +68,7 @@ class GazeboSystem:
     def __init__(
         self,
         engine: Engine,
-        bank: InterfaceBank,
+        interface_values: InterfaceValues,
         model: str,
         tag: HardwareTag,
         joints: Sequence[Ros2Joint],
@@ -79,16 +79,16 @@ class GazeboSystem:
         self.name, self.plugin = tag.name, tag.plugin
         self.joints: tuple[JointResource, ...] = tuple(joint.resource() for joint in joints)
         self.options = options
-        self._engine, self._bank, self._model = engine, bank, model
+        self._engine, self._interface_values, self._model = engine, interface_values, model
         self._own = tuple(joints)
         self._index = {joint.name: place for place, joint in enumerate(joints)}
         self._states = JointStates(
-            engine, bank, model, [(joint.name, tuple(joint.states)) for joint in joints]
+            engine, interface_values, model, [(joint.name, tuple(joint.states)) for joint in joints]
         )
         self.sensors = sensors
         for joint in joints:
             for interface in joint.commands:
-                bank.add_command(f"{joint.name}/{interface}")
+                interface_values.add_command(f"{joint.name}/{interface}")
         self._mimics = [
             row
             for row in mimics
@@ -107,7 +107,7 @@ class GazeboSystem:
         return bool(self._coupled) or has_gains
 
     def start(self) -> None:
-        """Take initial values and hold joints; called once the bank is frozen."""
+        """Take initial values and hold joints; called once the interfaces are frozen."""
         for joint in self._own:
             handle = self._engine.joint(f"{self._model}::{joint.name}")
             position, velocity = (joint.states.get(kind) for kind in ("position", "velocity"))
@@ -153,9 +153,9 @@ class GazeboSystem:
                 joint, _, interface = item.rpartition("/")
                 if joint in self._claimed:
                     change(self._claimed[joint], interface)
-                    place = self._bank.command_index.get(item)
+                    place = self._interface_values.command_index.get(item)
                     if place is not None:
-                        self._bank.commands[place] = math.nan
+                        self._interface_values.commands[place] = math.nan
         self._states.read()
         self._arrange()
 
@@ -165,8 +165,8 @@ class GazeboSystem:
         self._states.group.release()
         for joint in self._own:
             for interface in joint.commands:
-                place = self._bank.command_index[f"{joint.name}/{interface}"]
-                self._bank.commands[place] = math.nan
+                place = self._interface_values.command_index[f"{joint.name}/{interface}"]
+                self._interface_values.commands[place] = math.nan
         for section in self._sections:
             section.forget()
         self.start()
@@ -219,7 +219,7 @@ class GazeboSystem:
         options = self.options
         return Ros2Section(
             self._engine,
-            self._bank,
+            self._interface_values,
             self._model,
             self._own,
             places,

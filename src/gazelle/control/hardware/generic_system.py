@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from gazelle.control.hardware.ros2_joints import Ros2Mimic
 from gazelle.control.hardware.ros2_tags import HardwareTag, InterfaceTag, PartTag
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.robot import JointResource
 
 __all__ = ["GENERIC_PARAMETERS", "GenericSystem"]
@@ -45,7 +45,7 @@ class GenericSystem:
 
     Args:
         tag: the block.
-        bank: takes the interfaces.
+        interface_values: takes the interfaces.
         joints: resources of its joints.
         mimics: joints that follow others.
     """
@@ -55,13 +55,13 @@ class GenericSystem:
     def __init__(
         self,
         tag: HardwareTag,
-        bank: InterfaceBank,
+        interface_values: InterfaceValues,
         joints: Sequence[JointResource],
         mimics: Sequence[Ros2Mimic] = (),
     ) -> None:
         self.name, self.type, self.plugin = tag.name, tag.type, tag.plugin
         self.joints = tuple(joints)
-        self._bank = bank
+        self._interface_values = interface_values
         options = tag.parameters
         self._disabled = _flag(options, "disable_commands")
         self._dynamic = _flag(options, "calculate_dynamics")
@@ -80,8 +80,8 @@ class GenericSystem:
         self._mimics = [row for mimic in mimics for row in self._mimic_places(mimic)]
 
     def start(self) -> None:
-        """Put initial values into the states; called once the bank is frozen."""
-        states = self._bank.states
+        """Put initial values into the states; called once the interfaces are frozen."""
+        states = self._interface_values.states
         for place, value in self._initial.items():
             states[place] = value
         if not self._custom:
@@ -97,7 +97,7 @@ class GenericSystem:
             for name, axis in self._axes.items():
                 if period_ns > 0:
                     self._integrate(axis, self._modes[name], period_ns * 1e-9)
-        states, commands = self._bank.states, self._bank.commands
+        states, commands = self._interface_values.states, self._interface_values.commands
         for state, command, offset in self._mirrored:
             value = commands.item(command)
             if math.isfinite(value):
@@ -138,27 +138,27 @@ class GenericSystem:
 
     def reset(self) -> None:
         """Go back to the initial values."""
-        names = self._bank.command_index
+        names = self._interface_values.command_index
         for joint in self.joints:
             for interface in joint.command_interfaces:
-                self._bank.commands[names[f"{joint.name}/{interface}"]] = math.nan
+                self._interface_values.commands[names[f"{joint.name}/{interface}"]] = math.nan
         self.start()
 
     def _register(self, part: PartTag, *, with_commands: bool) -> None:
-        bank = self._bank
+        interface_values = self._interface_values
         standing = 0.0 if part.kind == "joint" else math.nan
         for item in part.states:
-            place = bank.add_state(f"{part.name}/{item.name}")
+            place = interface_values.add_state(f"{part.name}/{item.name}")
             self._initial[place] = standing if item.initial is None else item.initial
         commands: dict[str, InterfaceTag] = {item.name: item for item in part.commands}
         if with_commands:
             commands = {item.name: InterfaceTag(item.name) for item in part.states} | commands
         for item in commands.values():
             initial = math.nan if item.initial is None else item.initial
-            bank.add_command(f"{part.name}/{item.name}", initial)
+            interface_values.add_command(f"{part.name}/{item.name}", initial)
 
     def _axis(self, joint: str) -> _Axis:
-        states, commands = self._bank.state_index, self._bank.command_index
+        states, commands = self._interface_values.state_index, self._interface_values.command_index
         first, second, third = (
             (states.get(f"{joint}/{word}", -1), commands.get(f"{joint}/{word}", -1))
             for word in _DYNAMIC
@@ -170,20 +170,20 @@ class GenericSystem:
         found = []
         integrated = _DYNAMIC if self._dynamic else ()
         kinds = {part.name: part.kind for part in tag.parts}
-        for name, command in self._bank.command_index.items():
+        for name, command in self._interface_values.command_index.items():
             owner, _, interface = name.rpartition("/")
-            if owner not in kinds or name not in self._bank.state_index:
+            if owner not in kinds or name not in self._interface_values.state_index:
                 continue
             is_joint = kinds[owner] == "joint"
             if is_joint and interface in integrated:
                 continue
             offset = self._offset if is_joint and interface == "position" else 0.0
-            place = self._bank.state_index[name]
+            place = self._interface_values.state_index[name]
             found.append((place, command, 0.0 if self._custom else offset))
         return found
 
     def _custom_places(self, tag: HardwareTag) -> list[tuple[int, int]]:
-        states, commands = self._bank.state_index, self._bank.command_index
+        states, commands = self._interface_values.state_index, self._interface_values.command_index
         names = [part.name for part in tag.of_kind("joint")] if self._custom else []
         return [
             (states[f"{name}/{self._custom}"], commands[f"{name}/position"])
@@ -192,7 +192,7 @@ class GenericSystem:
         ]
 
     def _mimic_places(self, mimic: Ros2Mimic) -> list[tuple[int, int, float, float]]:
-        index = self._bank.state_index
+        index = self._interface_values.state_index
         return [
             (
                 index[f"{mimic.joint}/{word}"],
@@ -205,8 +205,12 @@ class GenericSystem:
         ]
 
     def _integrate(self, axis: _Axis, mode: str, period_s: float) -> None:
-        states = [math.nan if at < 0 else self._bank.states.item(at) for at in axis.states]
-        commands = [math.nan if at < 0 else self._bank.commands.item(at) for at in axis.commands]
+        states = [
+            math.nan if at < 0 else self._interface_values.states.item(at) for at in axis.states
+        ]
+        commands = [
+            math.nan if at < 0 else self._interface_values.commands.item(at) for at in axis.commands
+        ]
         position, velocity, acceleration = states
         speed = velocity if math.isfinite(velocity) else 0.0
         if mode == "position" and math.isfinite(commands[0]):
@@ -224,7 +228,7 @@ class GenericSystem:
             position += velocity * period_s
         for at, value in zip(axis.states, (position, velocity, acceleration), strict=True):
             if at >= 0 and math.isfinite(value):
-                self._bank.states[at] = value
+                self._interface_values.states[at] = value
 
 
 def _flag(options: Mapping[str, str], *names: str) -> bool:

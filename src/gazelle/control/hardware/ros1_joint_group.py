@@ -23,9 +23,9 @@ from gazelle.control.hardware.engine_joints import (
     velocity_writer,
 )
 from gazelle.control.hardware.ros1_joints import Ros1Joint
-from gazelle.control.interface_values import Array, InterfaceBank
+from gazelle.control.interface_values import Array, InterfaceValues
 from gazelle.control.joint_limits import EffortLimits, PositionLimits, VelocityLimits
-from gazelle.control.pid import PidBank
+from gazelle.control.pid import PidArray
 from gazelle.control.robot import JointLimits
 from gazelle.description.model import JointType
 
@@ -40,7 +40,7 @@ class Ros1Section:
 
     Args:
         engine: the physics.
-        bank: takes the command interfaces.
+        interface_values: takes the command interfaces.
         model: name of the model in the world.
         joints: all joints of the hardware, in the order of its states.
         places: those of this section, which have the same interface.
@@ -54,19 +54,21 @@ class Ros1Section:
     def __init__(
         self,
         engine: Engine,
-        bank: InterfaceBank,
+        interface_values: InterfaceValues,
         model: str,
         joints: Sequence[Ros1Joint],
         places: Sequence[int],
-        pids: PidBank | None,
+        pids: PidArray | None,
     ) -> None:
         mine = [joints[place] for place in places]
         self.names = tuple(joint.name for joint in mine)
         self.pids = pids
-        self._bank = bank
+        self._interface_values = interface_values
         self._interface = mine[0].interface
         self._places = np.array(places, dtype=np.intp)
-        taken = [bank.add_command(f"{name}/{self._interface}", 0.0) for name in self.names]
+        taken = [
+            interface_values.add_command(f"{name}/{self._interface}", 0.0) for name in self.names
+        ]
         self._commands = slice(taken[0], taken[-1] + 1)
         limits = [joint.limits for joint in mine]
         self._limits = _limits(self._interface, limits)
@@ -91,7 +93,7 @@ class Ros1Section:
             steps: until the next command.
             is_new: False when this step was written before: PIDs do not run again.
         """
-        commands = self._bank.commands[self._commands]
+        commands = self._interface_values.commands[self._commands]
         if self._stand is not None:
             commands[:] = self._stand
         before = commands.tobytes()
@@ -123,8 +125,8 @@ class Ros1Section:
         step_s: float,
         steps: int,
     ) -> None:
-        stiffness = self._bank.stiffness[self._commands]
-        damping = self._bank.damping[self._commands]
+        stiffness = self._interface_values.stiffness[self._commands]
+        damping = self._interface_values.damping[self._commands]
         if not (stiffness.any() or damping.any()):
             writer.write(commands, steps)
         elif wanted.tobytes() != self._enforced:
@@ -161,7 +163,7 @@ class Ros1Section:
         """Start over: the engine has forgotten every command."""
         self._stand, self._stopped = None, False
         self._settled = b""
-        self._bank.commands[self._commands] = 0.0
+        self._interface_values.commands[self._commands] = 0.0
         self.writer.forget()
         self._limits.reset()
         if self.pids is not None:
@@ -175,7 +177,7 @@ class Ros1Section:
         return velocity_writer(engine, names, self._max_effort)
 
     def _run_pids(
-        self, pids: PidBank, commands: Array, position: Array, velocity: Array, step_s: float
+        self, pids: PidArray, commands: Array, position: Array, velocity: Array, step_s: float
     ) -> None:
         if self._interface == "position":
             errors = self._position_errors(commands, position)

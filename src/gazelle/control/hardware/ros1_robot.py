@@ -13,7 +13,7 @@ from gazelle.control.hardware.ros1_joints import (
     read_ros1_joints,
 )
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates, sensor_parts
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
 from gazelle.control.robot import HardwareHost, ParameterStore, Robot
 from gazelle.description.model import Model
@@ -71,12 +71,12 @@ def build_ros1_robot(
     described = description or description_of(model)
     joints = read_ros1_joints(host, model, described, parameters.store, parameters.prefix)
     gains = gains_parameters(parameters.store, parameters.gains_prefix, host.diagnostics)
-    bank = InterfaceBank()
+    interface_values = InterfaceValues()
     parts = () if sensors is None else sensor_parts(sensors)
-    measured = SensorStates(parts, bank, sensors, host.diagnostics)
+    measured = SensorStates(parts, interface_values, sensors, host.diagnostics)
     hardware = DefaultRobotHWSim(
         host.engine,
-        bank,
+        interface_values,
         model.name,
         joints,
         sensors=measured,
@@ -84,11 +84,13 @@ def build_ros1_robot(
         held=joints_to_hold(joints, source),
         plugin=plugin,
     )
-    bank.freeze()
+    interface_values.freeze()
     hardware.start()
     if not joints:
         text = f"no joint of model '{model.name}' can be controlled: it has no <transmission> that"
         text += " drives one of its joints (No valid transmissions found.)"
         host.diagnostics.report("control.no-transmissions", text, model.span)
     resources = {item.name: item for item in hardware.joints}
-    return Robot(1, model, bank, (hardware,), resources, measured.interfaces, measured.frames)
+    return Robot(
+        1, model, interface_values, (hardware,), resources, measured.interfaces, measured.frames
+    )

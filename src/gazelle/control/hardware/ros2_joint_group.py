@@ -19,8 +19,8 @@ from gazelle.control.hardware.engine_joints import (
     velocity_writer,
 )
 from gazelle.control.hardware.ros2_joints import Ros2Joint
-from gazelle.control.interface_values import Array, Indices, InterfaceBank
-from gazelle.control.pid import PidBank
+from gazelle.control.interface_values import Array, Indices, InterfaceValues
+from gazelle.control.pid import PidArray
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine
@@ -38,7 +38,7 @@ class Ros2Section:
 
     Args:
         engine: the physics.
-        bank: has the commands.
+        interface_values: has the commands.
         model: name of the model in the world.
         joints: all joints of the hardware, in the order of its states.
         places: those of this section.
@@ -50,7 +50,7 @@ class Ros2Section:
     def __init__(
         self,
         engine: Engine,
-        bank: InterfaceBank,
+        interface_values: InterfaceValues,
         model: str,
         joints: Sequence[Ros2Joint],
         places: Sequence[int],
@@ -63,8 +63,10 @@ class Ros2Section:
         self.method = method
         self.names = tuple(joint.name for joint in mine)
         interface = {"servo": "position"}.get(method, method.removesuffix("_pid"))
-        self._bank = bank
-        self._commands = bank.command_places([f"{name}/{interface}" for name in self.names])
+        self._interface_values = interface_values
+        self._commands = interface_values.command_places(
+            [f"{name}/{interface}" for name in self.names]
+        )
         self._places: Indices = np.array(places, dtype=np.intp)
         self._lower = np.array([joint.commands[interface].lower for joint in mine])
         self._upper = np.array([joint.commands[interface].upper for joint in mine])
@@ -72,7 +74,7 @@ class Ros2Section:
         self._servo_gain_1_s = servo_gain_1_s
         self.pids = None
         if method.endswith("_pid"):
-            self.pids = PidBank([joint.gains[interface] for joint in mine])
+            self.pids = PidArray([joint.gains[interface] for joint in mine])
         names = [f"{model}::{name}" for name in self.names]
         self._writer = _WRITERS.get(method, _effort)(engine, names, max_effort)
         # An effort would do nothing to a joint that is still locked.
@@ -89,7 +91,7 @@ class Ros2Section:
             steps: until the next command.
             is_new: False when this step was written before: PIDs do not run again.
         """
-        commands = self._bank.commands[self._commands]
+        commands = self._interface_values.commands[self._commands]
         if self._is_bounded:
             commands = np.minimum(np.maximum(commands, self._lower), self._upper)
         if self._must_release and self._waiting.any():
@@ -107,8 +109,8 @@ class Ros2Section:
     def _write_efforts(
         self, writer: EffortWriter, commands: Array, states: JointStates, step_s: float, steps: int
     ) -> None:
-        stiffness = self._bank.stiffness[self._commands]
-        damping = self._bank.damping[self._commands]
+        stiffness = self._interface_values.stiffness[self._commands]
+        damping = self._interface_values.damping[self._commands]
         if not (stiffness.any() or damping.any()):
             writer.write(commands, steps)
             return
@@ -134,7 +136,9 @@ class Ros2Section:
             self._writer.release(leaving.tolist())
             self._waiting[leaving] = False
 
-    def _run_pids(self, pids: PidBank, commands: Array, states: JointStates, step_s: float) -> None:
+    def _run_pids(
+        self, pids: PidArray, commands: Array, states: JointStates, step_s: float
+    ) -> None:
         is_position = self.method == "position_pid"
         measured = (states.position if is_position else states.velocity)[self._places]
         errors = commands - measured

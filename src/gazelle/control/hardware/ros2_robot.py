@@ -11,7 +11,7 @@ from gazelle.control.hardware.lifecycle import HardwareLifecycle
 from gazelle.control.hardware.ros2_joints import read_mimics, read_ros2_joints, resource_of
 from gazelle.control.hardware.ros2_tags import HardwareTag, read_hardware_tags
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.robot import HardwareHost, Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import did_you_mean
@@ -67,7 +67,7 @@ class _Builder:
     ) -> None:
         self._host, self._model, self._options = host, model, options
         self._gains, self._sensors = gains, sensors
-        self._bank = InterfaceBank()
+        self._interface_values = InterfaceValues()
         self._components: list[GazeboSystem | GenericSystem] = []
         self._interfaces: dict[str, tuple[str, ...]] = {}
         self._frames: dict[str, str] = {}
@@ -77,7 +77,7 @@ class _Builder:
     def add(self, tag: HardwareTag) -> None:
         """Make the hardware of a block; a block whose class is unknown is reported only."""
         self._make(tag)
-        for name in (*self._bank.command_index, *self._bank.state_index):
+        for name in (*self._interface_values.command_index, *self._interface_values.state_index):
             self._owners.setdefault(name, tag.name)
 
     def _make(self, tag: HardwareTag) -> None:
@@ -101,7 +101,7 @@ class _Builder:
 
     def robot(self) -> Robot:
         """Return everything added, ready to be read."""
-        self._bank.freeze()
+        self._interface_values.freeze()
         for component in self._components:
             component.start()
         joints = {joint.name: joint for item in self._components for joint in item.joints}
@@ -109,7 +109,7 @@ class _Builder:
         return Robot(
             2,
             self._model,
-            self._bank,
+            self._interface_values,
             tuple(self._components),
             joints,
             self._interfaces,
@@ -122,13 +122,24 @@ class _Builder:
         host, model = self._host, self._model
         joints = read_ros2_joints(host, model, tag, self._gains)
         mimics = read_mimics(host, model, tag)
-        sensors = SensorStates(tag.of_kind("sensor"), self._bank, self._sensors, host.diagnostics)
+        sensors = SensorStates(
+            tag.of_kind("sensor"), self._interface_values, self._sensors, host.diagnostics
+        )
         for part in tag.of_kind("gpio"):
             text = f"gpio '{part.name}' of '{tag.name}' is left out: {tag.plugin} has none"
             host.diagnostics.report("control.ros2-control-gpio", text, part.span)
         self._report_parameters(tag, ())
         self._components.append(
-            GazeboSystem(host.engine, self._bank, model.name, tag, joints, mimics, sensors, options)
+            GazeboSystem(
+                host.engine,
+                self._interface_values,
+                model.name,
+                tag,
+                joints,
+                mimics,
+                sensors,
+                options,
+            )
         )
         self._interfaces.update(sensors.interfaces)
         self._frames.update(sensors.frames)
@@ -137,7 +148,7 @@ class _Builder:
         joints = [resource_of(part, self._model) for part in tag.of_kind("joint")]
         mimics = read_mimics(self._host, self._model, tag)
         self._report_parameters(tag, GENERIC_PARAMETERS)
-        self._components.append(GenericSystem(tag, self._bank, joints, mimics))
+        self._components.append(GenericSystem(tag, self._interface_values, joints, mimics))
         for part in (*tag.of_kind("sensor"), *tag.of_kind("gpio")):
             self._interfaces[part.name] = tuple(f"{part.name}/{item.name}" for item in part.states)
             self._frames[part.name] = part.parameters.get("frame_id", part.name)

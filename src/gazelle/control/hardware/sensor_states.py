@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 from gazelle.control.hardware.ros2_tags import InterfaceTag, PartTag
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 
 __all__ = [
@@ -87,13 +87,13 @@ class SensorStates:
     def __init__(
         self,
         parts: Sequence[PartTag],
-        bank: InterfaceBank,
+        interface_values: InterfaceValues,
         source: SensorSource | None,
         diagnostics: Diagnostics,
     ) -> None:
         self.interfaces: dict[str, tuple[str, ...]] = {}
         self.frames: dict[str, str] = {}
-        self._bank = bank
+        self._interface_values = interface_values
         self._rows: list[tuple[Mapping[int, int], Callable[[], Sequence[float]]]] = []
         for part in parts:
             readout = source.find(part.name) if source is not None else None
@@ -109,13 +109,13 @@ class SensorStates:
 
     def read(self) -> None:
         """Measure what is read."""
-        looked_up = self._bank.looked_up
+        looked_up = self._interface_values.looked_up
         for places, read in self._rows:
             if looked_up.isdisjoint(places):
                 continue
             values = read()
             for place, number in places.items():
-                self._bank.states[place] = values[number]
+                self._interface_values.states[place] = values[number]
 
     def _add(self, part: PartTag, readout: SensorReadout, diagnostics: Diagnostics) -> None:
         places: dict[int, int] = {}
@@ -128,7 +128,7 @@ class SensorStates:
                 diagnostics.report("control.ros2-control-interface", text, part.span, fix=hint)
                 continue
             name = f"{part.name}/{item.name}"
-            places[self._bank.add_state(name)] = readout.interfaces.index(item.name)
+            places[self._interface_values.add_state(name)] = readout.interfaces.index(item.name)
             names.append(name)
         self.interfaces[part.name] = tuple(names)
         self.frames[part.name] = part.parameters.get("frame_id", readout.frame_id)

@@ -11,10 +11,10 @@ from gazelle.control.interface_values import Array
 from gazelle.control.pid.gains import AntiWindup, PidGains
 from gazelle.control.pid.pid import Pid
 
-__all__ = ["PidBank"]
+__all__ = ["PidArray"]
 
 
-class PidBank:
+class PidArray:
     """PIDs side by side; each computes exactly what `Pid` computes with its gains.
 
     PIDs with one of the newer strategies are computed one by one.

@@ -13,7 +13,7 @@ from gazelle.control.controller_node import LiveParameter, LivePort, Ports
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.pid.gains import PidGains
 from gazelle.control.pid.pid import Pid
-from gazelle.control.pid.pid_array import PidBank
+from gazelle.control.pid.pid_array import PidArray
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import stamped
 
@@ -52,7 +52,7 @@ _FIELDS |= {"u_clamp_min": "u_min"}
 
 
 def offer_live_gains(
-    context: ControllerContext, group: str, pid: Pid | tuple[PidBank, int]
+    context: ControllerContext, group: str, pid: Pid | tuple[PidArray, int]
 ) -> LivePort:
     """Offer p, i, d, i_clamp_max, i_clamp_min and antiwindup, in ROS 2 the newer ones too.
 
@@ -62,7 +62,7 @@ def offer_live_gains(
     Args:
         context: whose parameters they are.
         group: ``pid`` or ``joint_1/pid`` in ROS 1, ``gains.joint_1`` in ROS 2.
-        pid: what is changed: a PID, or one place of a bank.
+        pid: what is changed: a PID, or one of an array.
     """
     get, put = _access(pid)
     ros_version = context.ros_version
@@ -84,7 +84,7 @@ def offer_live_gains(
 
 
 def _access(
-    pid: Pid | tuple[PidBank, int],
+    pid: Pid | tuple[PidArray, int],
 ) -> tuple[Callable[[], PidGains], Callable[[PidGains], None]]:
     if isinstance(pid, Pid):
         single = pid
@@ -93,8 +93,8 @@ def _access(
             single.gains = gains
 
         return (lambda: single.gains), put
-    bank, place = pid
-    return (lambda: bank.gains[place]), (lambda gains: bank.set_gains(place, gains))
+    pids, place = pid
+    return (lambda: pids.gains[place]), (lambda gains: pids.set_gains(place, gains))
 
 
 def _values(gains: PidGains, ros_version: int) -> dict[str, Any]:

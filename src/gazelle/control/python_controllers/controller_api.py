@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.control.controller_node import PublisherPort
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.control.interface_values import InterfaceBank
+from gazelle.control.interface_values import InterfaceValues
 from gazelle.diagnostics import did_you_mean
 from gazelle.interfaces import Duration, Time
 
@@ -59,14 +59,14 @@ class UserJoint:
     Units: rad, rad/s, N·m; m, m/s, N for prismatic joints.
     """
 
-    __slots__ = ("_bank", "_command", "_places", "interface", "name")
+    __slots__ = ("_command", "_interface_values", "_places", "interface", "name")
 
-    def __init__(self, bank: InterfaceBank, name: str, interface: str) -> None:
+    def __init__(self, interface_values: InterfaceValues, name: str, interface: str) -> None:
         """Take a joint; `interface` is what it is commanded by, empty for nothing."""
         self.name = name
         self.interface = interface
-        self._bank = bank
-        self._command = bank.command_index[f"{name}/{interface}"] if interface else -1
+        self._interface_values = interface_values
+        self._command = interface_values.command_index[f"{name}/{interface}"] if interface else -1
         self._places: dict[str, int] = {}
 
     @property
@@ -94,7 +94,11 @@ class UserJoint:
     @property
     def command(self) -> float:
         """The last command, NaN for none."""
-        return self._bank.commands.item(self._command) if self._command >= 0 else float("nan")
+        return (
+            self._interface_values.commands.item(self._command)
+            if self._command >= 0
+            else float("nan")
+        )
 
     @command.setter
     def command(self, value: float) -> None:
@@ -104,7 +108,7 @@ class UserJoint:
         """Command the joint by its interface."""
         if self._command < 0:
             raise ControllerError(f"joint '{self.name}' has no command interface")
-        self._bank.commands[self._command] = value
+        self._interface_values.commands[self._command] = value
 
     # pr2_mechanism_model::JointState.
     @property
@@ -135,10 +139,10 @@ class UserJoint:
         place = self._places.get(interface)
         if place is None:
             name = f"{self.name}/{interface}"
-            if name not in self._bank.state_index:
+            if name not in self._interface_values.state_index:
                 raise ControllerError(f"joint '{self.name}' has no state interface '{interface}'")
-            place = self._places[interface] = int(self._bank.state_places([name])[0])
-        return self._bank.states.item(place)
+            place = self._places[interface] = int(self._interface_values.state_places([name])[0])
+        return self._interface_values.states.item(place)
 
 
 class UserRobot:
@@ -182,7 +186,7 @@ class UserRobot:
         interface = self._wishes.get(name) or (
             "effort" if "effort" in offered else next(iter(offered), "")
         )
-        made = self._joints[name] = UserJoint(self._context.robot.bank, name, interface)
+        made = self._joints[name] = UserJoint(self._context.robot.interface_values, name, interface)
         return made
 
     def get_joint_state(self, name: str) -> UserJoint | None:
@@ -199,14 +203,14 @@ class UserRobot:
     def close_claims(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """End `init`; return the command and state interfaces that were taken."""
         self._open = False
-        bank = self._context.robot.bank
+        interface_values = self._context.robot.interface_values
         taken = [f"{one.name}/{one.interface}" for one in self._joints.values() if one.interface]
         taken += [f"{name}/{interface}" for name, interface in self._wishes.items()]
         states = [
             f"{name}/{interface}"
             for name in self._joints
             for interface in ("position", "velocity")
-            if f"{name}/{interface}" in bank.state_index
+            if f"{name}/{interface}" in interface_values.state_index
         ]
         return tuple(dict.fromkeys(taken)), tuple(states)
 

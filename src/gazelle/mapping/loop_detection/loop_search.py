@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.mapping.loop_detection.hypotheses import Hypothesis, ambiguous
-from gazelle.mapping.loop_detection.settings import PlaceSettings, RecognitionSettings
+from gazelle.mapping.loop_detection.settings import CandidateSettings, RecognitionSettings
 from gazelle.mapping.loop_detection.shortest_path_kernels import shortest_ways
 from gazelle.mapping.pose_graph.constraints import Edges, doubtful, seen_from
 from gazelle.mapping.scan_matching.branch_and_bound import WideSearch
@@ -16,13 +16,15 @@ from gazelle.mapping.scan_matching.likelihood_field import Field
 from gazelle.mapping.scan_matching.scan_matcher import Prior, refined
 from gazelle.mapping.scan_matching.surfaces import even_points
 from gazelle.mapping.se2 import Poses, between, transform_points
-from gazelle.mapping.slam.keyframes import Keyframes
-from gazelle.mapping.slam.slam_parameters import SlamParameters
 
-__all__ = ["Place", "places_near", "recognise"]
+if TYPE_CHECKING:
+    from gazelle.mapping.slam.keyframes import Keyframes
+    from gazelle.mapping.slam.slam_parameters import SlamParameters
+
+__all__ = ["LoopCandidate", "loop_candidates", "recognise"]
 
 
-class Place(NamedTuple):
+class LoopCandidate(NamedTuple):
     """An earlier keyframe.
 
     Attributes:
@@ -36,14 +38,14 @@ class Place(NamedTuple):
     reach_rad: float
 
 
-def places_near(
+def loop_candidates(
     poses: Poses,
     edges: Edges,
     *,
     gap_m: float,
     reach_m: float,
-    settings: PlaceSettings,
-) -> list[Place]:
+    settings: CandidateSettings,
+) -> list[LoopCandidate]:
     """Return the places to look at for the last pose, the likeliest first.
 
     How far a place may be off grows with the shortest way through the graph, so that it is small
@@ -71,7 +73,7 @@ def places_near(
     passes = np.split(wanted, np.flatnonzero(np.diff(wanted) > told.same_pass) + 1)
     nearest = [int(one[far[one].argmin()]) for one in passes]
     nearest.sort(key=lambda k: far[k] - reach[k])
-    return [Place(k, float(reach[k]), float(turn[k])) for k in nearest[: told.most_places]]
+    return [LoopCandidate(k, float(reach[k]), float(turn[k])) for k in nearest[: told.most_places]]
 
 
 def _ways(edges: Edges, count: int, loop_m: float) -> NDArray[np.float64]:
@@ -95,7 +97,9 @@ def _shortest(edges: Edges, lengths: NDArray[np.float64], count: int) -> NDArray
     return ways
 
 
-def recognise(keyframes: Keyframes, place: Place, parameters: SlamParameters) -> Hypothesis | None:
+def recognise(
+    keyframes: Keyframes, place: LoopCandidate, parameters: SlamParameters
+) -> Hypothesis | None:
     """Return where the last keyframe is seen from a place, None when it does not look like it.
 
     What the last few keyframes see together is matched with what those around the place saw: single
@@ -130,7 +134,7 @@ def _nearest_match(
     field: Field,
     points: NDArray[np.float64],
     pose: Poses,
-    place: Place,
+    place: LoopCandidate,
     parameters: SlamParameters,
 ) -> Poses | None:
     """Return the match that needs the smallest window, unless one farther away is much better.
@@ -162,7 +166,7 @@ def _patch(keyframes: Keyframes, head: int, settings: RecognitionSettings) -> ND
 
 
 def _around(
-    keyframes: Keyframes, place: Place, head: int, settings: RecognitionSettings
+    keyframes: Keyframes, place: LoopCandidate, head: int, settings: RecognitionSettings
 ) -> list[int]:
     """Return the keyframes around a place that are not of the present.
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["AgreementSettings", "AmbiguitySettings", "PlaceSettings", "RecognitionSettings"]
+__all__ = ["AgreementSettings", "AmbiguitySettings", "CandidateSettings", "RecognitionSettings"]
 
 
 @dataclass(frozen=True, slots=True)
-class PlaceSettings:
+class CandidateSettings:
     """Which earlier keyframes are looked at.
 
     Attributes:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gazelle.mapping.loop_detection.hypotheses import Hypotheses, Hypothesis
-from gazelle.mapping.loop_detection.loop_search import places_near, recognise
+from gazelle.mapping.loop_detection.loop_search import loop_candidates, recognise
 from gazelle.mapping.pose_graph.constraints import Edges, doubtful
 from gazelle.mapping.pose_graph.optimizer import optimise, residuals
 from gazelle.mapping.se2 import Poses, between, compose
@@ -98,7 +98,7 @@ class LoopCloser:
     def close(self, edges: Edges) -> Edges | None:
         """Look around the last keyframe; move the map and return new edges if it is known there."""
         way_m = self._keyframes[-1].way_m
-        if way_m - self._looked_m < self._settings.closing.step_m:
+        if way_m - self._looked_m < self._settings.loop_closure.step_m:
             return None
         self._looked_m = way_m
         believed = self._believed(edges)
@@ -107,7 +107,7 @@ class LoopCloser:
         tied = edges
         for one in believed:
             tied = tied.with_edge(one.tail, one.head, one.relative, one.information, is_loop=True)
-        told = self._settings.closing
+        told = self._settings.loop_closure
         poses = optimise(
             self._keyframes.poses, tied, iterations=told.iterations, settings=self._settings.graph
         )
@@ -134,7 +134,7 @@ class LoopCloser:
     def _believed(self, edges: Edges) -> list[Hypothesis]:
         told, poses = self._parameters, self._keyframes.poses
         believed: list[Hypothesis] = []
-        places = places_near(
+        places = loop_candidates(
             poses,
             edges,
             gap_m=told.loop_gap_m,
@@ -145,7 +145,7 @@ class LoopCloser:
             found = recognise(self._keyframes, place, told)
             if found is None:
                 continue
-            if found.reach_m <= self._settings.closing.sure_reach_m:
+            if found.reach_m <= self._settings.loop_closure.sure_reach_m:
                 believed.append(found)
             else:
                 believed += self._hypotheses.agree(found, poses, self._keyframes.ways_m)

@@ -11,11 +11,11 @@ from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.se2 import Poses, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.ray_kernels import BeamCounts, count_beams
-from gazelle.mapping.slam.slam_parameters import DrawingSettings
+from gazelle.mapping.slam.slam_parameters import OccupancySettings
 
 __all__ = ["MapDrawer", "draw"]
 
-_USUAL = DrawingSettings()
+_USUAL = OccupancySettings()
 
 _OCCUPIED = 0.25
 
@@ -24,7 +24,7 @@ def draw(
     keyframes: Keyframes,
     resolution_m: float = 0.05,
     occupied_share: float = _OCCUPIED,
-    settings: DrawingSettings = _USUAL,
+    settings: OccupancySettings = _USUAL,
 ) -> OccupancyGrid:
     """Draw all kept scans, see `MapDrawer`."""
     return MapDrawer(resolution_m, occupied_share, settings).draw(keyframes)
@@ -42,7 +42,7 @@ class MapDrawer:
         self,
         resolution_m: float = 0.05,
         occupied_share: float = _OCCUPIED,
-        settings: DrawingSettings = _USUAL,
+        settings: OccupancySettings = _USUAL,
     ) -> None:
         """Begin with an empty map.
 

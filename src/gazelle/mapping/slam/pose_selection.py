@@ -22,9 +22,13 @@ from gazelle.mapping.scan_matching.scan_matcher import Match, Prior, refined
 from gazelle.mapping.se2 import Poses, between, compose, transform_points
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
 from gazelle.mapping.slam.ray_kernels import BeamCounts, contradictions, count_beams
-from gazelle.mapping.slam.slam_parameters import EvidenceSettings, SlamSettings, WeighingSettings
+from gazelle.mapping.slam.slam_parameters import (
+    FreeSpaceSettings,
+    PoseSelectionSettings,
+    SlamSettings,
+)
 
-__all__ = ["SeenSpace", "Surroundings", "seen_space", "surroundings", "weighed"]
+__all__ = ["LocalMap", "SeenSpace", "local_map", "seen_space", "select_pose"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,7 +41,7 @@ class SeenSpace:
     """
 
     counts: BeamCounts
-    settings: EvidenceSettings
+    settings: FreeSpaceSettings
 
     def against(self, scan: Scan, points_m: NDArray[np.float64], pose: Poses) -> float:
         """Return the share of points that contradict what is known of space.
@@ -58,7 +62,7 @@ def seen_space(
     poses: Poses,
     center_m: tuple[float, float],
     half_side_m: float,
-    settings: EvidenceSettings,
+    settings: FreeSpaceSettings,
 ) -> SeenSpace:
     """Return what scans say of a square.
 
@@ -82,7 +86,7 @@ def seen_space(
     return SeenSpace(counts, settings)
 
 
-class Surroundings(NamedTuple):
+class LocalMap(NamedTuple):
     """All that was seen around a pose.
 
     Attributes:
@@ -103,29 +107,29 @@ class _Weight(NamedTuple):
     worth: float
 
 
-def surroundings(
+def local_map(
     keyframes: Keyframes,
     center: Poses,
     reach_m: float,
     settings: SlamSettings,
     last: int | None = None,
-) -> Surroundings:
+) -> LocalMap:
     """Return what the nearest scans, of any time or of the last ones, saw around a pose.
 
     The pose is (3,) in the map: x, y (m) and yaw (rad).
     """
     first = 0 if last is None else max(0, len(keyframes) - last)
     far = np.hypot(*(keyframes.poses[first:, :2] - center[:2]).T)
-    near = (first + np.argsort(far)[: settings.weighing.nearest]).tolist()
+    near = (first + np.argsort(far)[: settings.pose_selection.nearest]).tolist()
     field = keyframes.field(near, center, reach_m)
     middle = float(center[0]), float(center[1])
     frames = [keyframes[i] for i in near]
-    space = seen_space(frames, keyframes.poses[near], middle, reach_m, settings.evidence)
-    return Surroundings(field, field.pooled(), space, settings)
+    space = seen_space(frames, keyframes.poses[near], middle, reach_m, settings.free_space)
+    return LocalMap(field, field.pooled(), space, settings)
 
 
-def weighed(
-    around: Surroundings,
+def select_pose(
+    around: LocalMap,
     frame: Keyframe,
     expected: Poses,
     guesses: list[Poses],
@@ -146,7 +150,7 @@ def weighed(
         reach: half sides of the window, m and rad.
         is_lost: odometry says little of where the robot is.
     """
-    told, points = around.settings.weighing, frame.points_m
+    told, points = around.settings.pose_selection, frame.points_m
     rough = best_of_sectors(
         around.coarse, points, expected,
         reach_m=reach[0], reach_rad=min(math.pi, reach[1]), sector_rad=told.sector_rad,
@@ -167,7 +171,7 @@ def weighed(
 
 
 def _weight(
-    around: Surroundings,
+    around: LocalMap,
     frame: Keyframe,
     expected: Poses,
     pose: Poses,
@@ -180,12 +184,12 @@ def _weight(
     away = between(expected, found.pose)
     far = math.hypot(away[0], away[1]) / reach[0], abs(float(away[2])) / reach[1]
     # What fits best at the edge of the window fits better outside of it.
-    is_near = max(far) < settings.weighing.most_edges
+    is_near = max(far) < settings.pose_selection.most_edges
     cost = costs * (far[0] ** 2 + far[1] ** 2) if is_near else math.inf
     return _Weight(found, found.score - against - cost)
 
 
-def _is_apart(one: Poses, other: Poses, settings: WeighingSettings) -> bool:
+def _is_apart(one: Poses, other: Poses, settings: PoseSelectionSettings) -> bool:
     away = between(one, other)
     is_far = math.hypot(away[0], away[1]) > settings.apart_m
     return bool(is_far or abs(away[2]) > settings.apart_rad)

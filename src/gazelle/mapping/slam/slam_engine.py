@@ -22,7 +22,7 @@ from gazelle.mapping.pose_graph.constraints import (
 from gazelle.mapping.pose_graph.optimizer import optimise
 from gazelle.mapping.scan_matching.scan_matcher import Match
 from gazelle.mapping.se2 import Poses, between, compose
-from gazelle.mapping.slam.global_refinement import polished
+from gazelle.mapping.slam.global_refinement import refined_globally
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes, keyframe_of
 from gazelle.mapping.slam.loop_closure import LoopCloser, Track
 from gazelle.mapping.slam.occupancy_counts import draw
@@ -182,8 +182,8 @@ class Slam:
         keyframes.poses = optimise(
             keyframes.poses, self.edges, iterations=told.last_iterations, settings=settings.graph
         )
-        for _ in range(told.polishes if self.parameters.polish else 0):
-            keyframes.poses = polished(keyframes, self.edges, self.parameters)
+        for _ in range(told.global_refinements if self.parameters.global_refinement else 0):
+            keyframes.poses = refined_globally(keyframes, self.edges, self.parameters)
 
     def trajectory(self) -> Poses:
         """Return the poses of all scans in the map's frame, (n, 3), as they are known now."""

@@ -14,25 +14,25 @@ from dataclasses import dataclass, field
 from gazelle.mapping.loop_detection.settings import (
     AgreementSettings,
     AmbiguitySettings,
-    PlaceSettings,
+    CandidateSettings,
     RecognitionSettings,
 )
 from gazelle.mapping.pose_graph.optimizer import GraphSettings
 from gazelle.mapping.scan_matching.settings import FieldSettings, MatchSettings, SurfaceSettings
 
 __all__ = [
-    "ClosingSettings",
-    "DrawingSettings",
     "EngineSettings",
-    "EvidenceSettings",
+    "FreeSpaceSettings",
+    "GlobalRefinementSettings",
     "JumpSettings",
     "KeyframeSettings",
-    "PolishSettings",
+    "LoopClosureSettings",
+    "OccupancySettings",
+    "PoseSelectionSettings",
     "RelocationSettings",
     "SlamParameters",
     "SlamSettings",
     "TrackingSettings",
-    "WeighingSettings",
 ]
 
 
@@ -43,12 +43,12 @@ class EngineSettings:
     Attributes:
         give_up: after so many scans in a row that fit nowhere scans are kept by odometry alone.
         last_iterations: of the graph's optimisation at the end.
-        polishes: how often all scans are matched with their neighbours then.
+        global_refinements: how often all scans are matched with their neighbours then.
     """
 
     give_up: int = 4
     last_iterations: int = 20
-    polishes: int = 2
+    global_refinements: int = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +147,7 @@ class JumpSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class WeighingSettings:
+class PoseSelectionSettings:
     """What speaks for a pose and what against it.
 
     Attributes:
@@ -176,7 +176,7 @@ class WeighingSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class EvidenceSettings:
+class FreeSpaceSettings:
     """How free space is known.
 
     Attributes:
@@ -189,7 +189,7 @@ class EvidenceSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class ClosingSettings:
+class LoopClosureSettings:
     """When the map is moved so that places coincide.
 
     Attributes:
@@ -206,7 +206,7 @@ class ClosingSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class PolishSettings:
+class GlobalRefinementSettings:
     """How every kept scan is matched with all its neighbours at the end.
 
     Attributes:
@@ -249,7 +249,7 @@ class PolishSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class DrawingSettings:
+class OccupancySettings:
     """How maps are drawn.
 
     Attributes:
@@ -272,8 +272,9 @@ class SlamSettings:
     """All of them.
 
     Attributes:
-        engine, keyframes, tracking, relocation, jump, weighing, evidence, closing, polish, field,
-            surface, match, places, recognition, ambiguity, agreement, graph: one algorithm each.
+        engine, keyframes, tracking, relocation, jump, pose_selection, free_space, loop_closure,
+            global_refinement, field, surface, match, places, recognition, ambiguity, agreement,
+            graph: one algorithm each.
     """
 
     engine: EngineSettings = dataclasses.field(default_factory=EngineSettings)
@@ -281,14 +282,16 @@ class SlamSettings:
     tracking: TrackingSettings = dataclasses.field(default_factory=TrackingSettings)
     relocation: RelocationSettings = dataclasses.field(default_factory=RelocationSettings)
     jump: JumpSettings = dataclasses.field(default_factory=JumpSettings)
-    weighing: WeighingSettings = dataclasses.field(default_factory=WeighingSettings)
-    evidence: EvidenceSettings = dataclasses.field(default_factory=EvidenceSettings)
-    closing: ClosingSettings = dataclasses.field(default_factory=ClosingSettings)
-    polish: PolishSettings = dataclasses.field(default_factory=PolishSettings)
+    pose_selection: PoseSelectionSettings = dataclasses.field(default_factory=PoseSelectionSettings)
+    free_space: FreeSpaceSettings = dataclasses.field(default_factory=FreeSpaceSettings)
+    loop_closure: LoopClosureSettings = dataclasses.field(default_factory=LoopClosureSettings)
+    global_refinement: GlobalRefinementSettings = dataclasses.field(
+        default_factory=GlobalRefinementSettings
+    )
     field: FieldSettings = dataclasses.field(default_factory=FieldSettings)
     surface: SurfaceSettings = dataclasses.field(default_factory=SurfaceSettings)
     match: MatchSettings = dataclasses.field(default_factory=MatchSettings)
-    places: PlaceSettings = dataclasses.field(default_factory=PlaceSettings)
+    places: CandidateSettings = dataclasses.field(default_factory=CandidateSettings)
     recognition: RecognitionSettings = dataclasses.field(default_factory=RecognitionSettings)
     ambiguity: AmbiguitySettings = dataclasses.field(default_factory=AmbiguitySettings)
     agreement: AgreementSettings = dataclasses.field(default_factory=AgreementSettings)
@@ -314,7 +317,7 @@ class SlamParameters:
         least_loop: mean likelihood below which a place is not recognised.
         loop_reach_m: places are looked for within this distance at most.
         loop_gap_m: a place is seen again after at least so long a way.
-        polish: whether all scans are matched with their neighbours once more at the end.
+        global_refinement: whether all scans are matched with their neighbours once more at the end.
         settings: numbers of the algorithms that hardly anybody needs to change.
     """
 
@@ -334,5 +337,5 @@ class SlamParameters:
     least_loop: float = 0.6
     loop_reach_m: float = 18.0
     loop_gap_m: float = 10.0
-    polish: bool = True
+    global_refinement: bool = True
     settings: SlamSettings = field(default_factory=SlamSettings)

@@ -13,7 +13,7 @@ from gazelle.mapping.scan_matching.likelihood_field import Field
 from gazelle.mapping.scan_matching.scan_matcher import Match, Prior, match, refined
 from gazelle.mapping.se2 import Poses, between, compose
 from gazelle.mapping.slam.keyframes import Keyframe, Keyframes
-from gazelle.mapping.slam.pose_selection import surroundings, weighed
+from gazelle.mapping.slam.pose_selection import local_map, select_pose
 from gazelle.mapping.slam.slam_parameters import JumpSettings, SlamParameters
 
 __all__ = ["Tracker", "is_jump", "motion_information"]
@@ -157,14 +157,14 @@ class Tracker:
     ) -> Match | None:
         """Return the likeliest pose of a wide window among all that was seen around it."""
         reach_m = frame.reach_m + reach[0]
-        around = surroundings(self._keyframes, expected, reach_m, self._settings)
-        found = weighed(around, frame, expected, [guess], reach)
+        around = local_map(self._keyframes, expected, reach_m, self._settings)
+        found = select_pose(around, frame, expected, [guess], reach)
         if found is not None and not found.is_doubtful:
             return found
         # What was seen long ago may not lie where it should yet.
         last = self._parameters.submap_scans
-        around = surroundings(self._keyframes, expected, reach_m, self._settings, last)
-        again = weighed(around, frame, expected, [guess], reach)
+        around = local_map(self._keyframes, expected, reach_m, self._settings, last)
+        again = select_pose(around, frame, expected, [guess], reach)
         return found if again is None or (found and again.is_doubtful) else again
 
     def relocate(self, frame: Keyframe, expected: Poses) -> Match | None:
@@ -175,8 +175,8 @@ class Tracker:
         told = self._settings.relocation
         reach = min(told.most_m, told.reach_m + self.lost * told.reach_m_per_scan), math.pi
         reach_m = frame.reach_m + reach[0]
-        around = surroundings(self._keyframes, expected, reach_m, self._settings)
-        found = weighed(around, frame, expected, [], reach, is_lost=True)
+        around = local_map(self._keyframes, expected, reach_m, self._settings)
+        found = select_pose(around, frame, expected, [], reach, is_lost=True)
         if found is None or found.is_doubtful:
             return None
         return found if found.score > told.believed * self._usual_score else None

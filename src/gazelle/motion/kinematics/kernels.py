@@ -28,7 +28,7 @@ _MIN_DAMPING = 1e-5
 _MAX_STEP = 1.0
 _PATIENCE = 6
 _ENOUGH_PROGRESS = 0.8
-_POLISH = 2
+_REFINE = 2
 _EXACT = 1e-9
 
 
@@ -313,24 +313,24 @@ def solve(chain, goal, lower, upper, seeds, out):
     best = np.empty(seeds.shape[1])
     for s in range(len(seeds)):
         q = seeds[s].copy()
-        mark, since, polished = np.inf, 0, 0
-        for _ in range(goal.steps + _POLISH):
+        mark, since, refined = np.inf, 0, 0
+        for _ in range(goal.steps + _REFINE):
             chain_pose(chain, q, R, p, F, o)
             _error(R, p, goal.rotation, goal.position_m, e)
             far = math.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
             turned = math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
             if far <= goal.near_m and (weight == 0.0 or turned <= goal.near_rad):
                 # Close by, two more steps give many more digits.
-                polished += 1
-                if polished > _POLISH or far + weight * turned < _EXACT:
+                refined += 1
+                if refined > _REFINE or far + weight * turned < _EXACT:
                     for k in range(len(q)):
                         out[k] = q[k]
                     return s
-            elif polished:
+            elif refined:
                 for k in range(len(q)):
                     out[k] = best[k]
                 return s
-            if polished:
+            if refined:
                 for k in range(len(q)):
                     best[k] = q[k]
             E = 0.5 * (far * far + weight * weight * turned * turned)
@@ -385,7 +385,7 @@ def solve(chain, goal, lower, upper, seeds, out):
             for i in range(ns):
                 if chain.kinds[i] == QUATERNION:
                     _turn_quaternion(q, chain.variables[i], dx, chain.dofs[i], scale, F[i])
-        if polished:
+        if refined:
             for k in range(len(q)):
                 out[k] = best[k]
             return s

@@ -31,7 +31,7 @@ class Bench:
     """A controller, started, with its plant and ports; time goes on by 1 ms.
 
     Attributes:
-        commands: the commands of the robot's bank after each step.
+        commands: the commands of the robot after each step.
     """
 
     def __init__(
@@ -76,7 +76,7 @@ class Bench:
         """Go on for some ms; commands of each step are kept."""
 
         def keep(time_ns: int) -> None:
-            self.commands.append(self.robot.bank.commands.copy())
+            self.commands.append(self.robot.interface_values.commands.copy())
             after(time_ns)
 
         self.time_ns = run(self.robot, self.controller, steps, time_ns=self.time_ns, after=keep)
@@ -87,7 +87,7 @@ class Bench:
 
     def commanded(self, interface: str = "position") -> np.ndarray:
         """Return the commands (T, N) of one interface."""
-        places = self.robot.bank.command_places(
+        places = self.robot.interface_values.command_places(
             [f"{name}/{interface}" for name in self.robot.joints]
         )
         return np.array(self.commands)[:, places]

@@ -56,9 +56,11 @@ class Arm:
 
     def measured(self) -> np.ndarray:
         """Return positions and velocities (2, 6) as the controller read them last."""
-        bank = self.sim.server.controls.manager().robot.bank
+        interface_values = self.sim.server.controls.manager().robot.interface_values
         names = [f"{name}/{word}" for word in ("position", "velocity") for name in JOINTS]
-        values: np.ndarray = bank.states[bank.state_places(names)].reshape(2, -1)
+        values: np.ndarray = interface_values.states[interface_values.state_places(names)].reshape(
+            2, -1
+        )
         return values
 
 

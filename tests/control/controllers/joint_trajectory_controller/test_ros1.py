@@ -357,10 +357,10 @@ def test_stopping_ends_the_goal_and_leaves_the_command() -> None:
     bench = Bench(POSITION)
     sent = bench.send(goal(to(1.0, 1.0, 1.0)))
     bench.run(500)
-    before = bench.robot.bank.commands.copy()
+    before = bench.robot.interface_values.commands.copy()
     bench.controller.stop(bench.time_ns)
     assert sent.state == "canceled"
-    np.testing.assert_array_equal(bench.robot.bank.commands, before)
+    np.testing.assert_array_equal(bench.robot.interface_values.commands, before)
 
 
 def test_some_joints_may_move_alone() -> None:
@@ -407,7 +407,9 @@ def test_errors_of_prismatic_joints_are_not_wrapped() -> None:
     bench.plant.position[:] = -4.0
     robot.read(0, 0)
     controller.update(1_000_000, 1_000_000)
-    commands = robot.bank.commands[robot.bank.command_places([f"{n}/effort" for n in JOINTS])]
+    commands = robot.interface_values.commands[
+        robot.interface_values.command_places([f"{n}/effort" for n in JOINTS])
+    ]
     assert commands.tolist() == pytest.approx([400 * (4.0 - 2 * math.pi), 1600.0])
 
 

@@ -52,7 +52,9 @@ def test_it_holds_where_it_started() -> None:
 def test_it_holds_the_last_command_when_told_so(uses_last: bool) -> None:
     key = "set_last_command_interface_value_as_state_on_activation"
     bench = Bench(ROS2, {key: uses_last}, start=False)
-    bench.robot.bank.commands[bench.robot.bank.command_places(bench.controller.commands)] = 0.5
+    bench.robot.interface_values.commands[
+        bench.robot.interface_values.command_places(bench.controller.commands)
+    ] = 0.5
     bench.start()
     bench.run(1)
     assert bench.commanded()[0].tolist() == [0.5 * uses_last] * 2
@@ -443,8 +445,8 @@ def test_stopping_aborts_the_goal_and_commands_no_velocity() -> None:
     bench.controller.stop(bench.time_ns)
     assert sent.state == "aborted"
     assert sent.result["error_string"] == "Current goal cancelled during deactivate transition."
-    places = bench.robot.bank.command_places([f"{name}/velocity" for name in JOINTS])
-    assert bench.robot.bank.commands[places].tolist() == [0.0, 0.0]
+    places = bench.robot.interface_values.command_places([f"{name}/velocity" for name in JOINTS])
+    assert bench.robot.interface_values.commands[places].tolist() == [0.0, 0.0]
 
 
 def test_some_joints_may_move_alone_while_the_others_stay() -> None:

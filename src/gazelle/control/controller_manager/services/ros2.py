@@ -60,9 +60,11 @@ class _Services:
         response.component = [self._component(one) for one in components]
 
     def list_interfaces(self, request: Any, response: Any) -> None:
-        bank = self._manager.robot.bank
-        response.command_interfaces = self._interfaces(bank.command_index)
-        response.state_interfaces = self._interfaces(bank.state_index, claimed=frozenset())
+        interface_values = self._manager.robot.interface_values
+        response.command_interfaces = self._interfaces(interface_values.command_index)
+        response.state_interfaces = self._interfaces(
+            interface_values.state_index, claimed=frozenset()
+        )
 
     def load(self, request: Any, response: Any) -> None:
         self._ports.log("info", f"Loading controller '{request.name}'")
@@ -173,9 +175,9 @@ class _Services:
             class_type=component.plugin,
             plugin_name=component.plugin,
             rw_rate=round(self._manager.update_rate_hz),
-            command_interfaces=self._interfaces(filter(own, robot.bank.command_index)),
+            command_interfaces=self._interfaces(filter(own, robot.interface_values.command_index)),
             state_interfaces=self._interfaces(
-                filter(own, robot.bank.state_index), claimed=frozenset()
+                filter(own, robot.interface_values.state_index), claimed=frozenset()
             ),
         )
         message.state.id, message.state.label = int(state), state.label

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Array, Indices
-from gazelle.control.pid import AntiWindup, PidBank, PidGains, offer_live_gains, read_gains
+from gazelle.control.pid import AntiWindup, PidArray, PidGains, offer_live_gains, read_gains
 from gazelle.parameters.trees import flattened
 
 __all__ = ["Forwarding", "PidOutput", "TrajectoryOutput", "report_idle_gains"]
@@ -68,7 +68,7 @@ class Forwarding:
             interfaces: of each joint.
             columns: which of the controller's joints they are, None for all of them.
         """
-        self._bank = context.robot.bank
+        self._interface_values = context.robot.interface_values
         self._interfaces = tuple(interfaces)
         self._places = _places(context, names, interfaces)
         self._columns = columns
@@ -78,11 +78,11 @@ class Forwarding:
         """Command the positions (N,), and no velocities, accelerations or efforts."""
         self.stop()
         if "position" in self._places:
-            self._bank.commands[self._places["position"]] = self._some(position)
+            self._interface_values.commands[self._places["position"]] = self._some(position)
 
     def write(self, desired: Array, effort: Array | None, error: Array, period_ns: int) -> None:
         """Hand the desired state (3, N) and efforts (N,) on; errors (3, N) do not matter."""
-        commands = self._bank.commands
+        commands = self._interface_values.commands
         for interface, places in self._places.items():
             row = _ROWS.get(interface)
             if row is not None:
@@ -94,11 +94,13 @@ class Forwarding:
         """Leave positions, set the rest to 0."""
         for interface, places in self._places.items():
             if interface != "position":
-                self._bank.commands[places] = 0.0
+                self._interface_values.commands[places] = 0.0
 
     def commanded(self) -> dict[str, Array]:
         """Return the present commands, (M,) by interface."""
-        return {name: self._bank.commands[places] for name, places in self._places.items()}
+        return {
+            name: self._interface_values.commands[places] for name, places in self._places.items()
+        }
 
     def _some(self, values: Array) -> Array:
         return values if self._columns is None else values[self._columns]
@@ -129,14 +131,14 @@ class PidOutput:
         Raises:
             ControllerError: a ROS 1 controller has no gains for a joint.
         """
-        self._bank = context.robot.bank
+        self._interface_values = context.robot.interface_values
         self._interface = interface
         self._places = _places(context, names, (interface,))
         self._columns = columns
         self.commands = _names(names, (interface,))
         self.set_feed_forward(feed_forward)
         self._names = tuple(names)
-        self._pids = PidBank([_gains(context, name) for name in names])
+        self._pids = PidArray([_gains(context, name) for name in names])
         separator = "/" if context.ros_version == 1 else "."
         self._live = [
             offer_live_gains(context, f"gains{separator}{name}", (self._pids, place))
@@ -183,16 +185,18 @@ class PidOutput:
         if effort is not None:
             command += effort
         places = self._places[self._interface]
-        self._bank.commands[places] = command
-        self._bank.answer(places, *self._pids.stiffness_and_damping)
+        self._interface_values.commands[places] = command
+        self._interface_values.answer(places, *self._pids.stiffness_and_damping)
 
     def stop(self) -> None:
         """Command 0."""
-        self._bank.commands[self._places[self._interface]] = 0.0
+        self._interface_values.commands[self._places[self._interface]] = 0.0
 
     def commanded(self) -> dict[str, Array]:
         """Return the present commands, (M,) by interface."""
-        return {name: self._bank.commands[places] for name, places in self._places.items()}
+        return {
+            name: self._interface_values.commands[places] for name, places in self._places.items()
+        }
 
 
 def report_idle_gains(context: ControllerContext) -> None:

@@ -248,7 +248,7 @@ class Ros1JointTrajectoryController(Controller):
         self._preempt()
 
     def _measure(self) -> None:
-        self.robot.bank.states.take(self._places, out=self._actual_flat, mode="clip")
+        self.robot.interface_values.states.take(self._places, out=self._actual_flat, mode="clip")
 
     def _points(self) -> tuple[Any, Any, Any]:
         track, _ = self._following.track_of(0)

@@ -418,7 +418,7 @@ class Ros2Setup:
 
     def read(self, actual: Array) -> None:
         """Put what is measured into rows of positions, velocities, accelerations (3, N)."""
-        states = self._context.robot.bank.states
+        states = self._context.robot.interface_values.states
         states.take(self._places, out=actual.reshape(-1)[: len(self._places)], mode="clip")
 
     def state_of(self, actual: Array) -> JointState:
