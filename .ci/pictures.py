@@ -101,9 +101,15 @@ COMMAND = (
         "simulator",
         (
             Step("gazelle.graph.subscription", "takes it from the link"),
-            Step("gazelle.simulator.inputs", "refuses what is no number, or beyond any world"),
+            Step(
+                "gazelle.simulator.input_validation",
+                "refuses what is no number, or beyond any world",
+            ),
             Step("gazelle.simulator.plugins.diff_drive", "takes the last one at each update"),
-            Step("gazelle.simulator.plugins.wheel_motion", "turns it into speeds of two wheels"),
+            Step(
+                "gazelle.simulator.plugins.diff_drive_kinematics",
+                "turns it into speeds of two wheels",
+            ),
             Step("gazelle.engine.motors", "drives the joints, up to the torque of the tag"),
             Step("gazelle.engine.engine", "takes the step: MuJoCo, contacts, friction"),
             Step("gazelle.simulator.plugins.drive_odometry", "/odom and its transform come back"),

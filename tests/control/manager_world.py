@@ -16,7 +16,7 @@ from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
 from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
-from gazelle.simulator.control_ports import make_ports, offer_manager
+from gazelle.simulator.controller_node import make_ports, offer_manager
 from gazelle.simulator.plugins.context import Resources
 from gazelle.simulator.world_server import ServerSettings, WorldServer
 

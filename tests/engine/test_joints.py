@@ -21,7 +21,7 @@ from gazelle.description.model import (
 )
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
-from gazelle.engine.speed_limits import SpeedLimits
+from gazelle.engine.velocity_limits import SpeedLimits
 from gazelle.errors import EngineError
 from gazelle.geometry import Pose
 

@@ -5,7 +5,6 @@ import sys
 import numpy as np
 import pytest
 
-from gazelle.folders import cache_folder
 from gazelle.geometry import (
     Mesh,
     box_mesh,
@@ -16,6 +15,7 @@ from gazelle.geometry import (
     polyline_mesh,
     sphere_mesh,
 )
+from gazelle.user_folders import cache_folder
 
 L_SHAPE = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
 

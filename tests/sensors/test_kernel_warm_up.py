@@ -18,7 +18,7 @@ kernel_warm_up._exercise = lambda: twice(2)
 kernel_warm_up.warm_up(print)
 """
 SMALL_KERNEL = """
-from gazelle.compiling import njit
+from gazelle.numba_jit import njit
 
 @njit(cache=True)
 def twice(x):

@@ -16,7 +16,7 @@ def run() -> NoReturn:
     end_at_interrupts()
     collect_garbage_rarely()
     from gazelle.cli.main import main
-    from gazelle.library_warnings import shorten_library_warnings
+    from gazelle.python_warnings import shorten_library_warnings
 
     shorten_library_warnings()
     raise_interrupts()

@@ -9,7 +9,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from gazelle.folders import ros_home, ros_log_folder
+from gazelle.user_folders import ros_home, ros_log_folder
 
 __all__ = ["main"]
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import ClassVar, NamedTuple, Self, cast
 
 from gazelle.errors import NotFoundError
-from gazelle.folders import ros_home, ros_log_folder
+from gazelle.user_folders import ros_home, ros_log_folder
 from gazelle.workspace import Workspace
 from gazelle.workspace.package_xml import read_manifest
 

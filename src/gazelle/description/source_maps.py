@@ -21,7 +21,7 @@ from zlib import crc32
 
 from gazelle.description.xml import Tag, parse_xml, with_places
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.folders import cache_folder
+from gazelle.user_folders import cache_folder
 
 if TYPE_CHECKING:
     from gazelle.description.xacro import Expanded

@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.bodies import SpecBuilder, VelocityDecay, mesh_collisions
-from gazelle.engine.contact_setup import ExplicitPair, apply_pair_springs, set_up_contacts
+from gazelle.engine.contact_pairs import ExplicitPair, apply_pair_springs, set_up_contacts
+from gazelle.engine.decomposition_workers import split_ahead
 from gazelle.engine.joints import implicit_damping, keeps_turning
+from gazelle.engine.kinematic_loops import add_loop, add_world_joint
 from gazelle.engine.library_warnings import report_library_warnings
-from gazelle.engine.loops import add_loop, add_world_joint
 from gazelle.engine.motors import add_motor, flywheel_inertia
 from gazelle.engine.mujoco_library import compiled as compiled_spec
 from gazelle.engine.mujoco_library import mujoco
-from gazelle.engine.piece_workers import split_ahead
 from gazelle.engine.position_locks import add_lock
 from gazelle.engine.scoped_names import root_joint, rotor_joint, scoped
+from gazelle.engine.spec_builder import SpecBuilder, VelocityDecay, mesh_collisions
 from gazelle.engine.unsupported_elements import report_idle_words
 from gazelle.engine.welds import add_weld
 from gazelle.engine.wheel_slip import correct_weights

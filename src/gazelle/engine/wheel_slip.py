@@ -31,9 +31,9 @@ from gazelle.description.model import (
 )
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.joints import INFINITE_LIMIT, implicit_damping
+from gazelle.engine.kinematic_tree import TreeLink
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import joint_part, scoped, tyre
-from gazelle.engine.tree import TreeLink
 
 __all__ = [
     "CENTRING_STEPS",

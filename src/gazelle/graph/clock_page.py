@@ -10,8 +10,8 @@ import struct
 from functools import cache
 from pathlib import Path
 
-from gazelle.folders import runtime_folder
 from gazelle.temporary_files import own_prefix, sweep
+from gazelle.user_folders import runtime_folder
 
 __all__ = ["ClockPage", "PageView", "Reading", "machine_name"]
 

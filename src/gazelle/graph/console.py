@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TextIO
 
 from gazelle.errors import GraphError
-from gazelle.folders import ros_log_folder
 from gazelle.log_files import GAPS
+from gazelle.user_folders import ros_log_folder
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gazelle.folders import cache_folder
+from gazelle.user_folders import cache_folder
 
 if TYPE_CHECKING:
     from gazelle.workspace import Workspace

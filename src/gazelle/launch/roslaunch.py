@@ -20,7 +20,6 @@ from gazelle.description.robot_description import (
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.documents.yaml import dump_yaml
 from gazelle.errors import GraphError, LaunchError
-from gazelle.folders import ros_home
 from gazelle.graph import Graph, NoGraphError
 from gazelle.graph.gazebo_names import offered_name
 from gazelle.interfaces import service_type
@@ -37,6 +36,7 @@ from gazelle.launch.spawner_sequence import (
     with_simulator_words,
 )
 from gazelle.launch.supervisor import StopTimes, Supervisor
+from gazelle.user_folders import ros_home
 from gazelle.workspace import Workspace
 
 __all__ = ["LaunchOptions", "find_executables", "launch"]

@@ -7,9 +7,9 @@ import signal
 import sys
 from pathlib import Path
 
-from gazelle.library_warnings import shorten_library_warnings
 from gazelle.process_exit import StopEvent, at_stop_signal, end_at_interrupts, end_with
 from gazelle.process_start import collect_garbage_rarely, want_one_blas_thread
+from gazelle.python_warnings import shorten_library_warnings
 
 __all__ = ["main"]
 

@@ -31,7 +31,7 @@ def run_gzserver(
         falls_back: run the empty world where the named one is not found.
         found: what is wrong with its parameters already, to be told with the rest.
     """
-    from gazelle.simulator.server_main import serve
+    from gazelle.simulator.gzserver import serve
 
     if arguments.ros_version == 2:
         graph.console = print_ros2

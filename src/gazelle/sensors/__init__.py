@@ -14,13 +14,11 @@ from gazelle.noise import (
     NoiseStream,
     PictureNoise,
 )
-from gazelle.sensors.bands import default_threads
 from gazelle.sensors.camera import CameraRecord, render
 from gazelle.sensors.contact import ContactRecord, link_wrenches, watched_contacts
 from gazelle.sensors.depth import POINT_DTYPE, depth_image, point_cloud
 from gazelle.sensors.distortion import distort, is_distorting
-from gazelle.sensors.embree import EmbreeError
-from gazelle.sensors.environment import (
+from gazelle.sensors.earth_sensors import (
     AltimeterRecord,
     GeodeticPosition,
     MagnetometerRecord,
@@ -33,6 +31,7 @@ from gazelle.sensors.environment import (
     local_position,
     magnetic_field,
 )
+from gazelle.sensors.embree import EmbreeError
 from gazelle.sensors.force_torque import JointLoad, WrenchRecord, force_torque_reading
 from gazelle.sensors.gps import (
     GpsRecord,
@@ -46,6 +45,7 @@ from gazelle.sensors.intrinsics import Intrinsics, camera_intrinsics
 from gazelle.sensors.kernel_warm_up import warm_up
 from gazelle.sensors.lidar import LidarRecord, ScanAngles, scan, scan_angles, scene_kind
 from gazelle.sensors.noise import noise_stream, picture_noise
+from gazelle.sensors.parallel_rows import default_threads
 from gazelle.sensors.ray_scene import RayScene
 from gazelle.sensors.sonar import SonarRecord, sonar_range
 from gazelle.sensors.vector_noise import VectorNoise

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from gazelle.description.model import CameraSpec
 from gazelle.geometry import Pose
 from gazelle.noise import PictureNoise
-from gazelle.sensors.bands import default_threads, each_band, row_bands
+from gazelle.sensors.camera_kernel_arguments import Lighting, Output, Packet, Surfaces, View
 from gazelle.sensors.distortion import distort, is_distorting
 from gazelle.sensors.embree import packet_buffer
 from gazelle.sensors.intrinsics import camera_intrinsics
+from gazelle.sensors.parallel_rows import default_threads, each_band, row_bands
 from gazelle.sensors.ray_scene import SHADOW_BIT, RayScene
-from gazelle.sensors.render_arguments import Lighting, Output, Packet, Surfaces, View
 from gazelle.sensors.shading_tables import (
     ShadingTables,
     light_table,

@@ -17,7 +17,7 @@ import llvmlite.binding
 import numpy as np
 from numba import types
 
-from gazelle.compiling import njit
+from gazelle.numba_jit import njit
 from gazelle.sensors.embree import library
 
 __all__ = [

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import GpsSpec, SphericalCoordinates
-from gazelle.sensors.environment import (
+from gazelle.sensors.earth_sensors import (
     GeodeticPosition,
     curvature_radii_m,
     enu_vector,

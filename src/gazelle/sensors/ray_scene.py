@@ -14,7 +14,7 @@ from gazelle.description.model import Collision, Light, Link, Material, Model, V
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
 from gazelle.sensors.embree import InstancedScene
-from gazelle.sensors.surface import Surface, surface_of
+from gazelle.sensors.ray_surfaces import Surface, surface_of
 
 __all__ = ["SHADOW_BIT", "Instance", "LinkPoses", "PlacedLight", "RayScene", "SceneKind"]
 

@@ -12,7 +12,7 @@ from gazelle.description.model import Light, LightType, Material
 from gazelle.geometry import MeshMaterial
 from gazelle.sensors.background import background_colours
 from gazelle.sensors.ray_scene import Instance, PlacedLight, RayScene
-from gazelle.sensors.surface import Surface, SurfacePart
+from gazelle.sensors.ray_surfaces import Surface, SurfacePart
 from gazelle.sensors.textures import TextureAtlas
 
 __all__ = ["ShadingTables", "light_table", "normal_matrices", "shading_tables"]

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gazelle.simulator.real_time_pacing import Mode
     from gazelle.simulator.simulation import Simulation
+    from gazelle.simulator.wall_clock import Mode
     from gazelle.simulator.world_server import ServerSettings, WorldServer
 
 __all__ = ["Mode", "ServerSettings", "Simulation", "WorldServer"]
 
 _PLACES = {
-    "Mode": "gazelle.simulator.real_time_pacing",
+    "Mode": "gazelle.simulator.wall_clock",
     "ServerSettings": "gazelle.simulator.world_server",
     "Simulation": "gazelle.simulator.simulation",
     "WorldServer": "gazelle.simulator.world_server",

@@ -14,18 +14,18 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.diagnostics.suggestions import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
-from gazelle.simulator.control_registry import ControlRegistry
+from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.description_sources import Source, loaded_from, models_from, world_from
-from gazelle.simulator.handles import (
+from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.name_lookup import full_name
+from gazelle.simulator.node_interfaces import NodePort, SubscriptionPort
+from gazelle.simulator.simulation_handles import (
     JointOfSimulation,
     LinkOfSimulation,
     ModelOfSimulation,
     SensorOfSimulation,
 )
-from gazelle.simulator.local_node import LocalNode
-from gazelle.simulator.name_lookup import full_name
-from gazelle.simulator.parameter_input import Parameters, give_parameters
-from gazelle.simulator.ports import NodePort, SubscriptionPort
+from gazelle.simulator.simulation_parameters import Parameters, give_parameters
 from gazelle.simulator.world_server import ServerSettings, WorldServer
 from gazelle.workspace import Workspace
 

@@ -12,23 +12,23 @@ from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.errors import SimulationDivergedError
 from gazelle.geometry import Pose, announcing
-from gazelle.simulator.camera_frames import FrameWorker
-from gazelle.simulator.commands import CommandQueue, error_text, telling
-from gazelle.simulator.control_registry import ControlRegistry
+from gazelle.simulator.command_queue import CommandQueue, error_text, telling
+from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.disturbances import Disturbances
-from gazelle.simulator.inputs import Arrival, Inputs
+from gazelle.simulator.divergence_recovery import OnDivergence, Recovery
+from gazelle.simulator.input_validation import Arrival, Inputs
 from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.node_interfaces import NodePort
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
 from gazelle.simulator.plugins.gz_sensors import publish_sensor
 from gazelle.simulator.plugins.gz_worlds import is_gz_world
-from gazelle.simulator.plugins.named import publish_contact_sensor
 from gazelle.simulator.plugins.registry import load_plugin
-from gazelle.simulator.ports import NodePort
-from gazelle.simulator.real_time_pacing import Mode, Pace
-from gazelle.simulator.recovery import OnDivergence, Recovery
+from gazelle.simulator.plugins.unsupported_plugins import publish_contact_sensor
+from gazelle.simulator.render_thread import FrameWorker
 from gazelle.simulator.scheduler import Scheduler, Task
 from gazelle.simulator.sensor_checks import check_sensor
 from gazelle.simulator.sensor_set import SensorSet, sensor_places
+from gazelle.simulator.wall_clock import Mode, Pace
 
 if TYPE_CHECKING:
     from gazelle.workspace import Workspace

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from gazelle.diagnostics.share_links import LINKS_FOLDER, SOURCE_LINK
 from gazelle.documents.files import exists
-from gazelle.folders import cache_folder
+from gazelle.user_folders import cache_folder
 
 __all__ = ["share_folder"]
 

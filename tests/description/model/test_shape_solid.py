@@ -12,14 +12,14 @@ from gazelle.description.checks.shape_volumes import shape_body, shape_points_m
 from gazelle.description.model import Collision, Link, Model, Solid, Visual, World
 from gazelle.description.writers.geometry_elements import as_mesh, urdf_pieces
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.shapes import geom_shapes
+from gazelle.engine.collision_geoms import geom_shapes
 from gazelle.geometry import MassProperties, Mesh, MeshPart, Pose, mesh_mass_properties
 from gazelle.interfaces import message_type
 from gazelle.motion.collision.convex_solids import object_solids
 from gazelle.motion.scene import WorldObject
 from gazelle.nodes.move_group.shape_messages import add_shapes
-from gazelle.sensors.scene_value import world_value
-from gazelle.sensors.surface import surface_of
+from gazelle.sensors.ray_surfaces import surface_of
+from gazelle.sensors.scene_json import world_value
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.shapes import page_scene
 

@@ -20,7 +20,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.probes import run_probes
 from gazelle.doctor.report import Section
 from gazelle.geometry import Pose
-from gazelle.simulator.parameter_input import Parameters
+from gazelle.simulator.simulation_parameters import Parameters
 from gazelle.workspace import Workspace
 
 FIXTURES = Path(__file__).parents[1] / "fixtures"

@@ -10,7 +10,7 @@ from tests.patience import eventually
 from gazelle.graph import Graph, Node
 from gazelle.simulator import Simulation
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
-from gazelle.simulator.real_time_pacing import Mode
+from gazelle.simulator.wall_clock import Mode
 
 
 @pytest.fixture

@@ -28,8 +28,8 @@ from tests.simulator.plugins.test_surroundings import place_of
 from gazelle.description.model import SphericalCoordinates
 from gazelle.geometry import Pose
 from gazelle.interfaces import message_type
-from gazelle.simulator.plugins.named import NOTHING_TABLE
-from gazelle.simulator.plugins.named import TABLE as NAMED_TABLE
+from gazelle.simulator.plugins.unsupported_plugins import NOTHING_TABLE
+from gazelle.simulator.plugins.unsupported_plugins import TABLE as NAMED_TABLE
 
 __all__ = ["ROWS"]
 

@@ -7,10 +7,10 @@ import pytest
 
 from gazelle.diagnostics import Severity
 from gazelle.simulator import Simulation
-from gazelle.simulator.plugins.named import NOTHING_TABLE
-from gazelle.simulator.plugins.named import TABLE as NAMED_TABLE
 from gazelle.simulator.plugins.registry import all_tables, known_names, plain_name
 from gazelle.simulator.plugins.table import tables_as_markdown
+from gazelle.simulator.plugins.unsupported_plugins import NOTHING_TABLE
+from gazelle.simulator.plugins.unsupported_plugins import TABLE as NAMED_TABLE
 
 PAGE = Path(__file__).parents[3] / "docs" / "plugins.md"
 LINK = "<link name='l'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0'"

@@ -15,8 +15,8 @@ from gazelle.doctor.probes.robot_motion import robots_of
 from gazelle.doctor.probes.spawn import probe_spawn
 from gazelle.doctor.report import Section
 from gazelle.errors import EngineError, SimulationDivergedError
-from gazelle.simulator.parameter_input import Parameters
 from gazelle.simulator.simulation import Simulation
+from gazelle.simulator.simulation_parameters import Parameters
 from gazelle.workspace import Workspace
 
 __all__ = ["run_probes"]

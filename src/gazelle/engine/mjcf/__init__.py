@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.engine.mjcf.reading import is_mjcf, read_mjcf
-from gazelle.engine.mjcf.writing import to_mjcf
+from gazelle.engine.mjcf.reader import is_mjcf, read_mjcf
+from gazelle.engine.mjcf.writer import to_mjcf
 
 __all__ = ["is_mjcf", "read_mjcf", "to_mjcf"]

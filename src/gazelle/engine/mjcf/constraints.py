@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.description.model import Joint, JointType, Mimic, Model
 from gazelle.description.writers.unscoped_names import free_name, part_names
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.mjcf.compiled import CompiledMjcf
+from gazelle.engine.mjcf.mjcf_file import CompiledMjcf
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.geometry import Pose
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.mjcf.compiled import CompiledMjcf
+from gazelle.engine.mjcf.mjcf_file import CompiledMjcf
 
 __all__ = ["report_unsaid"]
 

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.compiling import njit
-from gazelle.heap_kernels import sift_down, sift_up
+from gazelle.numba_jit import njit
+from gazelle.priority_queue_kernels import sift_down, sift_up
 
 __all__ = ["shortest_ways"]
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.compiling import njit
+from gazelle.numba_jit import njit
 
 __all__ = ["LEAF", "bound_search", "cells_of", "packed", "rounded_up", "sliding"]
 

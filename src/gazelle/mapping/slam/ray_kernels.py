@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.compiling import njit
+from gazelle.numba_jit import njit
 
 __all__ = ["BeamCounts", "contradictions", "count_beams"]
 

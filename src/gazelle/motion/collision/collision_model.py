@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.engine.collision_geoms import GeomAssets, add_geom
 from gazelle.engine.mujoco_library import compiled, drained_warnings, mujoco
-from gazelle.engine.shapes import GeomAssets, add_geom
 from gazelle.errors import EngineError
 from gazelle.geometry import IDENTITY_POSE, Pose
 from gazelle.motion.collision.convex_solids import Solid, link_solids, object_solids

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import Collision
 from gazelle.diagnostics import Diagnostics
+from gazelle.engine.collision_geoms import GeomShape, geom_shapes
 from gazelle.engine.mujoco_library import mujoco
-from gazelle.engine.shapes import GeomShape, geom_shapes
 from gazelle.geometry import Mesh, MeshError, MeshPart, Pose, convex_hull, convex_parts
 from gazelle.motion.collision.gjk_kernels import (
     BOX,

@@ -16,7 +16,6 @@ import math
 
 import numpy as np
 
-from gazelle.compiling import njit
 from gazelle.motion.collision.gjk_kernels import (
     APART,
     BOX_HALF,
@@ -37,6 +36,7 @@ from gazelle.motion.collision.sweep_arguments import (
 )
 from gazelle.motion.kinematics.chain import LinkTree
 from gazelle.motion.kinematics.kernels import tree
+from gazelle.numba_jit import njit
 
 __all__ = ["COLLIDES", "FREE", "MAX_STEPS", "TOO_LONG", "UNDECIDED", "pair_clear", "sweep"]
 

@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from gazelle.compiling import njit
+from gazelle.numba_jit import njit
 
 __all__ = ["FIXED", "QUATERNION", "SLIDE", "TURN", "chain_jacobian", "chain_pose", "solve", "tree"]
 

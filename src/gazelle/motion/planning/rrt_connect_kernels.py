@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gazelle.compiling import njit
 from gazelle.motion.collision.sweep_kernels import COLLIDES, FREE, sweep
 from gazelle.motion.joint_space import BoolArray, FloatArray
 from gazelle.motion.planning.search_tree import TreeArrays

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gazelle.compiling import njit
+from gazelle.numba_jit import njit
 
 __all__ = [
     "ParticleNeed",

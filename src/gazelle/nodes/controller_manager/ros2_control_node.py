@@ -29,10 +29,10 @@ from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import number_or_end, private_parameters, start_node
 from gazelle.nodes.robot_description import DESCRIPTION, read_description
 from gazelle.parameters import Parameter, ParameterTable, refused
-from gazelle.simulator.commands import CommandQueue, telling
-from gazelle.simulator.control_ports import make_ports, offer_manager
-from gazelle.simulator.control_registry import ControlRegistry
-from gazelle.simulator.inputs import Inputs
+from gazelle.simulator.command_queue import CommandQueue, telling
+from gazelle.simulator.controller_managers import ControlRegistry
+from gazelle.simulator.controller_node import make_ports, offer_manager
+from gazelle.simulator.input_validation import Inputs
 from gazelle.simulator.plugins.context import Resources
 from gazelle.workspace import Workspace
 

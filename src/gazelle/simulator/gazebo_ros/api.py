@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph.gazebo_names import SHOWN_SPACE, world_space
+from gazelle.simulator.gazebo_ros.clock_and_states import offer_states
 from gazelle.simulator.gazebo_ros.joint_services import JointServices
 from gazelle.simulator.gazebo_ros.link_services import LinkServices
 from gazelle.simulator.gazebo_ros.model_services import Entities, ModelServices
 from gazelle.simulator.gazebo_ros.physics_parameters import PhysicsParameters
 from gazelle.simulator.gazebo_ros.spawn_services import SpawnServices
-from gazelle.simulator.gazebo_ros.states import offer_states
 from gazelle.simulator.gazebo_ros.world_services import LightServices, WorldServices
 from gazelle.simulator.plugins.context import join_names
-from gazelle.simulator.plugins.named import offer_world_contacts
+from gazelle.simulator.plugins.unsupported_plugins import offer_world_contacts
 
 if TYPE_CHECKING:
     from gazelle.simulator.plugins.context import Resources

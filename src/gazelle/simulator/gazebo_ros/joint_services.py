@@ -11,8 +11,8 @@ from gazelle.description.model import Joint, JointType
 from gazelle.diagnostics import did_you_mean
 from gazelle.simulator.gazebo_ros.model_services import Row
 from gazelle.simulator.gazebo_ros.timed_efforts import JointEfforts
-from gazelle.simulator.inputs import InputRefusedError
-from gazelle.simulator.model_rebuild import replace_model
+from gazelle.simulator.input_validation import InputRefusedError
+from gazelle.simulator.model_replacement import replace_model
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer

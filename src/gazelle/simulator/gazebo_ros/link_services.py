@@ -12,7 +12,7 @@ from gazelle.geometry import Pose
 from gazelle.interfaces.poses import pose_message, twist_message
 from gazelle.simulator.gazebo_ros.model_services import Entities, Row, place_link, state_from
 from gazelle.simulator.gazebo_ros.timed_efforts import at_time, duration_ns
-from gazelle.simulator.model_rebuild import replace_model
+from gazelle.simulator.model_replacement import replace_model
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer

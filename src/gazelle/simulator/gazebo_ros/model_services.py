@@ -14,7 +14,7 @@ from gazelle.errors import EngineError
 from gazelle.geometry import Pose
 from gazelle.interfaces.poses import pose_message, pose_of, twist_message
 from gazelle.interfaces.stamps import header
-from gazelle.simulator.model_rebuild import is_fixed
+from gazelle.simulator.model_replacement import is_fixed
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gazelle.graph.gazebo_names import SHOWN_SPACE
-from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
+from gazelle.simulator.plugins.dynamic_reconfigure import DynamicParameter, DynamicParameters
 
 if TYPE_CHECKING:
     from gazelle.simulator.plugins.context import Resources

@@ -10,7 +10,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.interfaces import message_type
 from gazelle.simulator.gazebo_ros.model_services import Row
 from gazelle.simulator.gazebo_ros.physics_parameters import PhysicsParameters
-from gazelle.simulator.inputs import InputRefusedError
+from gazelle.simulator.input_validation import InputRefusedError
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer

@@ -12,7 +12,7 @@ from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.laser import lidar_place, start_scans
 from gazelle.simulator.plugins.noise import gaussian
-from gazelle.simulator.plugins.stream import prefixed_frame
+from gazelle.simulator.plugins.sensor_publisher import prefixed_frame
 from gazelle.simulator.plugins.table import PluginTable
 
 if TYPE_CHECKING:

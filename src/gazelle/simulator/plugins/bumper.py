@@ -14,7 +14,7 @@ from gazelle.interfaces.poses import vector_message
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
-from gazelle.simulator.plugins.stream import (
+from gazelle.simulator.plugins.sensor_publisher import (
     prefixed_frame,
     publish_at,
     sensor_period,

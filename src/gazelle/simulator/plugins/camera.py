@@ -10,7 +10,7 @@ from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_n
 from gazelle.simulator.plugins.depth_camera import DepthLimits, add_colour, add_depth, cut_depth
 from gazelle.simulator.plugins.image_transport import add_transports
 from gazelle.simulator.plugins.multicamera import start_multicamera_ros2
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.sensor_set import camera_members
 
 __all__ = ["load", "load_triggered"]

@@ -13,7 +13,7 @@ from gazelle.description.model import CameraSpec
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import header
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 
 __all__ = ["Calibration", "camera_info_message", "image_message", "read_calibration"]
 

@@ -12,10 +12,10 @@ import numpy as np
 
 from gazelle.description.model import CameraSpec
 from gazelle.interfaces.stamps import header
+from gazelle.simulator.node_interfaces import PublisherPort
 from gazelle.simulator.plugins.camera_info import Calibration, camera_info_message
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
-from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
-from gazelle.simulator.ports import PublisherPort
+from gazelle.simulator.plugins.dynamic_reconfigure import DynamicParameter, DynamicParameters
 from gazelle.simulator.scheduler import ORDER_SENSOR, period_in_steps, throttled_period_in_steps
 
 if TYPE_CHECKING:

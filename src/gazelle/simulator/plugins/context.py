@@ -12,11 +12,11 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.graph import Qos
 from gazelle.graph.subscription import MAX_WAITING, Backlog
 from gazelle.interfaces import message_type, service_type
-from gazelle.simulator.commands import CommandQueue
-from gazelle.simulator.inputs import InputRefusedError, Inputs, problem_of, refusal
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.command_queue import CommandQueue
+from gazelle.simulator.input_validation import InputRefusedError, Inputs, problem_of, refusal
+from gazelle.simulator.node_interfaces import NodePort, PublisherPort
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
-from gazelle.simulator.ports import NodePort, PublisherPort
 from gazelle.simulator.scheduler import (
     ORDER_CONTROL,
     Scheduler,
@@ -29,8 +29,8 @@ from gazelle.simulator.scheduler import (
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine
-    from gazelle.simulator.camera_frames import FrameWorker
-    from gazelle.simulator.control_registry import ControlRegistry
+    from gazelle.simulator.controller_managers import ControlRegistry
+    from gazelle.simulator.render_thread import FrameWorker
     from gazelle.simulator.sensor_set import SensorSet
     from gazelle.workspace import Workspace
 

@@ -21,7 +21,7 @@ from gazelle.simulator.plugins.image_encoding import (
     encode_pixels,
     encoding_name,
 )
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from gazelle.engine import JointHandle
 from gazelle.parameters import Parameter, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 
 __all__ = [
     "ALWAYS_ON",

@@ -17,7 +17,7 @@ from gazelle.interfaces.poses import pose_message, transform_stamped, twist_mess
 from gazelle.interfaces.stamps import header
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.drive import gz_text, gz_topic
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 
 __all__ = [
     "UNMEASURED",

@@ -9,7 +9,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.engine.wrenches import TimedWrench
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["TABLE", "load"]

@@ -17,8 +17,8 @@ from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.joint_loads import joint_load
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.noise import gaussian
-from gazelle.simulator.plugins.parameters import PluginReader
-from gazelle.simulator.plugins.stream import publish_at
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
+from gazelle.simulator.plugins.sensor_publisher import publish_at
 from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import measured_period_in_steps
 

@@ -15,9 +15,9 @@ from gazelle.interfaces.poses import vector_message
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
-from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
-from gazelle.simulator.plugins.parameters import PluginReader
-from gazelle.simulator.plugins.stream import (
+from gazelle.simulator.plugins.hector_noise import ErrorSource, error_parameters, read_model
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
+from gazelle.simulator.plugins.sensor_publisher import (
     once_per_step,
     publish_at,
     sensor_period,

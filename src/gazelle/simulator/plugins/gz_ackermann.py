@@ -9,10 +9,10 @@ from typing import Any
 from gazelle.geometry import Pose
 from gazelle.simulator.plugins.ackermann import GZ_TABLE, steering_angles
 from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.diff_drive_kinematics import SpeedLimiter
 from gazelle.simulator.plugins.drive import Velocity, run_drive, take_velocities
 from gazelle.simulator.plugins.drive_odometry import DriveOdometry, gz_odometry_setup
-from gazelle.simulator.plugins.parameters import PluginReader
-from gazelle.simulator.plugins.wheel_motion import SpeedLimiter
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["load"]

@@ -6,11 +6,15 @@ import math
 
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.diff_drive import GZ_TABLE
+from gazelle.simulator.plugins.diff_drive_kinematics import (
+    EncoderOdometry,
+    SpeedLimiter,
+    wheel_speeds,
+)
 from gazelle.simulator.plugins.drive import Velocity, gz_topic, run_drive, take_velocities
 from gazelle.simulator.plugins.drive_odometry import DriveOdometry, gz_odometry_setup
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.plugins.wheel_checks import check_drive
-from gazelle.simulator.plugins.wheel_motion import EncoderOdometry, SpeedLimiter, wheel_speeds
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["load"]

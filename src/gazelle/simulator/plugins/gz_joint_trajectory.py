@@ -14,7 +14,7 @@ from gazelle.interfaces.stamps import ns_of
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
 from gazelle.simulator.plugins.gz_joints import TRAJECTORY_TABLE
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 
 __all__ = ["TRAJECTORY_TABLE", "load"]
 

@@ -22,7 +22,7 @@ from gazelle.simulator.plugins.bumper import gz_contacts_message
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.ft_sensor import wrench_message
 from gazelle.simulator.plugins.gps import fix_message
-from gazelle.simulator.plugins.stream import publish_at, sensor_period
+from gazelle.simulator.plugins.sensor_publisher import publish_at, sensor_period
 
 __all__ = ["publish_measurement"]
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from gazelle.simulator.plugins.camera_stream import CameraStream
 from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.dynamic_reconfigure import DynamicParameter, DynamicParameters
 from gazelle.simulator.plugins.image_encoding import compressed_depth_message, compressed_message
-from gazelle.simulator.plugins.reconfigure import DynamicParameter, DynamicParameters
 
 if TYPE_CHECKING:
     import numpy as np

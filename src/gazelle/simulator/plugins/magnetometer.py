@@ -12,9 +12,9 @@ from gazelle.interfaces.poses import vector_message
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
-from gazelle.simulator.plugins.parameters import PluginReader
-from gazelle.simulator.plugins.stream import publish_at
+from gazelle.simulator.plugins.hector_noise import ErrorSource, error_parameters, read_model
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
+from gazelle.simulator.plugins.sensor_publisher import publish_at
 from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 

@@ -15,9 +15,9 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
-from gazelle.simulator.plugins.hector_errors import ErrorSource, error_parameters, read_model
+from gazelle.simulator.plugins.hector_noise import ErrorSource, error_parameters, read_model
 from gazelle.simulator.plugins.noise import gaussian
-from gazelle.simulator.plugins.stream import (
+from gazelle.simulator.plugins.sensor_publisher import (
     prefixed_frame,
     publish_at,
     sensor_place,

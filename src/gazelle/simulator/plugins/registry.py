@@ -41,8 +41,8 @@ _FAMILIES = (
     ("joint_state_publisher", "GZ_TABLE", "load_gz"),
     ("gz_systems", "TABLE", "load"),
     ("gz_systems", "SERVER_TABLE", "load"),
-    ("world_entities", "STATE_TABLE", "load_state"),
-    ("world_entities", "PROPERTIES_TABLE", "load_properties"),
+    ("gazebo_ros_state", "STATE_TABLE", "load_state"),
+    ("gazebo_ros_state", "PROPERTIES_TABLE", "load_properties"),
     ("ros_control", "TABLE", "load"),
     ("ros2_control", "TABLE", "load"),
     ("ros2_control", "GZ_TABLE", "load_gz"),
@@ -78,8 +78,8 @@ _FAMILIES = (
     ("mimic_joint", "TABLE", "load"),
     ("gz_odometry", "TABLE", "load"),
     ("gz_odometry", "POSE_TABLE", "load_poses"),
-    ("named", "TABLE", "load"),
-    ("named", "NOTHING_TABLE", "load_nothing"),
+    ("unsupported_plugins", "TABLE", "load"),
+    ("unsupported_plugins", "NOTHING_TABLE", "load_nothing"),
 )
 
 

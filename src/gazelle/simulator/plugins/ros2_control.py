@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 from gazelle.description.model import Model
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.parameters import PluginReader
-from gazelle.simulator.plugins.ros_control_loop import (
+from gazelle.simulator.plugins.control_loop import (
     check_controllers,
     control_period,
     run_control_loop,
 )
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
 
 if TYPE_CHECKING:
@@ -156,7 +156,7 @@ def load_gz(context: PluginContext) -> None:
 def _load(context: PluginContext, parameters: PluginReader, *, is_gz: bool) -> None:
     from gazelle.control.controller_manager import ControllerManager
     from gazelle.control.hardware.ros2_robot import build_ros2_robot
-    from gazelle.simulator.control_ports import make_ports, offer_manager
+    from gazelle.simulator.controller_node import make_ports, offer_manager
     from gazelle.simulator.plugins.ros_control_sensors import ModelSensors
 
     host, resources, engine = context.host, context.resources, context.host.engine

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.parameters import PluginReader
-from gazelle.simulator.plugins.ros_control_loop import (
+from gazelle.simulator.plugins.control_loop import (
     check_controllers,
     control_period,
     run_control_loop,
 )
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ def load(context: PluginContext) -> None:
 
 def _make(context: PluginContext, parameters: PluginReader) -> ControllerManager:
     from gazelle.control.controller_manager import ControllerManager
-    from gazelle.simulator.control_ports import make_ports, offer_manager
+    from gazelle.simulator.controller_node import make_ports, offer_manager
 
     host, resources = context.host, context.resources
     namespace = _namespace(context, parameters)
@@ -201,7 +201,7 @@ def _offer_gains(context: PluginContext, manager: ControllerManager, namespace: 
     from gazelle.control.controllers.controller import ControllerContext
     from gazelle.control.hardware.ros1_joints import gains_parameters
     from gazelle.control.pid import offer_live_gains
-    from gazelle.simulator.control_ports import make_ports
+    from gazelle.simulator.controller_node import make_ports
 
     host = context.host
     hardware: DefaultRobotHWSim = manager.robot.components[0]  # type: ignore[assignment]

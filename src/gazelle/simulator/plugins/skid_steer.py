@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.diff_drive_kinematics import wheel_speeds
 from gazelle.simulator.plugins.drive import (
     ALWAYS_ON,
     Velocity,
@@ -21,9 +22,8 @@ from gazelle.simulator.plugins.drive_odometry import (
     frame_prefix,
     given_covariance,
 )
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.plugins.table import PluginTable
-from gazelle.simulator.plugins.wheel_motion import wheel_speeds
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["TABLE", "load"]

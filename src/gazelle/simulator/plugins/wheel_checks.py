@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.plugins.wheel_geometry import DriveGeometry, drive_geometry
 
 __all__ = ["check_drive", "exchange_wheels"]

@@ -4,6 +4,6 @@ Gazebo has a transport of its own beside ROS for this; here it is hidden topics 
 below ``/_gazelle``, whose form is in ``docs/studio_protocol.md``.
 """
 
-from gazelle.simulator.viewing.broadcast import offer_views
+from gazelle.simulator.viewing.scene_broadcaster import offer_views
 
 __all__ = ["offer_views"]

@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from gazelle.simulator.inputs import InputRefusedError, Limit, number_problem
+from gazelle.simulator.input_validation import InputRefusedError, Limit, number_problem
 
 __all__ = ["Fields", "flag_of", "number_of"]
 

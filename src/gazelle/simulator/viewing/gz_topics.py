@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import transform_stamped
 from gazelle.interfaces.stamps import stamp_message
-from gazelle.simulator.gazebo_ros.states import offer_clock
+from gazelle.simulator.gazebo_ros.clock_and_states import offer_clock
 
 if TYPE_CHECKING:
     from gazelle.description.model import Model

@@ -11,8 +11,8 @@ from gazelle.description.model import Collision, Joint, Link, Model
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.geometry import Pose
-from gazelle.simulator.inputs import InputRefusedError, Limit
-from gazelle.simulator.model_rebuild import replace_model
+from gazelle.simulator.input_validation import InputRefusedError, Limit
+from gazelle.simulator.model_replacement import replace_model
 from gazelle.simulator.viewing.fields import flag_of, number_of
 
 if TYPE_CHECKING:

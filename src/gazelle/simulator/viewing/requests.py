@@ -11,8 +11,7 @@ from gazelle.diagnostics import did_you_mean
 from gazelle.diagnostics.suggestions import nearest_names
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.geometry import Pose
-from gazelle.simulator.inputs import InputRefusedError, Limit
-from gazelle.simulator.real_time_pacing import Mode
+from gazelle.simulator.input_validation import InputRefusedError, Limit
 from gazelle.simulator.viewing.fields import Fields
 from gazelle.simulator.viewing.joint_control import Gains, JointControl
 from gazelle.simulator.viewing.properties import (
@@ -21,6 +20,7 @@ from gazelle.simulator.viewing.properties import (
     model_rows,
     set_property,
 )
+from gazelle.simulator.wall_clock import Mode
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer

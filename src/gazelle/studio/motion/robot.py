@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypedDict
 
 from gazelle.graph import Graph, Kind
-from gazelle.sensors.scene_types import SceneValue
+from gazelle.sensors.scene_json_types import SceneValue
 from gazelle.studio.errors import StudioError
 from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.robot import RobotContext, description_text
@@ -125,7 +125,7 @@ def get_motion_robot(robots: RobotContext, params: Params) -> MotionRobot:
     from gazelle.description.moveit import config_from_parameters
     from gazelle.diagnostics import Diagnostics
     from gazelle.motion.model import RobotModel
-    from gazelle.sensors.scene_value import robot_value
+    from gazelle.sensors.scene_json import robot_value
     from gazelle.workspace import Workspace
 
     description = params.text("description", _DESCRIPTION).lstrip("/") or _DESCRIPTION

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.sensors.scene_types import SceneValue
+from gazelle.sensors.scene_json_types import SceneValue
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.assets import Assets
@@ -38,7 +38,7 @@ def get_robot(robots: RobotContext, params: Params) -> SceneValue[PageGeometry]:
     """``robot.get``: of ``parameter`` or ``topic``, of ``/robot_description`` in either."""
     # Readers of descriptions take a third of the server's start; few pages wait for them.
     from gazelle.description.loader import load_models
-    from gazelle.sensors.scene_value import robot_value
+    from gazelle.sensors.scene_json import robot_value
 
     text = _description(robots.taps, params)
     found = Diagnostics()

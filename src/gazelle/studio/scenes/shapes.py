@@ -64,7 +64,7 @@ PageGeometry = PlainGeometry | MeshGeometry | MissingGeometry
 
 
 def page_scene(value: SceneValue[WorldGeometry], assets: Assets) -> SceneValue[PageGeometry]:
-    """Return a scene value of `gazelle.sensors.scene_value` as the page takes it.
+    """Return a scene value of `gazelle.sensors.scene_json` as the page takes it.
 
     Args:
         value: its shapes and materials name files.

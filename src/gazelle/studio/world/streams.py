@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, TypedDict
 
 from gazelle.graph import Entity, Kind
-from gazelle.sensors.scene_types import SceneValue, WorldGeometry
+from gazelle.sensors.scene_json_types import SceneValue, WorldGeometry
 from gazelle.studio.errors import unknown
 from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.assets import Assets

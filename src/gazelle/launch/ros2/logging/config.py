@@ -11,8 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from gazelle.folders import ros_log_folder
 from gazelle.launch.ros2.logging import handlers
+from gazelle.user_folders import ros_log_folder
 
 __all__ = ["LaunchConfig"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 if TYPE_CHECKING:
-    from gazelle.simulator.handles import ModelOfSimulation, SensorOfSimulation
     from gazelle.simulator.plugins.user.views import PluginNode, PluginParameters, WorldOfPlugin
+    from gazelle.simulator.simulation_handles import ModelOfSimulation, SensorOfSimulation
 
 __all__ = ["ModelPlugin", "Plugin", "SensorPlugin", "WorldPlugin"]
 

@@ -11,7 +11,6 @@ from typing import Any
 
 from gazelle.control.python_controllers.adapter import located
 from gazelle.extensions import folder_of, told
-from gazelle.simulator.handles import ModelOfSimulation, SensorOfSimulation
 from gazelle.simulator.plugins.context import PluginContext, Resources
 from gazelle.simulator.plugins.user.base import ModelPlugin, Plugin, SensorPlugin, WorldPlugin
 from gazelle.simulator.plugins.user.finder import (
@@ -23,6 +22,7 @@ from gazelle.simulator.plugins.user.finder import (
 )
 from gazelle.simulator.plugins.user.views import PluginNode, PluginParameters, WorldOfPlugin
 from gazelle.simulator.scheduler import ORDER_CONTROL, period_in_steps
+from gazelle.simulator.simulation_handles import ModelOfSimulation, SensorOfSimulation
 from gazelle.workspace.python_files import import_python_file
 
 __all__ = ["load_user_plugin", "report_compiled"]

@@ -12,10 +12,10 @@ from gazelle.diagnostics import nearest_names
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.interfaces import message_type
 from gazelle.parameters import Parameter, ParameterTable
-from gazelle.simulator.handles import ModelOfSimulation
+from gazelle.simulator.node_interfaces import PublisherPort
 from gazelle.simulator.plugins.context import Host, PluginContext, Resources
 from gazelle.simulator.plugins.table import PluginTable
-from gazelle.simulator.ports import PublisherPort
+from gazelle.simulator.simulation_handles import ModelOfSimulation
 
 __all__ = ["PluginNode", "PluginParameters", "WorldOfPlugin"]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gazelle.folders import ros_log_folder
 from gazelle.launch.ros2.action import Action
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
 from gazelle.launch.ros2.launch_ros.launch_graph import launch_node
@@ -28,6 +27,7 @@ from gazelle.launch.ros2.utilities.type_utils import (
     normalize_typed_substitution,
     perform_typed_substitution,
 )
+from gazelle.user_folders import ros_log_folder
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.launch_context import LaunchContext
