@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gazelle.description.model import Joint, Link, Model, World
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.engine.compiler import Compiled, Extras, compile_world
+from gazelle.engine.contacts import Contact
 from gazelle.engine.derived_state import joint_reaction, waking_copy
 from gazelle.engine.divergence import require_finite, require_finite_pose
 from gazelle.engine.joint_group import JointGroup
@@ -22,7 +23,7 @@ from gazelle.engine.motor_bank import MotorBank
 from gazelle.engine.motors import MotorCommand
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.position_locks import LockBank
-from gazelle.engine.records import Contact, Wrench
+from gazelle.engine.records import Wrench
 from gazelle.engine.scoped_names import joint_part, scoped
 from gazelle.engine.state import carry_over, initial_data, joint_names_of
 from gazelle.engine.velocity_limits import SpeedLimits
@@ -404,14 +405,15 @@ class EngineCore:
         self._adopt(compiled, (self._compiled, self._data))
 
     def _adopt(self, compiled: Compiled, old: tuple[Compiled, Any] | None) -> None:
-        data = initial_data(compiled, self._world)
+        data = initial_data(compiled.model, self._world)
         if old is not None:
-            carry_over(*old, compiled, data)
+            old_compiled, old_data = old
+            carry_over(old_compiled.model, old_data, compiled.model, data)
         self._compiled = compiled
         self._hold(data)
         self._must_compile = False
         self.revision += 1
-        self.motors.bind(compiled)
+        self.motors.bind(compiled.model, compiled.motors)
         self.locks.bind(compiled.model, data, self._step_ns / _NS)
         self._welds.bind(compiled.model, data)
         self._tyres.bind(compiled.model, self._world)

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import JointType, Model, World
 from gazelle.engine.compiler import Compiled
-from gazelle.engine.contacts import read_contacts
+from gazelle.engine.contacts import Contact, read_contacts
 from gazelle.engine.core import EngineCore
 from gazelle.engine.divergence import Culprit, find_culprit, require_finite, require_finite_pose
 from gazelle.engine.library_warnings import report_library_warnings
 from gazelle.engine.motor_bank import POSITION_STEPS, MotorBank
 from gazelle.engine.mujoco_library import drained_warnings, mujoco
 from gazelle.engine.position_locks import LockBank
-from gazelle.engine.records import Contact, Snapshot
+from gazelle.engine.records import Snapshot
 from gazelle.engine.scoped_names import scoped
 from gazelle.engine.state import hash_state, set_initial_positions
 from gazelle.engine.welds import WeldBank
@@ -123,10 +123,10 @@ class Engine(EngineCore):
         self._welds.release()
         if poses:
             mujoco.mj_resetData(self.model, self._data)
-            set_initial_positions(self._compiled, self._world, self._data)
+            set_initial_positions(self.model, self._world, self._data)
         self._data.qfrc_applied[:] = 0.0
         self._data.xfrc_applied[:] = 0.0
-        self.motors.bind(self._compiled)
+        self.motors.bind(self.model, self._compiled.motors)
         self.state_changed()
 
     # --- models --------------------------------------------------------------------------
@@ -249,7 +249,9 @@ class Engine(EngineCore):
         """Return everything that touches, of the last step; sleeping bodies touch too."""
         self.ensure_compiled()
         if self._contacts is None:
-            self._contacts = read_contacts(self._compiled, self.data_of_everyone())
+            self._contacts = read_contacts(
+                self.model, self.data_of_everyone(), self._compiled.collision_names
+            )
         return self._contacts
 
     def snapshot(self) -> Snapshot:
@@ -266,7 +268,7 @@ class Engine(EngineCore):
     def state_hash(self) -> str:
         """Return a hash of time, positions, velocities and everything that acts (SHA-256)."""
         self.ensure_compiled()
-        return hash_state(self._compiled, self._data, self.iteration)
+        return hash_state(self.model, self._data, self.iteration)
 
     # --- settings ------------------------------------------------------------------------
 

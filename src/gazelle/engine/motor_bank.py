@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engine.compiler import SLEEP_TOLERANCE_M_S, Compiled
 from gazelle.engine.motors import TIGHT, UNLIMITED_EFFORT, MotorCommand, clutch_impedance
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import rotor_joint, tendon
@@ -92,11 +91,10 @@ class MotorBank:
         for name in [name for name in self.commands if name.startswith(prefix)]:
             del self.commands[name]
 
-    def bind(self, compiled: Compiled) -> None:
-        """Find the motors in a newly compiled model."""
-        model = compiled.model
+    def bind(self, model: Any, joints: Sequence[str]) -> None:
+        """Find the motors of joints in a newly compiled model."""
         self._slots = {}
-        for joint in compiled.motors:
+        for joint in joints:
             index = model.joint(joint).id
             dof = int(model.jnt_dofadr[index])
             rotor = int(model.jnt_dofadr[model.joint(rotor_joint(joint)).id])
@@ -105,7 +103,7 @@ class MotorBank:
                 int(model.jnt_qposadr[index]),
                 rotor,
                 place := int(model.tendon(tendon(joint)).id),
-                SLEEP_TOLERANCE_M_S / float(model.dof_length[[dof, rotor]].max()),
+                model.opt.sleep_tolerance / float(model.dof_length[[dof, rotor]].max()),
                 max(float(model.tendon_invweight0[place]), 1e-12),
                 float(model.tendon_solimp_fri[place, 0]),
             )

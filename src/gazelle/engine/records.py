@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Acceleration", "Contact", "Snapshot", "Velocity", "Wrench"]
+__all__ = ["Acceleration", "Snapshot", "Velocity", "Wrench"]
 
 Array = NDArray[np.float64]
 
@@ -32,29 +32,6 @@ class Wrench(NamedTuple):
 
     force_n: Array
     torque_nm: Array
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Contact:
-    """Two collisions that touch.
-
-    Attributes:
-        collision1, collision2: ``model::link::collision``.
-        points_m: contact points, (N, 3), world frame.
-        normals: unit vectors from `collision2` towards `collision1`, (N, 3), world frame.
-        depths_m: penetration, (N,).
-        forces_n: force on `collision1` at each point, (N, 3), world frame; `collision2` feels
-            the opposite.
-        torques_nm: torque on `collision1` about each point, (N, 3), world frame.
-    """
-
-    collision1: str
-    collision2: str
-    points_m: Array
-    normals: Array
-    depths_m: Array
-    forces_n: Array
-    torques_nm: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)

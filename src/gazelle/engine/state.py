@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType, Mimic, Model, World
-from gazelle.engine.compiler import Compiled
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import joint_part, scoped
 
@@ -25,22 +24,22 @@ _QPOS_WIDTH = {0: 7, 1: 4, 2: 1, 3: 1}
 _DOF_WIDTH = {0: 6, 1: 3, 2: 1, 3: 1}
 
 
-def initial_data(compiled: Compiled, world: World) -> Any:
+def initial_data(model: Any, world: World) -> Any:
     """Return fresh data with every joint at its initial position."""
-    data = mujoco.MjData(compiled.model)
-    set_initial_positions(compiled, world, data)
+    data = mujoco.MjData(model)
+    set_initial_positions(model, world, data)
     return data
 
 
-def set_initial_positions(compiled: Compiled, world: World, data: Any) -> None:
+def set_initial_positions(model: Any, world: World, data: Any) -> None:
     """Put joints with an initial position there, and mimics where they follow."""
     for item in world.models:
         joints = () if item.static else item.joints
         for joint in joints:
-            _set_initial(compiled.model, data, scoped(item.name, joint.name), joint)
+            _set_initial(model, data, scoped(item.name, joint.name), joint)
         for joint in joints:
             if joint.mimic is not None:
-                _set_mimic(compiled.model, data, item.name, joint.name, joint.mimic)
+                _set_mimic(model, data, item.name, joint.name, joint.mimic)
 
 
 def _set_initial(model: Any, data: Any, name: str, joint: Joint) -> None:
@@ -61,26 +60,26 @@ def _set_mimic(model: Any, data: Any, model_name: str, joint: str, mimic: Mimic)
         data.qpos[model.jnt_qposadr[follower]] = mimic.offset + mimic.multiplier * position
 
 
-def carry_over(old: Compiled, old_data: Any, new: Compiled, new_data: Any) -> None:
+def carry_over(old: Any, old_data: Any, new: Any, new_data: Any) -> None:
     """Copy position, velocity, effort and solver memory of every joint both models have."""
-    old_ids = {old.model.joint(i).name: i for i in range(old.model.njnt)}
-    for i in range(new.model.njnt):
-        j = old_ids.get(new.model.joint(i).name)
-        if j is None or old.model.jnt_type[j] != new.model.jnt_type[i]:
+    old_ids = {old.joint(i).name: i for i in range(old.njnt)}
+    for i in range(new.njnt):
+        j = old_ids.get(new.joint(i).name)
+        if j is None or old.jnt_type[j] != new.jnt_type[i]:
             continue
-        kind = int(new.model.jnt_type[i])
+        kind = int(new.jnt_type[i])
         width = _QPOS_WIDTH[kind]
-        to, source = int(new.model.jnt_qposadr[i]), int(old.model.jnt_qposadr[j])
+        to, source = int(new.jnt_qposadr[i]), int(old.jnt_qposadr[j])
         new_data.qpos[to : to + width] = old_data.qpos[source : source + width]
         width = _DOF_WIDTH[kind]
-        to, source = int(new.model.jnt_dofadr[i]), int(old.model.jnt_dofadr[j])
+        to, source = int(new.jnt_dofadr[i]), int(old.jnt_dofadr[j])
         for name in ("qvel", "qacc_warmstart", "qacc", "qfrc_applied"):
             getattr(new_data, name)[to : to + width] = getattr(old_data, name)[
                 source : source + width
             ]
 
 
-def hash_state(compiled: Compiled, data: Any, iteration: int) -> str:
+def hash_state(model: Any, data: Any, iteration: int) -> str:
     """Return a SHA-256 over time, positions, velocities and everything that acts."""
     digest = hashlib.sha256(struct.pack("<q", iteration))
     arrays = (
@@ -91,9 +90,9 @@ def hash_state(compiled: Compiled, data: Any, iteration: int) -> str:
         data.qfrc_applied,
         data.xfrc_applied,
         data.qacc_warmstart,
-        compiled.model.tendon_frictionloss,
-        compiled.model.eq_data,
-        compiled.model.dof_damping,
+        model.tendon_frictionloss,
+        model.eq_data,
+        model.dof_damping,
         data.eq_active,
     )
     for array in arrays:

@@ -19,11 +19,11 @@ from gazelle.simulator.divergence_recovery import OnDivergence, Recovery
 from gazelle.simulator.input_validation import Arrival, Inputs
 from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.node_interfaces import NodePort
+from gazelle.simulator.plugins.bumper import publish_contact_sensor
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
 from gazelle.simulator.plugins.gz_sensors import publish_sensor
 from gazelle.simulator.plugins.gz_worlds import is_gz_world
 from gazelle.simulator.plugins.registry import load_plugin
-from gazelle.simulator.plugins.unsupported_plugins import publish_contact_sensor
 from gazelle.simulator.render_thread import FrameWorker
 from gazelle.simulator.scheduler import Scheduler, Task
 from gazelle.simulator.sensor_checks import check_sensor

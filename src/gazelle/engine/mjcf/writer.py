@@ -157,7 +157,7 @@ def _is_whole(word: str) -> bool:
 
 def _add_start(document: Markup, compiled: Compiled, world: World) -> None:
     """Append a keyframe with the positions that joints start at, if these are not the zeros."""
-    data = initial_data(compiled, world)
+    data = initial_data(compiled.model, world)
     if np.array_equal(data.qpos, compiled.model.qpos0):
         return
     key = document.add("keyframe").add("key", name=_START)

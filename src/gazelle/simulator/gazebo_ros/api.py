@@ -14,8 +14,8 @@ from gazelle.simulator.gazebo_ros.model_services import Entities, ModelServices
 from gazelle.simulator.gazebo_ros.physics_parameters import PhysicsParameters
 from gazelle.simulator.gazebo_ros.spawn_services import SpawnServices
 from gazelle.simulator.gazebo_ros.world_services import LightServices, WorldServices
+from gazelle.simulator.plugins.bumper import offer_world_contacts
 from gazelle.simulator.plugins.context import join_names
-from gazelle.simulator.plugins.unsupported_plugins import offer_world_contacts
 
 if TYPE_CHECKING:
     from gazelle.simulator.plugins.context import Resources

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gazelle.description.model import ContactSpec
+from gazelle.graph.gazebo_names import hidden_transport_name
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import vector_message
 from gazelle.interfaces.stamps import header
@@ -21,14 +23,20 @@ from gazelle.simulator.plugins.sensor_publisher import (
     sensor_place,
 )
 from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.scheduler import ORDER_SENSOR
 
 if TYPE_CHECKING:
     from gazelle.engine import Contact, Engine
+    from gazelle.simulator.plugins.context import Resources
+    from gazelle.simulator.world_server import WorldServer
 
-__all__ = ["TABLE", "gz_contacts_message", "load", "transport_contacts_message"]
+__all__ = ["TABLE", "gz_contacts_message", "load", "offer_world_contacts", "publish_contact_sensor"]
 
 # On the first and on the second body, a pair for each point.
 Wrenches = list[tuple[Any, Any]]
+
+_TRANSPORT_TYPE = "ros_gz_interfaces/Contacts"
+_EVERY_STEP = Fraction(1)
 
 TABLE = PluginTable(
     ParameterTable(
@@ -90,6 +98,40 @@ def load(context: PluginContext) -> None:
     parameters.report_unread()
 
 
+def offer_world_contacts(server: WorldServer, resources: Resources) -> None:
+    """Publish all contacts of each step on ``~/physics/contacts``, while somebody listens."""
+    engine = server.engine
+    topic = hidden_transport_name("~/physics/contacts", engine.world.name)
+    contacts = resources.publisher(topic, _TRANSPORT_TYPE)
+
+    def publish() -> None:
+        found = _transport_contacts_message(engine, engine.contacts(), engine.time_ns, "world")
+        contacts.publish(found)
+
+    resources.task(topic, _EVERY_STEP, publish, order=ORDER_SENSOR, wanted=lambda: contacts.matched)
+
+
+def publish_contact_sensor(context: PluginContext) -> None:
+    """Publish a contact sensor's readings at its rate, and those of its filter in each step.
+
+    The sensor has ``~/MODEL/LINK/SENSOR`` or its ``<topic>``, the filter ``…/contacts``.
+    """
+    place, host = context.place, context.host
+    assert place is not None and isinstance(place.sensor.spec, ContactSpec)
+    own = "~/" + place.name.replace("::", "/")
+    world = host.engine.world.name
+
+    def build(time_ns: int) -> Any:
+        found = host.sensors.measurements.contacts(place).contacts
+        return _transport_contacts_message(host.engine, found, time_ns, place.name)
+
+    for name, period in (
+        (place.sensor.topic or own, sensor_period(context, place)),
+        (f"{own}/contacts", _EVERY_STEP),
+    ):
+        publish_at(context, hidden_transport_name(name, world), _TRANSPORT_TYPE, period, build)
+
+
 def _message(context: PluginContext, place: SensorPlace, frame: str, time_ns: int) -> Any:
     contacts = context.host.sensors.measurements.contacts(place).contacts
     return message_type("gazebo_msgs/ContactsState")(
@@ -138,7 +180,7 @@ def gz_contacts_message(context: PluginContext, place: SensorPlace, time_ns: int
     return _contacts(contacts, time_ns, frame, wrenches)
 
 
-def transport_contacts_message(
+def _transport_contacts_message(
     engine: Engine, contacts: Iterable[Contact], time_ns: int, frame: str
 ) -> Any:
     """Return contacts as Gazebo Classic tells them on its own topics.
