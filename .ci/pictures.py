@@ -59,7 +59,7 @@ SCAN = (
         "simulator",
         (
             Step("gazelle.simulator.scheduler", "says when the lidar is due, if somebody listens"),
-            Step("gazelle.engine.records", "a snapshot: where all links are after this step"),
+            Step("gazelle.engine.state", "a snapshot: where all links are after this step"),
             Step("gazelle.sensors.ray_scene", "moves the shapes of Embree's scene there"),
             Step("gazelle.sensors.lidar", "casts the rays: a record of ranges in metres"),
             Step("gazelle.sensors.noise", "adds noise from the sensor's own seed"),

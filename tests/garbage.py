@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import gc
 
-from gazelle.process_start import collect_garbage_rarely
+from gazelle.process_lifetime import collect_garbage_rarely
 
 __all__ = ["pytest_collection_finish", "pytest_configure"]
 

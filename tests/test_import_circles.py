@@ -27,8 +27,7 @@ WITH_TYPES = {
     "gazelle.graph.callback_queue",
     "gazelle.launch.ros2.action",
     "gazelle.launch.ros2.event_handler",
-    "gazelle.simulator.handles",
-    "gazelle.simulator.plugins.named",
+    "gazelle.simulator.divergence_recovery",
     "gazelle.workspace.uri_resolver",
 } - {"gazelle.launch.ros2.actions"}
 

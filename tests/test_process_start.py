@@ -11,11 +11,11 @@ from collections.abc import Iterator
 
 import pytest
 
-from gazelle.process_start import collect_garbage_rarely, want_one_blas_thread
+from gazelle.process_lifetime import collect_garbage_rarely, want_one_blas_thread
 
 _THREADS_WITH_NUMPY = """
 import sys
-from gazelle.process_start import want_one_blas_thread
+from gazelle.process_lifetime import want_one_blas_thread
 want_one_blas_thread()
 import os, numpy
 print(os.environ["OPENBLAS_NUM_THREADS"], len(os.listdir("/proc/self/task")))

@@ -63,10 +63,10 @@ def test_programs_of_gazelle_shorten_them(module: str, tmp_path: Path) -> None:
     code = f"""
 import sys
 sys.path.insert(0, {str(library.parent)!r})
-import gazelle.process_exit
+import gazelle.process_lifetime
 def end_with(main):
     import loud
-gazelle.process_exit.end_with = end_with
+gazelle.process_lifetime.end_with = end_with
 import runpy
 sys.argv = ["gazelle"]
 runpy.run_module({module!r}, run_name="__main__")

@@ -3,11 +3,13 @@
 ``XDG_CACHE_HOME``, ``XDG_CONFIG_HOME`` and ``XDG_STATE_HOME`` name the places on every system;
 where they are not set, they are the system's usual ones, as `platformdirs` knows them: ``~/.cache``
 on Linux, ``~/Library/Caches`` on macOS, ``%LOCALAPPDATA%`` on Windows. ROS has its own rules, the
-same everywhere.
+same everywhere. Files that a process would remove at its end are removed by others when it was
+killed.
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,11 +17,14 @@ from pathlib import Path
 __all__ = [
     "cache_folder",
     "config_folder",
+    "own_prefix",
     "ros_home",
     "ros_log_folder",
     "runtime_folder",
     "state_folder",
+    "sweep",
 ]
+
 
 _NAME = "gazelle"
 
@@ -65,6 +70,34 @@ def ros_home(environ: Mapping[str, str]) -> Path:
 def ros_log_folder(environ: Mapping[str, str]) -> Path:
     """Return ``ROS_LOG_DIR``, the folder ``log`` of `ros_home` when it is not set."""
     return Path(environ.get("ROS_LOG_DIR") or ros_home(environ) / "log")
+
+
+def own_prefix(prefix: str) -> str:
+    """Return how this process begins the names of its files, for others to `sweep` them."""
+    return f"{prefix}{os.getpid()}-"
+
+
+def sweep(folder: Path, prefix: str) -> None:
+    """Remove the files below a prefix of processes of this user that are gone."""
+    with contextlib.suppress(OSError):
+        for left in folder.glob(f"{prefix}*-*"):
+            pid = left.name.removeprefix(prefix).partition("-")[0]
+            if not _lives(pid):
+                with contextlib.suppress(OSError):
+                    left.unlink()
+
+
+def _lives(pid: str) -> bool:
+    if os.name != "posix":
+        # A file that is in use cannot be removed there.
+        return False
+    try:
+        os.kill(int(pid), 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, ValueError, OverflowError):
+        pass
+    return True
 
 
 def _folder(kind: str, environ: Mapping[str, str]) -> Path:

@@ -30,9 +30,8 @@ from gazelle.description.model import (
 )
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
-from gazelle.engine.outline import ear_clipped
+from gazelle.engine.collision_meshes import ear_clipped, surface_pieces
 from gazelle.engine.primitive_fitting import fitted_round_shape
-from gazelle.engine.surface_pieces import surface_pieces
 from gazelle.geometry import (
     ConvexParts,
     Mesh,
@@ -304,7 +303,7 @@ def no_coacd(tmp_path, monkeypatch):
     def hull(mesh):
         return ConvexParts((convex_hull(mesh.vertices_m),), False, "not installed")
 
-    monkeypatch.setattr("gazelle.engine.convex_decomposition.convex_parts", hull)
+    monkeypatch.setattr("gazelle.engine.collision_meshes.convex_parts", hull)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
 
 

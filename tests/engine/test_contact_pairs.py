@@ -20,7 +20,7 @@ from gazelle.description.model import (
 )
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
-from gazelle.engine.collision_groups import CollisionKind, assign_groups, may_touch
+from gazelle.engine.contact_pairs import CollisionKind, assign_groups, may_touch
 from gazelle.engine.contact_parameters import combine, contact_spring
 from gazelle.geometry import Pose
 

@@ -14,11 +14,11 @@ from tests.fuzzing.kind import Kind
 
 from gazelle.description.model import Heightmap
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.terrain import read_terrain
+from gazelle.engine.collision_geoms import read_terrain
 from gazelle.mapping.grids import read_map
 from gazelle.mapping.logs import read_log
 from gazelle.mapping.slam import SlamParameters, load_graph
-from gazelle.sensors.textures import TextureAtlas
+from gazelle.sensors.shading_tables import TextureAtlas
 from gazelle.workspace import Workspace
 
 __all__ = ["MAPS"]

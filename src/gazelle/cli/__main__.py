@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-import os
 from typing import NoReturn
 
-from gazelle.process_exit import end_at_interrupts, end_with, raise_interrupts
-from gazelle.process_start import collect_garbage_rarely
+from gazelle.process_lifetime import (
+    collect_garbage_rarely,
+    end_at_interrupts,
+    end_with,
+    end_with_parent,
+    raise_interrupts,
+)
 
 __all__ = ["run"]
 
@@ -20,11 +24,7 @@ def run() -> NoReturn:
 
     shorten_library_warnings()
     raise_interrupts()
-    if "GAZELLE_PARENT_PID" in os.environ:
-        # Started by a launch: most commands are not, and do without the module.
-        from gazelle.parent_process import end_with_parent
-
-        end_with_parent()
+    end_with_parent()
     end_with(main)
 
 

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 from gazelle.cli import gzserver
-from gazelle.parent_process import PARENT_VARIABLE
+from gazelle.process_lifetime import PARENT_VARIABLE
 
 __all__ = ["main"]
 

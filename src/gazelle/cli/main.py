@@ -10,7 +10,7 @@ from gazelle._version import __version__
 from gazelle.cli.commands import COMMANDS
 from gazelle.cli.error_text import error_text
 from gazelle.errors import GazelleError, UserFileError, file_refusal_text
-from gazelle.process_exit import drop_output
+from gazelle.process_lifetime import drop_output
 
 __all__ = ["main"]
 

@@ -18,14 +18,14 @@ from gazelle.compat.rostest import xml_text
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError
-from gazelle.folders import ros_home
 from gazelle.graph import Graph
 from gazelle.launch.config import LaunchConfig, TestTag
 from gazelle.launch.environment import node_environment
 from gazelle.launch.executables import find_executable
 from gazelle.launch.node_process import node_words
 from gazelle.launch.ros1.loader import load_launch_files
-from gazelle.parent_process import PARENT_VARIABLE
+from gazelle.process_lifetime import PARENT_VARIABLE
+from gazelle.user_folders import ros_home
 from gazelle.workspace import Workspace
 
 __all__ = ["Case", "main", "read_cases", "write_suite"]

@@ -9,7 +9,7 @@ import webbrowser
 from pathlib import Path
 
 from gazelle.graph import Graph
-from gazelle.process_exit import at_stop_signal
+from gazelle.process_lifetime import at_stop_signal
 from gazelle.studio import Server, Studio
 from gazelle.studio.windows.page_owner import offer
 

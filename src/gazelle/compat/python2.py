@@ -16,7 +16,7 @@ from types import CodeType
 from typing import Any
 
 from gazelle.compat.warn_once import is_first_time
-from gazelle.folders import cache_folder
+from gazelle.user_folders import cache_folder
 
 __all__ = ["compile_source", "is_python2", "translated"]
 

@@ -8,8 +8,13 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType, TracebackType
 
-from gazelle.process_exit import end_at_interrupts, end_with, raise_interrupts
-from gazelle.process_start import collect_garbage_rarely
+from gazelle.process_lifetime import (
+    collect_garbage_rarely,
+    end_at_interrupts,
+    end_with,
+    end_with_parent,
+    raise_interrupts,
+)
 
 __all__ = ["main", "run_script"]
 
@@ -23,7 +28,6 @@ def main(argv: list[str]) -> int:
     collect_garbage_rarely()
     from gazelle.compat.import_hooks import install
     from gazelle.launch.environment import drop_in_folder
-    from gazelle.parent_process import end_with_parent
 
     end_with_parent()
     sys.excepthook = _tell

@@ -10,8 +10,8 @@ from gazelle.description.model import Model, PluginTag, World
 from gazelle.diagnostics import Diagnostic, SourceSpan
 from gazelle.doctor.dry_start import DryStart, StartPlan
 from gazelle.doctor.report import Examination, Section
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 from gazelle.simulator.plugins.registry import all_tables, looked_up, plain_name
-from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["plugins_section", "probe", "simulation_sections", "tags_section"]
 

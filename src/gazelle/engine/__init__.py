@@ -7,7 +7,7 @@ from gazelle.engine.engine import Engine, EngineState
 from gazelle.engine.joint_group import JointGroup
 from gazelle.engine.joint_handles import JointHandle
 from gazelle.engine.link_handles import LinkHandle
-from gazelle.engine.records import Acceleration, Snapshot, Velocity, Wrench
+from gazelle.engine.state import Acceleration, Snapshot, Velocity, Wrench
 
 __all__ = [
     "Acceleration",

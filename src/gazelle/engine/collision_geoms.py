@@ -1,4 +1,4 @@
-"""Collision shapes as MuJoCo geoms."""
+"""Collision shapes as MuJoCo geoms: primitives, convex hulls, height fields."""
 
 from __future__ import annotations
 
@@ -23,13 +23,14 @@ from gazelle.description.model import (
     Solid,
     Sphere,
 )
-from gazelle.diagnostics import Diagnostics
-from gazelle.engine.convex_decomposition import Piece, convex_pieces, polyline_pieces, solid_pieces
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.documents.images import PictureError, opened_picture
+from gazelle.engine.collision_meshes import Piece, convex_pieces, polyline_pieces, solid_pieces
 from gazelle.engine.mujoco_library import mujoco
-from gazelle.engine.terrain import read_terrain
 from gazelle.geometry import Pose, quat_xyzw_from_rpy
 
-__all__ = ["GeomAssets", "GeomShape", "add_geom", "geom_shapes"]
+__all__ = ["GeomAssets", "GeomShape", "add_geom", "geom_shapes", "read_terrain"]
+
 
 Array = NDArray[np.float64]
 _CONE_CORNERS = 32
@@ -151,6 +152,30 @@ def add_geom(body: Any, name: str, shape: GeomShape, T_body_geom: Pose, assets: 
     else:
         geom.size = [*shape.size, 0.0, 0.0, 0.0][:3]
     return geom
+
+
+def read_terrain(
+    shape: Heightmap, name: str, span: SourceSpan | None, diagnostics: Diagnostics
+) -> NDArray[np.float64] | None:
+    """Return the heights of a heightmap's image, 0 for black to 1 for white, row 0 at −y.
+
+    They are (rows, columns). Gazebo puts the image's top edge at the largest y.
+    """
+    if shape.path is None:
+        return None
+    try:
+        with opened_picture(shape.path) as image:
+            pixels = np.asarray(image.convert("I;16" if image.mode.startswith("I") else "L"))
+    except (OSError, PictureError) as error:
+        diagnostics.report(
+            "engine.unreadable-terrain",
+            f"the heightmap '{shape.uri}' of collision '{name}' cannot be read as an image"
+            f" ({error}); it does not collide",
+            shape.span or span,
+        )
+        return None
+    top = 65535.0 if pixels.dtype.itemsize > 1 else 255.0
+    return np.flipud(pixels).astype(np.float64) / top
 
 
 def _hull(points: Array) -> GeomShape:

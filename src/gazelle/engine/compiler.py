@@ -14,10 +14,9 @@ from gazelle.engine.contact_pairs import ExplicitPair, apply_pair_springs, set_u
 from gazelle.engine.decomposition_workers import split_ahead
 from gazelle.engine.joints import implicit_damping, keeps_turning
 from gazelle.engine.kinematic_loops import add_loop, add_world_joint
-from gazelle.engine.library_warnings import report_library_warnings
 from gazelle.engine.motors import add_motor, flywheel_inertia
 from gazelle.engine.mujoco_library import compiled as compiled_spec
-from gazelle.engine.mujoco_library import mujoco
+from gazelle.engine.mujoco_library import mujoco, report_library_warnings
 from gazelle.engine.position_locks import add_lock
 from gazelle.engine.scoped_names import root_joint, rotor_joint, scoped
 from gazelle.engine.spec_builder import SpecBuilder, VelocityDecay, mesh_collisions

@@ -1,27 +1,27 @@
-"""Who touches whom and how: bits, priorities and explicit pairs of the MuJoCo spec.
+"""Which collisions touch and how: bits, excludes, priorities and explicit pairs of the MuJoCo spec.
 
 MuJoCo takes the larger friction of two geoms, Gazebo the smaller. MuJoCo also knows priorities:
 the geom with the higher one decides alone. So the smaller a geom's friction the higher its
 priority, which gives exactly the smaller of the two at no cost. Only pairs that this cannot
 express (resolved springs, bounce, spin or rolling friction, direction-dependent friction) become
 explicit MuJoCo pairs.
+
+Gazebo's rules: links of one model collide only when both say ``self_collide`` (or their model
+does); links joined by a joint never do; two collisions touch when the and of their
+``collide_bitmask`` is not 0. MuJoCo has 32 bits, so every *kind* of collision (model and mask)
+takes one bit and lists the kinds it touches; beyond 32 kinds models share a kind and their own
+links are excluded pair by pair.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
 from typing import Any, NamedTuple
 
 from gazelle.description.model import Link, Model, Plane
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.collision_groups import (
-    EVERY_MASK,
-    CollisionKind,
-    assign_groups,
-    may_touch,
-)
 from gazelle.engine.contact_parameters import (
     HARD_SOLIMP,
     MIN_MU,
@@ -38,11 +38,48 @@ from gazelle.engine.kinematic_tree import KinematicTree
 from gazelle.engine.scoped_names import scoped
 from gazelle.engine.spec_builder import BuiltGeom, SpecBuilder
 
-__all__ = ["ExplicitPair", "apply_pair_springs", "set_up_contacts"]
+__all__ = [
+    "EVERY_MASK",
+    "CollisionKind",
+    "ExplicitPair",
+    "Group",
+    "apply_pair_springs",
+    "assign_groups",
+    "may_touch",
+    "set_up_contacts",
+]
 
+
+EVERY_MASK = 0xFFFF
+_BITS = 32
+_SIGN_BIT = 1 << 31
 _UNREACHABLE_M = 1e6
 _MAX_PAIRS = 20000
 _MAX_PLAIN_PAIRS = 400
+_Candidate = tuple[int, int, PairSurface]
+
+
+@dataclass(frozen=True, slots=True)
+class CollisionKind:
+    """What decides whether a collision touches another.
+
+    Attributes:
+        family: name of the model; empty when it has one link only, which cannot touch itself.
+        mask: ``collide_bitmask``.
+        touches_itself: ``self_collide`` of the link, or of its model.
+    """
+
+    family: str
+    mask: int = EVERY_MASK
+    touches_itself: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """MuJoCo's two bit fields of a geom."""
+
+    contype: int
+    conaffinity: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +100,6 @@ class _ClassPair(NamedTuple):
     second: list[int]
     surface: PairSurface
     is_special: bool
-
-
-_Candidate = tuple[int, int, PairSurface]
 
 
 def set_up_contacts(builder: SpecBuilder) -> tuple[ExplicitPair, ...]:
@@ -102,6 +136,52 @@ def apply_pair_springs(
         model.pair_solref[index] = spring.solref
         model.pair_solreffriction[index] = spring.solreffriction
         model.pair_solimp[index] = spring.solimp
+
+
+def may_touch(first: CollisionKind, second: CollisionKind) -> bool:
+    """Whether Gazebo lets collisions of these kinds touch."""
+    related = first.family != "" and first.family == second.family
+    if related and not (first.touches_itself and second.touches_itself):
+        return False
+    return first.mask & second.mask != 0
+
+
+def assign_groups(
+    kinds: Iterable[CollisionKind],
+) -> tuple[dict[CollisionKind, Group], frozenset[str]]:
+    """Give every kind its bits.
+
+    Returns:
+        The bits by kind, and the families whose links must be excluded pair by pair because
+        there are more kinds than bits.
+    """
+    ordered = sorted(set(kinds), key=_sort_key)
+    if len(ordered) <= _BITS:
+        return _exact(ordered), frozenset()
+    shared = [CollisionKind("", kind.mask) for kind in ordered]
+    groups = _exact(sorted(set(shared), key=_sort_key)[:_BITS])
+    everything = Group(1, 1)
+    table = {kind: groups.get(base, everything) for kind, base in zip(ordered, shared, strict=True)}
+    return table, frozenset(kind.family for kind in ordered if kind.family)
+
+
+def _sort_key(kind: CollisionKind) -> tuple[str, int, bool]:
+    return (kind.family, kind.mask, kind.touches_itself)
+
+
+def _exact(ordered: Sequence[CollisionKind]) -> dict[CollisionKind, Group]:
+    groups: dict[CollisionKind, Group] = {}
+    for index, kind in enumerate(ordered):
+        touched = sum(
+            1 << other for other, candidate in enumerate(ordered) if may_touch(kind, candidate)
+        )
+        groups[kind] = Group(_signed(1 << index), _signed(touched))
+    return groups
+
+
+def _signed(bits: int) -> int:
+    """MuJoCo keeps the fields in signed 32-bit integers."""
+    return bits - (1 << 32) if bits & _SIGN_BIT else bits
 
 
 def _kind(geom: BuiltGeom) -> CollisionKind:

@@ -59,9 +59,7 @@ FRICTION_RATE = 0.05
 bodies off the ground, for the solver's friction cone couples sliding and normal speed."""
 
 HARD_SOLIMP = (HARD_IMPEDANCE, HARD_IMPEDANCE, 0.001, 0.5, 2.0)
-
 _NEVER_BOUNCES_M_S = 1000.0
-
 SolRef = tuple[float, float]
 SolImp = tuple[float, float, float, float, float]
 

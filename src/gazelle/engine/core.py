@@ -12,24 +12,26 @@ from numpy.typing import NDArray
 from gazelle.description.model import Joint, Link, Model, World
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.engine.compiler import Compiled, Extras, compile_world
-from gazelle.engine.contacts import Contact
-from gazelle.engine.derived_state import joint_reaction, waking_copy
+from gazelle.engine.contacts import Contact, joint_reaction, waking_copy
 from gazelle.engine.divergence import require_finite, require_finite_pose
 from gazelle.engine.joint_group import JointGroup
 from gazelle.engine.joint_handles import JointHandle
-from gazelle.engine.link_handles import LinkHandle
-from gazelle.engine.model_poses import move_root, set_root_velocity
-from gazelle.engine.motor_bank import MotorBank
-from gazelle.engine.motors import MotorCommand
+from gazelle.engine.link_handles import LinkHandle, TimedWrench, WrenchTable
+from gazelle.engine.motors import MotorBank, MotorCommand
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.position_locks import LockBank
-from gazelle.engine.records import Wrench
 from gazelle.engine.scoped_names import joint_part, scoped
-from gazelle.engine.state import carry_over, initial_data, joint_names_of
+from gazelle.engine.state import (
+    Wrench,
+    carry_over,
+    initial_data,
+    joint_names_of,
+    move_root,
+    set_root_velocity,
+)
 from gazelle.engine.velocity_limits import SpeedLimits
 from gazelle.engine.welds import WeldBank
 from gazelle.engine.wheel_slip import TyreBank
-from gazelle.engine.wrenches import TimedWrench, WrenchTable
 from gazelle.errors import EngineError, NotFoundError
 from gazelle.geometry import Pose
 

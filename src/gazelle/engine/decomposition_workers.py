@@ -18,7 +18,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from gazelle.description.model import MeshShape
-from gazelle.engine.convex_decomposition import (
+from gazelle.documents.npz_files import keeps_arrays
+from gazelle.engine.collision_meshes import (
     MeshKey,
     decomposed,
     kept_file,

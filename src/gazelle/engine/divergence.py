@@ -69,9 +69,7 @@ def require_finite_pose(pose: Pose, what: str) -> None:
 
 
 Array = NDArray[np.float64]
-
 _ABSURD_SPEED = 1e6
-
 _MARK = "//"
 
 

@@ -15,16 +15,14 @@ from gazelle.engine.compiler import Compiled
 from gazelle.engine.contacts import Contact, read_contacts
 from gazelle.engine.core import EngineCore
 from gazelle.engine.divergence import Culprit, find_culprit, require_finite, require_finite_pose
-from gazelle.engine.library_warnings import report_library_warnings
-from gazelle.engine.motor_bank import POSITION_STEPS, MotorBank
-from gazelle.engine.mujoco_library import drained_warnings, mujoco
+from gazelle.engine.link_handles import WrenchTable
+from gazelle.engine.motors import POSITION_STEPS, MotorBank
+from gazelle.engine.mujoco_library import drained_warnings, mujoco, report_library_warnings
 from gazelle.engine.position_locks import LockBank
-from gazelle.engine.records import Snapshot
 from gazelle.engine.scoped_names import scoped
-from gazelle.engine.state import hash_state, set_initial_positions
+from gazelle.engine.state import Snapshot, hash_state, set_initial_positions
 from gazelle.engine.welds import WeldBank
 from gazelle.engine.wheel_slip import CENTRING_STEPS, Slip, TyreBank
-from gazelle.engine.wrenches import WrenchTable
 from gazelle.errors import EngineError, SimulationDivergedError
 from gazelle.geometry import Pose, cross
 

@@ -10,7 +10,7 @@ import numpy as np
 from gazelle.description.model import Joint, JointAxis, JointType
 from gazelle.engine.divergence import finite, place
 from gazelle.engine.motors import MotorCommand
-from gazelle.engine.records import Wrench
+from gazelle.engine.state import Wrench
 from gazelle.errors import EngineError
 
 if TYPE_CHECKING:

@@ -31,7 +31,6 @@ INFINITE_LIMIT = 1e10
 """Limits beyond this mean none (SDF writes 1e16)."""
 
 Vector3 = tuple[float, float, float]
-
 Value = TypeVar("Value", float, NDArray[np.float64])
 
 _PARALLEL = 1e-2

@@ -1,26 +1,44 @@
-"""Handles of links."""
+"""Handles of links, and the forces on them that last for a time."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.engine.mujoco_library import mujoco
-from gazelle.engine.records import Acceleration, Velocity
-from gazelle.engine.wrenches import TimedWrench
+from gazelle.engine.state import Acceleration, Velocity
 from gazelle.geometry import Pose, cross
 
 if TYPE_CHECKING:
     from gazelle.description.model import Link
     from gazelle.engine.core import EngineCore
 
-__all__ = ["LinkHandle"]
+__all__ = ["LinkHandle", "TimedWrench", "WrenchTable"]
+
 
 Array = NDArray[np.float64]
 Vector3 = tuple[float, float, float]
 _ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimedWrench:
+    """A wrench on a link.
+
+    Attributes:
+        link: ``model::link``.
+        force_n: world frame, (3,).
+        torque_nm: about the centre of mass, world frame, (3,).
+        until: first step at which it no longer acts, None for ever.
+    """
+
+    link: str
+    force_n: Array
+    torque_nm: Array
+    until: int | None
 
 
 class LinkHandle:
@@ -141,3 +159,56 @@ class LinkHandle:
             self._body = self._engine.body_id(self.name)
             self._revision = self._engine.revision
         return self._body
+
+
+@dataclass(slots=True)
+class WrenchTable:
+    """All wrenches that act now; `changed` tells that the sums must be written again."""
+
+    items: list[TimedWrench] = field(default_factory=list)
+    changed: bool = False
+
+    def add(self, item: TimedWrench) -> None:
+        """Let a wrench act from now on."""
+        self.items.append(item)
+        self.changed = True
+
+    def copy(self) -> WrenchTable:
+        """Return a copy for a saved state; the wrenches themselves never change."""
+        return WrenchTable(list(self.items), self.changed)
+
+    def remove(self, item: TimedWrench) -> None:
+        """End one wrench; one that has ended already is left alone."""
+        kept = [other for other in self.items if other is not item]
+        self.changed = self.changed or len(kept) != len(self.items)
+        self.items = kept
+
+    def clear(self, links: frozenset[str] | None = None) -> None:
+        """Remove the wrenches on some links, or all."""
+        kept = [] if links is None else [item for item in self.items if item.link not in links]
+        self.changed = self.changed or len(kept) != len(self.items)
+        self.items = kept
+
+    def steps_until_change(self, step: int, wanted: int) -> int:
+        """Return how many of the wanted steps can be made before a wrench ends."""
+        if not self.items:
+            return wanted
+        ends = [item.until - step for item in self.items if item.until is not None]
+        return max(1, min([wanted, *ends]))
+
+    def expire(self, step: int) -> None:
+        """Drop wrenches that have ended."""
+        if not self.items:
+            return
+        kept = [item for item in self.items if item.until is None or item.until > step]
+        self.changed = self.changed or len(kept) != len(self.items)
+        self.items = kept
+
+    def sums(self) -> dict[str, Array]:
+        """Return force and torque together, (6,), by link."""
+        sums: dict[str, Array] = {}
+        for item in self.items:
+            total = sums.setdefault(item.link, np.zeros(6))
+            total[:3] += item.force_n
+            total[3:] += item.torque_nm
+        return sums

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.engine.joints import equality_solver
-from gazelle.engine.model_poses import wake_tree
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import weld
+from gazelle.engine.state import wake_tree
 from gazelle.geometry import Pose
 
 __all__ = ["WeldBank", "add_weld"]

@@ -49,7 +49,6 @@ __all__ = [
 
 # Between rubber and dry concrete there is 1; some cars' tyres reach 2.
 MAX_WHEEL_MU = 2.0
-
 # Coefficients further apart mean a wheel that glides one way, as an omni wheel does.
 _ONE_SIZE = 0.25
 
@@ -106,19 +105,14 @@ def _is_endless(joint: Joint) -> bool:
 
 
 CENTRING_STEPS = 10
-
 """Tyres are put back after at most so many steps."""
 
 _MIN_SLIP = 1e-8
-
 """Stands for none, m/s per N: a wheel under 100 N creeps a micrometre a second."""
 
 _TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
-
 _ALONG = 0.99
-
 _MASS_KG = 1e-6
-
 _SPIN, _SLIDE = "tyre-spin", "tyre-slide"
 
 

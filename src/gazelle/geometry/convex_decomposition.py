@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.documents.npz_files import keep_arrays, kept_arrays
-from gazelle.folders import cache_folder
 from gazelle.geometry.mesh import Mesh, MeshPart, part_from_soup
 from gazelle.geometry.vertex_normals import group_points
+from gazelle.user_folders import cache_folder
 
 __all__ = [
     "ConvexParts",

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from gazelle.errors import GazelleError
 from gazelle.graph.console import Level, LogRecord, print_record
 from gazelle.graph.glibc_malloc import return_large_blocks
-from gazelle.process_exit import called_by_library
+from gazelle.process_lifetime import called_by_library
 
 __all__ = ["Bound", "Mailbox"]
 

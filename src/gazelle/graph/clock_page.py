@@ -10,8 +10,7 @@ import struct
 from functools import cache
 from pathlib import Path
 
-from gazelle.temporary_files import own_prefix, sweep
-from gazelle.user_folders import runtime_folder
+from gazelle.user_folders import own_prefix, runtime_folder, sweep
 
 __all__ = ["ClockPage", "PageView", "Reading", "machine_name"]
 

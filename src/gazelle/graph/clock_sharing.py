@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gazelle.graph.callback_queue import Mailbox
 from gazelle.graph.clock_page import ClockPage, PageView, machine_name
 from gazelle.graph.key_expressions import Entity, Kind, clock_key
-from gazelle.process_exit import called_by_library
+from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph

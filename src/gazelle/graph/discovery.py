@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
 from gazelle.graph.key_expressions import Entity, Kind, entity_gid, token_selector
-from gazelle.process_exit import called_by_library
+from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:
     import zenoh

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.errors import GraphError
 from gazelle.graph.locators import claim_hub, hub_endpoint, is_hub, share, sweep_sockets
 from gazelle.graph.sessions import client_config, close_session, hub_config
-from gazelle.process_exit import called_by_library
+from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:
     import zenoh

@@ -19,7 +19,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from gazelle.errors import GraphError
-from gazelle.temporary_files import own_prefix, sweep
+from gazelle.user_folders import own_prefix, sweep
 
 __all__ = [
     "VARIABLE",

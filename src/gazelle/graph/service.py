@@ -33,7 +33,7 @@ from gazelle.graph.key_expressions import (
 )
 from gazelle.graph.names import is_hidden
 from gazelle.graph.service_requests import Answer, InTurn, Repeats, Turn, Turns
-from gazelle.process_exit import called_by_library
+from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph

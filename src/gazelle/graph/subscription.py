@@ -13,7 +13,7 @@ from gazelle.graph import type_support
 from gazelle.graph.callback_queue import Bound, Mailbox
 from gazelle.graph.errors import coded
 from gazelle.graph.key_expressions import Attachment, Entity, token, topic_selector, type_in_key
-from gazelle.process_exit import called_by_library
+from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph

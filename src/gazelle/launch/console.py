@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 from gazelle.documents.yaml import dump_yaml
-from gazelle.folders import ros_log_folder
 from gazelle.launch.config import LaunchConfig
 from gazelle.log_files import LogStream
 from gazelle.parameters.trees import leaves_at
-from gazelle.process_exit import drop_output, when_nobody_reads
+from gazelle.process_lifetime import drop_output, when_nobody_reads
+from gazelle.user_folders import ros_log_folder
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from gazelle.process_exit import end_at_interrupts
+from gazelle.process_lifetime import end_at_interrupts, end_with_parent
 
 __all__ = ["main"]
 
@@ -13,8 +13,6 @@ __all__ = ["main"]
 def main(words: list[str]) -> int:
     """Replace this process by the command; the parent-death signal survives exec."""
     end_at_interrupts()
-    from gazelle.parent_process import end_with_parent
-
     end_with_parent()
     try:
         os.execvp(words[0], words)  # noqa: S606 - starting what a launch file names is the purpose

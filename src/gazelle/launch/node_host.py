@@ -14,7 +14,7 @@ from typing import Any
 
 from gazelle.launch.config import NodeTag
 from gazelle.launch.node_process import node_words
-from gazelle.parent_process import PARENT_VARIABLE
+from gazelle.process_lifetime import PARENT_VARIABLE
 
 __all__ = ["HostEnded", "NodeEnded", "NodeHost", "NodeReady"]
 

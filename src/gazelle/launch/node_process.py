@@ -16,8 +16,7 @@ from typing import IO
 
 from gazelle.launch.config import NodeTag
 from gazelle.launch.executables import Executable
-from gazelle.parent_process import PARENT_VARIABLE
-from gazelle.process_exit import interrupts_held
+from gazelle.process_lifetime import PARENT_VARIABLE, interrupts_held
 
 __all__ = [
     "LaunchedProcess",

@@ -19,7 +19,7 @@ from urllib.parse import urlsplit
 
 from gazelle.errors import GraphError
 from gazelle.graph import Graph, NoGraphError
-from gazelle.parent_process import PARENT_VARIABLE
+from gazelle.process_lifetime import PARENT_VARIABLE
 
 if TYPE_CHECKING:
     from gazelle.launch.console import Console

@@ -7,8 +7,15 @@ import signal
 import sys
 from pathlib import Path
 
-from gazelle.process_exit import StopEvent, at_stop_signal, end_at_interrupts, end_with
-from gazelle.process_start import collect_garbage_rarely, want_one_blas_thread
+from gazelle.process_lifetime import (
+    StopEvent,
+    at_stop_signal,
+    collect_garbage_rarely,
+    end_at_interrupts,
+    end_with,
+    end_with_parent,
+    want_one_blas_thread,
+)
 from gazelle.python_warnings import shorten_library_warnings
 
 __all__ = ["main"]
@@ -20,8 +27,6 @@ _PATIENCE_S = 3.0
 def main(argv: list[str]) -> int:
     """Run a node, or a host of nodes, in this process."""
     end_at_interrupts()
-    from gazelle.parent_process import end_with_parent
-
     end_with_parent()
     if argv and argv[0] == "--host":
         from gazelle.nodes.host import host

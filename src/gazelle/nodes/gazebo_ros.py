@@ -9,7 +9,7 @@ from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_output import print_ros2
 from gazelle.nodes.parameters import start_node
-from gazelle.simulator.server_parameters import PARAMETERS
+from gazelle.simulator.gzserver_parameters import PARAMETERS
 
 __all__ = ["PARAMETERS", "run_gzserver", "run_spawn_entity", "run_spawn_model"]
 

@@ -16,8 +16,8 @@ from gazelle.sensors.camera_kernel_arguments import Lighting, Output, Packet, Su
 from gazelle.sensors.distortion import distort, is_distorting
 from gazelle.sensors.embree import packet_buffer
 from gazelle.sensors.intrinsics import camera_intrinsics
-from gazelle.sensors.parallel_rows import default_threads, each_band, row_bands
 from gazelle.sensors.ray_scene import SHADOW_BIT, RayScene
+from gazelle.sensors.row_threads import default_threads, each_band, row_bands
 from gazelle.sensors.shading_tables import (
     ShadingTables,
     light_table,

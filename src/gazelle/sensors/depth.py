@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.sensors.intrinsics import Intrinsics
-from gazelle.sensors.parallel_rows import default_threads, each_band, row_bands
+from gazelle.sensors.row_threads import default_threads, each_band, row_bands
 
 __all__ = ["POINT_DTYPE", "depth_image", "point_cloud"]
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import ImuSpec
 from gazelle.geometry import IDENTITY_POSE, Pose, cross, quat_xyzw_from_rpy
-from gazelle.sensors.vector_noise import VectorNoise
+from gazelle.sensors.noise import VectorNoise
 
 __all__ = ["ImuRecord", "LinkMotion", "imu_noise", "imu_reading"]
 

@@ -1,22 +1,58 @@
-"""A ray scene's looks as plain arrays for the kernels."""
+"""A ray scene's materials, textures, lights and background as plain arrays for the kernels."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.model import Light, LightType, Material
+from gazelle.description.model import Light, LightType, Material, Scene
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.documents.images import PictureError, opened_picture
 from gazelle.geometry import MeshMaterial
-from gazelle.sensors.background import background_colours
 from gazelle.sensors.ray_scene import Instance, PlacedLight, RayScene
 from gazelle.sensors.ray_surfaces import Surface, SurfacePart
-from gazelle.sensors.textures import TextureAtlas
 
-__all__ = ["ShadingTables", "light_table", "normal_matrices", "shading_tables"]
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
+__all__ = [
+    "LEVELS",
+    "ShadingTables",
+    "TextureAtlas",
+    "background_colours",
+    "light_table",
+    "normal_matrices",
+    "shading_tables",
+]
+
+
+_SKY = (
+    # sine of the elevation; red, green, blue in 0…255
+    (-1.000, (150, 150, 135)),
+    (-0.200, (170, 170, 155)),
+    (-0.127, (180, 182, 169)),
+    (-0.095, (186, 191, 185)),
+    (-0.064, (189, 196, 199)),
+    (0.000, (189, 199, 217)),
+    (0.062, (182, 195, 223)),
+    (0.125, (173, 188, 224)),
+    (0.185, (163, 179, 222)),
+    (0.244, (153, 169, 217)),
+    (0.300, (143, 160, 212)),
+    (0.354, (135, 152, 207)),
+    (0.600, (105, 122, 190)),
+    (1.000, (78, 96, 172)),
+)
+
+
+_SKY_ROWS = 257
+LEVELS = 13
+_MAX_PX = 1 << (LEVELS - 1)
 _LIGHT_TYPES = {LightType.DIRECTIONAL: 0.0, LightType.POINT: 1.0, LightType.SPOT: 2.0}
 _LIGHT_COLUMNS, _MATERIAL_COLUMNS = 21, 16
 _DEFAULT_MATERIAL = MeshMaterial(shininess=0.0)
@@ -57,19 +93,6 @@ class ShadingTables:
     level_count: NDArray[np.int64]
     ambient: NDArray[np.float32]
     background: NDArray[np.float32]
-
-
-@dataclass(slots=True)
-class _Looks:
-    """Rows collected while going over the instances."""
-
-    atlas: TextureAtlas
-    materials: list[list[float]]
-    textures: list[int]
-    lit: list[bool]
-    parts: list[tuple[int, int, int]]
-    density: list[float]
-    starts: list[int]
 
 
 def shading_tables(scene: RayScene) -> ShadingTables:
@@ -130,6 +153,114 @@ def light_table(lights: tuple[PlacedLight, ...], *, shadows: bool) -> NDArray[np
         row[19] = light.spot_falloff
         row[20] = shadows and light.cast_shadows
     return rows
+
+
+def background_colours(scene: Scene) -> NDArray[np.float32]:
+    """Return the background from straight down to straight up, (rows, 3) float32 in 0…1.
+
+    Rows are equal steps of the sine of the elevation. Without a sky there is one row: the
+    scene's background colour. The sky is cloudless, in the mean colours over all azimuths that
+    recorded pictures of Gazebo Classic's default sky show.
+    """
+    if not scene.sky:
+        return np.array([scene.background[:3]], np.float32)
+    heights = np.linspace(-1.0, 1.0, _SKY_ROWS)
+    known = [height for height, _ in _SKY]
+    channels = [
+        np.interp(heights, known, [colour[channel] / 255.0 for _, colour in _SKY])
+        for channel in range(3)
+    ]
+    return np.ascontiguousarray(np.stack(channels, axis=1), np.float32)
+
+
+class TextureAtlas:
+    """Collects textures and lays them out one after the other.
+
+    Attributes:
+        diagnostics: told about images that cannot be read.
+    """
+
+    def __init__(self, diagnostics: Diagnostics) -> None:
+        self.diagnostics = diagnostics
+        self._numbers: dict[object, int] = {}
+        self._chains: list[list[NDArray[np.uint8]]] = []
+
+    def add(self, source: Path | bytes | None) -> int:
+        """Return a texture's number, -1 for none or one that cannot be read."""
+        if source is None:
+            return -1
+        if source not in self._numbers:
+            pixels = self._read(source)
+            self._numbers[source] = -1 if pixels is None else len(self._chains)
+            if pixels is not None:
+                self._chains.append(_reduced_copies(pixels))
+        return self._numbers[source]
+
+    def width_px(self, number: int) -> int:
+        """Return a texture's full width."""
+        return int(self._chains[number][0].shape[1])
+
+    def packed(
+        self,
+    ) -> tuple[NDArray[np.uint8], NDArray[np.int64], NDArray[np.int64]]:
+        """Return texels, (T, LEVELS, 3) offset, width, height of each level, (T,) counts."""
+        levels = np.zeros((max(1, len(self._chains)), LEVELS, 3), np.int64)
+        counts = np.ones(max(1, len(self._chains)), np.int64)
+        offset = 0
+        for number, chain in enumerate(self._chains):
+            counts[number] = len(chain)
+            for level, pixels in enumerate(chain):
+                levels[number, level] = (offset, pixels.shape[1], pixels.shape[0])
+                offset += pixels.size
+        flat = [pixels.ravel() for chain in self._chains for pixels in chain]
+        return np.concatenate(flat) if flat else np.zeros(12, np.uint8), levels, counts
+
+    def _read(self, source: Path | bytes) -> NDArray[np.uint8] | None:
+        try:
+            with opened_picture(source) as image:
+                return np.asarray(_power_of_two(image.convert("RGB")))
+        except (OSError, PictureError) as error:
+            name = "embedded in a mesh" if isinstance(source, bytes) else f"'{source}'"
+            place = None if isinstance(source, bytes) else SourceSpan(str(source))
+            self.diagnostics.report(
+                "sensors.unreadable-texture",
+                f"texture {name} cannot be read ({error}); the plain colour is shown",
+                place,
+            )
+            return None
+
+
+def _power_of_two(image: Image) -> Image:
+    from PIL.Image import Resampling
+
+    sides = [min(_MAX_PX, 1 << (side - 1).bit_length()) for side in image.size]
+    size = (sides[0], sides[1])
+    return image if image.size == size else image.resize(size, Resampling.BICUBIC)
+
+
+def _reduced_copies(pixels: NDArray[np.uint8]) -> list[NDArray[np.uint8]]:
+    chain = [np.ascontiguousarray(pixels)]
+    exact: NDArray[np.floating] = pixels.astype(np.float32)
+    while max(exact.shape[:2]) > 1:
+        if exact.shape[0] > 1:
+            exact = (exact[0::2] + exact[1::2]) / 2
+        if exact.shape[1] > 1:
+            exact = (exact[:, 0::2] + exact[:, 1::2]) / 2
+        chain.append(np.round(exact).astype(np.uint8))
+    return chain
+
+
+@dataclass(slots=True)
+class _Looks:
+    """Rows collected while going over the instances."""
+
+    atlas: TextureAtlas
+    materials: list[list[float]]
+    textures: list[int]
+    lit: list[bool]
+    parts: list[tuple[int, int, int]]
+    density: list[float]
+    starts: list[int]
 
 
 def _attenuation(light: Light) -> tuple[float, float, float]:

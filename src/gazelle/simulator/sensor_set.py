@@ -1,4 +1,4 @@
-"""Reads the sensors of a world: keeps the ray scenes and noise sources, computes on demand."""
+"""The sensors of a world: checked before it runs, read on demand with ray scenes and noise."""
 
 from __future__ import annotations
 
@@ -9,14 +9,19 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.description.model import (
     CameraSpec,
+    ContactSpec,
+    ForceTorqueSpec,
+    GpsSpec,
     ImuSpec,
     LidarSpec,
     Light,
+    LogicalCameraSpec,
     Model,
     Noise,
     SonarSpec,
     World,
 )
+from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.geometry import Pose
 from gazelle.simulator.measurements import Measurements
 from gazelle.simulator.plugins.context import SensorPlace
@@ -34,16 +39,7 @@ if TYPE_CHECKING:
         VectorNoise,
     )
 
-__all__ = ["SensorSet", "View", "camera_members", "sensor_places"]
-
-
-@dataclass(slots=True)
-class _ImuState:
-    """What an IMU carries from one reading to the next."""
-
-    noise: VectorNoise
-    initial_xyzw: tuple[float, float, float, float]
-    last_ns: int
+__all__ = ["SensorSet", "View", "camera_members", "check_sensor", "sensor_places"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,34 +66,6 @@ class View:
         assert model is not None
         assert link is not None
         return model.T_world_model @ link.T_model_link
-
-
-def sensor_places(model: Model) -> Iterator[SensorPlace]:
-    """Yield the sensors on a model's links, then those in its joints, in the order of the file."""
-    for link in model.links:
-        link_name = f"{model.name}::{link.name}"
-        for sensor in link.sensors:
-            yield SensorPlace(f"{link_name}::{sensor.name}", link_name, sensor)
-    for joint in model.joints:
-        joint_name, child = f"{model.name}::{joint.name}", f"{model.name}::{joint.child}"
-        for sensor in joint.sensors:
-            yield SensorPlace(f"{joint_name}::{sensor.name}", child, sensor, joint_name)
-
-
-def camera_members(place: SensorPlace) -> tuple[SensorPlace, ...]:
-    """Return the cameras of a ``multicamera`` as places of their own; any other camera itself."""
-    spec = place.sensor.spec
-    assert isinstance(spec, CameraSpec)
-    if not spec.members:
-        return (place,)
-    return tuple(
-        replace(
-            place,
-            name=f"{place.name}::{member.name}",
-            sensor=replace(place.sensor, spec=member, name=member.name),
-        )
-        for member in spec.members
-    )
 
 
 class SensorSet:
@@ -294,3 +262,94 @@ class SensorSet:
         if key not in self._picture_noises:
             self._picture_noises[key] = picture_noise(spec.noise, self._seed, place.name)
         return self._picture_noises[key]
+
+
+def sensor_places(model: Model) -> Iterator[SensorPlace]:
+    """Yield the sensors on a model's links, then those in its joints, in the order of the file."""
+    for link in model.links:
+        link_name = f"{model.name}::{link.name}"
+        for sensor in link.sensors:
+            yield SensorPlace(f"{link_name}::{sensor.name}", link_name, sensor)
+    for joint in model.joints:
+        joint_name, child = f"{model.name}::{joint.name}", f"{model.name}::{joint.child}"
+        for sensor in joint.sensors:
+            yield SensorPlace(f"{joint_name}::{sensor.name}", child, sensor, joint_name)
+
+
+def camera_members(place: SensorPlace) -> tuple[SensorPlace, ...]:
+    """Return the cameras of a ``multicamera`` as places of their own; any other camera itself."""
+    spec = place.sensor.spec
+    assert isinstance(spec, CameraSpec)
+    if not spec.members:
+        return (place,)
+    return tuple(
+        replace(
+            place,
+            name=f"{place.name}::{member.name}",
+            sensor=replace(place.sensor, spec=member, name=member.name),
+        )
+        for member in spec.members
+    )
+
+
+def check_sensor(place: SensorPlace, model: Model, world: World, diagnostics: Diagnostics) -> bool:
+    """Report what is wrong with a sensor; True when it can be read."""
+    spec = place.sensor.spec
+    if isinstance(spec, LogicalCameraSpec):
+        text = f"sensor '{place.name}' is of type '{place.sensor.type}', which is not simulated"
+        diagnostics.report("simulator.sensor-not-simulated", text, place.sensor.span)
+        return False
+    if isinstance(spec, ForceTorqueSpec) != bool(place.joint_name):
+        _report_misplaced(place, model, diagnostics)
+        return False
+    if isinstance(spec, ContactSpec):
+        _check_collisions(place, spec, model, diagnostics)
+    if isinstance(spec, GpsSpec) and world.spherical_coordinates is None:
+        text = f"sensor '{place.name}' measures where on Earth it is, and the world has no "
+        text += "<spherical_coordinates>: it counts from latitude 0, longitude 0"
+        diagnostics.report("simulator.no-place-on-earth", text, place.sensor.span)
+    return True
+
+
+def _report_misplaced(place: SensorPlace, model: Model, diagnostics: Diagnostics) -> None:
+    kind, name = place.sensor.type, place.sensor.name
+    if place.joint_name:
+        joint = place.joint_name.split("::", 1)[1]
+        fix = f"move it to a link, such as '{place.link_name.split('::', 1)[1]}'"
+        text = f"sensor '{name}' of type '{kind}' sits in joint '{joint}' and needs a link"
+    else:
+        link = place.link_name.split("::", 1)[1]
+        held = [joint.name for joint in model.joints if joint.child == link]
+        text = f"sensor '{name}' of type '{kind}' sits on link '{link}' and needs a joint"
+        fix = f"move it to joint '{held[0]}'" if held else "move it to a joint"
+    diagnostics.report(
+        "simulator.sensor-misplaced", f"{text}; it gives no data", place.sensor.span, fix=fix
+    )
+
+
+def _check_collisions(
+    place: SensorPlace, spec: ContactSpec, model: Model, diagnostics: Diagnostics
+) -> None:
+    link = model.link(place.link_name.split("::", 1)[1])
+    assert link is not None
+    names = [collision.name for collision in link.collisions]
+    of_others = {f"{one.name}::{item.name}" for one in model.links for item in one.collisions}
+    for wanted in spec.collisions:
+        if wanted not in names and wanted not in of_others:
+            text = f"contact sensor '{place.name}' watches collision '{wanted}', which link "
+            text += f"'{link.name}' does not have: it never feels anything there"
+            fix = did_you_mean(wanted, names) or f"the link's collisions: {', '.join(names) or '-'}"
+            diagnostics.report("simulator.no-such-collision", text, place.sensor.span, fix=fix)
+    if not spec.collisions:
+        text = f"contact sensor '{place.name}' names no collision: it never feels anything"
+        fix = f"write <collision>{names[0]}</collision>" if names else ""
+        diagnostics.report("simulator.no-such-collision", text, place.sensor.span, fix=fix)
+
+
+@dataclass(slots=True)
+class _ImuState:
+    """What an IMU carries from one reading to the next."""
+
+    noise: VectorNoise
+    initial_xyzw: tuple[float, float, float, float]
+    last_ns: int

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Self
 
@@ -17,7 +17,6 @@ from gazelle.geometry import Pose
 from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.description_sources import Source, loaded_from, models_from, world_from
 from gazelle.simulator.local_node import LocalNode
-from gazelle.simulator.name_lookup import full_name
 from gazelle.simulator.node_interfaces import NodePort, SubscriptionPort
 from gazelle.simulator.simulation_handles import (
     JointOfSimulation,
@@ -31,9 +30,9 @@ from gazelle.workspace import Workspace
 
 if TYPE_CHECKING:
     from gazelle.graph.actions import LocalGoal
-    from gazelle.simulator.controllers import ControllersOfSimulation
+    from gazelle.simulator.simulation_handles import ControllersOfSimulation
 
-__all__ = ["Simulation"]
+__all__ = ["Simulation", "full_name"]
 
 
 class Simulation:
@@ -280,7 +279,7 @@ class Simulation:
         Raises:
             NotFoundError: no robot has one, or several have.
         """
-        from gazelle.simulator.controllers import ControllersOfSimulation
+        from gazelle.simulator.simulation_handles import ControllersOfSimulation
 
         return ControllersOfSimulation(self.server, self.server.controls.manager(namespace))
 
@@ -315,6 +314,30 @@ class Simulation:
     def subscribe(self, topic: str, callback: Callable[[Any], None]) -> SubscriptionPort:
         """Receive a topic: `callback` is called within `step`, when a message is published."""
         return self.server.node.create_subscription(topic, None, callback, inline=True)
+
+
+def full_name(kind: str, name: str, existing: Iterable[str]) -> str:
+    """Return the one full name (``model::part``) that `name` means.
+
+    A name without its model is enough while it is unique.
+
+    Raises:
+        NotFoundError: there is none, or several models have it; the message lists the nearest
+            names or all that fit.
+    """
+    names = tuple(existing)
+    if name in names:
+        return name
+    fitting = [item for item in names if item.endswith(f"::{name}")]
+    if len(fitting) == 1:
+        return fitting[0]
+    if fitting:
+        hint = "several have this name: " + ", ".join(f"'{item}'" for item in fitting)
+        raise NotFoundError(kind, name, hint=hint)
+    by_last = {item.split("::", 1)[-1]: item for item in names}
+    nearest = nearest_names(name, [*by_last, *names])
+    hint = "" if nearest else "there are: " + ", ".join(f"'{item}'" for item in names[:12])
+    raise NotFoundError(kind, name, nearest=nearest, hint=hint)
 
 
 def _placed(model: Model, name: str | None, pose: Pose | None) -> Model:

@@ -14,7 +14,6 @@ from gazelle.errors import SimulationDivergedError
 from gazelle.geometry import Pose, announcing
 from gazelle.simulator.command_queue import CommandQueue, error_text, telling
 from gazelle.simulator.controller_managers import ControlRegistry
-from gazelle.simulator.disturbances import Disturbances
 from gazelle.simulator.divergence_recovery import OnDivergence, Recovery
 from gazelle.simulator.input_validation import Arrival, Inputs
 from gazelle.simulator.local_node import LocalNode
@@ -22,13 +21,12 @@ from gazelle.simulator.node_interfaces import NodePort
 from gazelle.simulator.plugins.bumper import publish_contact_sensor
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
 from gazelle.simulator.plugins.gz_sensors import publish_sensor
-from gazelle.simulator.plugins.gz_worlds import is_gz_world
+from gazelle.simulator.plugins.gz_systems import is_gz_world
 from gazelle.simulator.plugins.registry import load_plugin
 from gazelle.simulator.render_thread import FrameWorker
 from gazelle.simulator.scheduler import Scheduler, Task
-from gazelle.simulator.sensor_checks import check_sensor
-from gazelle.simulator.sensor_set import SensorSet, sensor_places
-from gazelle.simulator.wall_clock import Mode, Pace
+from gazelle.simulator.sensor_set import SensorSet, check_sensor, sensor_places
+from gazelle.simulator.wall_clock import Disturbances, Mode, Pace
 
 if TYPE_CHECKING:
     from gazelle.workspace import Workspace

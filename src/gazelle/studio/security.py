@@ -24,7 +24,7 @@ from urllib.parse import parse_qs, urlsplit
 from websockets.datastructures import Headers
 
 from gazelle.errors import GraphError
-from gazelle.folders import state_folder
+from gazelle.user_folders import state_folder
 
 __all__ = [
     "CONTENT_SECURITY_POLICY",

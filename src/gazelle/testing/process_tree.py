@@ -11,7 +11,7 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from gazelle.parent_process import PARENT_VARIABLE
+from gazelle.process_lifetime import PARENT_VARIABLE
 
 __all__ = ["ProcessTree", "launch_environment"]
 

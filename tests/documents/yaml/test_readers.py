@@ -48,7 +48,7 @@ from gazelle.launch.ros2.utilities.type_utils import coerce_to_type
 from gazelle.mapping.grids.map_yaml import read_map_file
 from gazelle.nodes.controller_manager.spawner import controllers_in_file
 from gazelle.nodes.ros_gz.bridge_config import read_file as read_bridge_rows
-from gazelle.simulator.parameter_input import give_parameters
+from gazelle.simulator.simulation_parameters import give_parameters
 from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.message_forms import _yaml as read_form_field
 from gazelle.studio.request_params import Params

@@ -6,8 +6,7 @@ from gazelle.description.model import PluginTag
 from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.parameters import Parameter, ParameterTable
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 
 TABLE = PluginTable(
     ParameterTable(

@@ -7,8 +7,8 @@ import pytest
 
 from gazelle.diagnostics import Severity
 from gazelle.simulator import Simulation
+from gazelle.simulator.plugins.plugin_parameters import tables_as_markdown
 from gazelle.simulator.plugins.registry import all_tables, known_names, plain_name
-from gazelle.simulator.plugins.table import tables_as_markdown
 from gazelle.simulator.plugins.unsupported_plugins import NOTHING_TABLE
 from gazelle.simulator.plugins.unsupported_plugins import TABLE as NAMED_TABLE
 

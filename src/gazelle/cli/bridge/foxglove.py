@@ -12,7 +12,7 @@ from gazelle.bridge.foxglove.server_interface import Requests
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
-from gazelle.process_exit import at_stop_signal
+from gazelle.process_lifetime import at_stop_signal
 from gazelle.workspace import Workspace
 
 __all__ = ["main"]

@@ -10,7 +10,7 @@ import threading
 from gazelle.bridge.ros2 import About, Bridge, candidates, is_open
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.graph import Graph
-from gazelle.process_exit import at_stop_signal
+from gazelle.process_lifetime import at_stop_signal
 
 __all__ = ["main"]
 

@@ -12,7 +12,7 @@ from gazelle.cli.ros2.verbs import guarded
 from gazelle.cli.tool import ToolError
 from gazelle.diagnostics import Severity, did_you_mean, render
 from gazelle.launch.environment import drop_in_folder, node_environment
-from gazelle.process_exit import when_nobody_reads
+from gazelle.process_lifetime import when_nobody_reads
 from gazelle.workspace.ament_index import (
     PackageNotFoundError,
     get_package_share_directory,

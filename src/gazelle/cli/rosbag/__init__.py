@@ -7,7 +7,7 @@ import threading
 from gazelle.cli.tool import Tool, joined, run_tool
 from gazelle.graph import Graph, Node
 from gazelle.graph.names import CommandLine, parse_command_line
-from gazelle.process_exit import at_stop_signal
+from gazelle.process_lifetime import at_stop_signal
 
 __all__ = ["main", "play", "record"]
 

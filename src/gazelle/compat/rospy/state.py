@@ -18,7 +18,7 @@ from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Level, Node, offer_loggers
 from gazelle.graph.names import CommandLine, parse_command_line, resolve
 from gazelle.nodes.log_output import keep_log
-from gazelle.process_exit import raise_or_end
+from gazelle.process_lifetime import raise_or_end
 
 __all__ = ["STATE", "NodeState"]
 

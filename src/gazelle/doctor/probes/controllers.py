@@ -13,8 +13,8 @@ from gazelle.control.errors import ControllerError
 from gazelle.description.model import JointType, Model
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.report import Section
-from gazelle.simulator.controllers import ControllersOfSimulation
 from gazelle.simulator.simulation import Simulation
+from gazelle.simulator.simulation_handles import ControllersOfSimulation
 
 __all__ = ["probe_controllers"]
 

@@ -1,25 +1,46 @@
-"""MJCF to `World`: every body that hangs on the world is a model."""
+"""MJCF to `World`: every body that hangs on the world is a model.
+
+Equality constraints become mimicking joints and joints that close loops; what else a file
+holds is reported.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from gazelle.description.model import Joint, Link, Model, Physics, World
+from gazelle.description.model import Joint, JointType, Link, Mimic, Model, Physics, World
 from gazelle.description.writers.output_files import Beside
-from gazelle.description.writers.unscoped_names import free_name
+from gazelle.description.writers.unscoped_names import free_name, part_names
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf.body_reader import BodyReader
-from gazelle.engine.mjcf.constraints import add_constraints
 from gazelle.engine.mjcf.geom_reader import GeomReader
-from gazelle.engine.mjcf.mjcf_file import CompiledMjcf, compiled_mjcf
-from gazelle.engine.mjcf.sources import is_mjcf
-from gazelle.engine.mjcf.unsupported_elements import report_unsaid
-from gazelle.geometry import IDENTITY_POSE
+from gazelle.engine.mjcf.mjcf_file import CompiledMjcf, compiled_mjcf, is_mjcf
+from gazelle.engine.mujoco_library import mujoco
+from gazelle.geometry import IDENTITY_POSE, Pose
 
-__all__ = ["is_mjcf", "read_mjcf"]
+__all__ = ["add_constraints", "is_mjcf", "read_mjcf", "report_unsaid"]
+
+
+_ELEMENTS = {
+    "actuator": ("nu", "an effort limit is kept where they have one"),
+    "sensor": ("nsensor", ""),
+    "site": ("nsite", ""),
+    "camera": ("ncam", ""),
+    "light": ("nlight", ""),
+    "tendon": ("ntendon", ""),
+    "keyframe": ("nkey", ""),
+    "contact pair": ("npair", "the geoms' own friction counts"),
+    "contact exclusion": ("nexclude", "URDF and SDF only know it for whole models"),
+    "mocap body": ("nmocap", "it stands still"),
+    "flexible body": ("nflex", ""),
+    "skin": ("nskin", ""),
+}
+
 
 _SCENERY = "scenery"
 _UNNAMED = "MuJoCo Model"
@@ -65,6 +86,117 @@ def read_mjcf(
         file=path,
         span=mjcf.source.root.span,
     )
+
+
+def add_constraints(
+    models: Sequence[Model], mjcf: CompiledMjcf, diagnostics: Diagnostics
+) -> list[Model]:
+    """Return the models with what ``<equality>`` says about joints and bodies of one model.
+
+    ``joint`` becomes a mimic, ``connect`` a ball joint and ``weld`` a fixed joint that closes a
+    loop; everything else is reported.
+    """
+    result = list(models)
+    for index in range(mjcf.model.neq):
+        span = mjcf.source.root.span
+        done = _mimicked(result, index, mjcf) or _closed(result, index, mjcf)
+        if done is None:
+            name = mjcf.model.eq(index).name or f"number {index + 1}"
+            kind = mujoco.mjtEq(int(mjcf.model.eq_type[index])).name.removeprefix("mjEQ_").lower()
+            message = f"the equality constraint {name} ({kind}) has no word in URDF and SDF"
+            diagnostics.report("convert.left-out", message, span)
+        else:
+            result = done
+    return result
+
+
+def report_unsaid(mjcf: CompiledMjcf, diagnostics: Diagnostics) -> None:
+    """Report what has no place in a `World`, each kind once, with the place of the first."""
+    model: Any = mjcf.model
+    for word, (counter, note) in _ELEMENTS.items():
+        count = int(getattr(model, counter))
+        if count:
+            plural = word if count == 1 else _plural(word)
+            message = f"{count} {plural} of the file {'is' if count == 1 else 'are'} left out"
+            message += f"; {note}" if note else ""
+            diagnostics.report("convert.left-out", message, mjcf.source.root.span)
+    _report_dynamics(mjcf, diagnostics)
+    for old, new in mjcf.renamed:
+        message = f"joint '{old}' is called '{new}', for a body has its name"
+        diagnostics.report("convert.renamed", message, mjcf.source.span("joint", old))
+
+
+def _mimicked(models: list[Model], index: int, mjcf: CompiledMjcf) -> list[Model] | None:
+    """``y − y₀ = a₀ + a₁ (x − x₀)`` as ``y = a₁ x + (y₀ + a₀ − a₁ x₀)``."""
+    model: Any = mjcf.model
+    if int(model.eq_type[index]) != int(mujoco.mjtEq.mjEQ_JOINT) or not model.eq_active0[index]:
+        return None
+    follower, leader = int(model.eq_obj1id[index]), int(model.eq_obj2id[index])
+    constant, factor, *higher = (float(value) for value in model.eq_data[index][:5])
+    if leader < 0 or any(higher):
+        return None
+    start = [float(model.qpos0[model.jnt_qposadr[joint]]) for joint in (follower, leader)]
+    mimic = Mimic(mjcf.joints[leader], factor, start[0] + constant - factor * start[1])
+    name = mjcf.joints[follower]
+    for place, item in enumerate(models):
+        joint = item.joint(name)
+        if joint is not None and joint.mimic is None and item.joint(mimic.joint) is not None:
+            joints = (replace(j, mimic=mimic) if j is joint else j for j in item.joints)
+            return [*models[:place], replace(item, joints=tuple(joints)), *models[place + 1 :]]
+    return None
+
+
+def _closed(models: list[Model], index: int, mjcf: CompiledMjcf) -> list[Model] | None:
+    model: Any = mjcf.model
+    kinds = {
+        int(mujoco.mjtEq.mjEQ_CONNECT): JointType.BALL,
+        int(mujoco.mjtEq.mjEQ_WELD): JointType.FIXED,
+    }
+    kind = kinds.get(int(model.eq_type[index]))
+    of_bodies = int(model.eq_objtype[index]) == int(mujoco.mjtObj.mjOBJ_BODY)
+    if kind is None or not of_bodies or not model.eq_active0[index]:
+        return None
+    first, second = (mjcf.bodies[int(ids[index])] for ids in (model.eq_obj1id, model.eq_obj2id))
+    for place, item in enumerate(models):
+        links = [item.link(name) for name in (first, second)]
+        parent, child = links
+        if parent is None or child is None:
+            continue
+        frame = child.T_model_link
+        if kind is JointType.BALL:
+            anchor = parent.T_model_link.transform(np.asarray(model.eq_data[index][:3]))
+            x, y, z = (float(value) for value in anchor)
+            frame = Pose((x, y, z))
+        wanted = model.eq(index).name or f"{first}_{second}_{kind.value}"
+        name = free_name(wanted, part_names(item))
+        joint = Joint(name, kind, first, second, frame, span=item.span)
+        joined = replace(item, joints=(*item.joints, joint))
+        return [*models[:place], joined, *models[place + 1 :]]
+    return None
+
+
+def _report_dynamics(mjcf: CompiledMjcf, diagnostics: Diagnostics) -> None:
+    model: Any = mjcf.model
+    armatures = [
+        mjcf.joints[index]
+        for index in range(model.njnt)
+        if model.dof_armature[int(model.jnt_dofadr[index])] > 0
+    ]
+    if armatures:
+        shown = ", ".join(f"'{name}'" for name in armatures[:5])
+        more = f" and {len(armatures) - 5} more" if len(armatures) > 5 else ""
+        message = f"armature of joints {shown}{more} has no word in URDF and SDF"
+        span = mjcf.source.span("joint", armatures[0])
+        diagnostics.report("convert.left-out", message, span)
+    partly = np.flatnonzero((model.body_gravcomp > 0) & (model.body_gravcomp < 1))
+    for body in partly:
+        name = mjcf.bodies[int(body)]
+        message = f"body '{name}' feels a part of gravity only; in URDF and SDF it feels all of it"
+        diagnostics.report("convert.left-out", message, mjcf.source.span("body", name))
+
+
+def _plural(word: str) -> str:
+    return f"{word[:-1]}ies" if word.endswith("y") else f"{word}s"
 
 
 def _model_of(root: int, mjcf: CompiledMjcf, geoms: GeomReader, diagnostics: Diagnostics) -> Model:

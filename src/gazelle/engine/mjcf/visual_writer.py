@@ -1,4 +1,4 @@
-"""What is seen of a world, as geoms that touch nothing."""
+"""What is seen of a world, as geoms that touch nothing, and their meshes as OBJ files."""
 
 from __future__ import annotations
 
@@ -30,8 +30,7 @@ from gazelle.description.model import (
 from gazelle.description.writers.geometry_elements import mesh_of
 from gazelle.description.writers.output_files import Beside
 from gazelle.diagnostics import Diagnostics
-from gazelle.documents.pictures import PictureError, opened_picture
-from gazelle.engine.mjcf.wavefront import obj_bytes
+from gazelle.documents.images import PictureError, opened_picture
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import scoped
 from gazelle.engine.spec_builder import SpecBuilder
@@ -43,10 +42,15 @@ from gazelle.geometry import (
     polyline_mesh,
 )
 
-__all__ = ["COLLISION_GROUP", "Looks"]
+__all__ = ["COLLISION_GROUP", "Looks", "obj_bytes"]
+
+
+Array = NDArray[Any]
+
 
 COLLISION_GROUP = 3
 """Group of geoms that touch and are not drawn; MuJoCo's viewer hides it at first."""
+
 
 _VISUAL_GROUP = 2
 _MIN_CORNERS = 4
@@ -193,6 +197,38 @@ class Looks:
         message = f"texture {where} is left out: {why}"
         self._diagnostics.report("convert.left-out", message)
         return ""
+
+
+def obj_bytes(
+    vertices_m: Array, faces: Array, normals: Array | None = None, uv: Array | None = None
+) -> bytes:
+    """Return an OBJ file; numbers have the digits that single precision needs.
+
+    Args:
+        vertices_m: (N, 3), kept in their order.
+        faces: (M, 3) indices from 0.
+        normals: (N, 3), one per vertex.
+        uv: (N, 2), (0, 0) is the picture's lower left corner.
+    """
+    text = "# metres\n" + _rows("v", vertices_m)
+    if uv is not None:
+        text += _rows("vt", uv)
+    if normals is not None:
+        text += _rows("vn", normals)
+    corner = "%d"
+    if uv is not None or normals is not None:
+        corner = f"%d/{'%d' if uv is not None else ''}{'/%d' if normals is not None else ''}"
+    indices = np.asarray(faces, dtype=np.int64) + 1
+    line = f"f {corner} {corner} {corner}\n"
+    numbers = np.repeat(indices.ravel(), corner.count("%d")).tolist()
+    return (text + line * len(indices) % tuple(numbers)).encode("ascii")
+
+
+def _rows(word: str, values: Array) -> str:
+    # Nine digits give every single-precision number back.
+    rows = np.asarray(values, dtype=np.float32)
+    line = f"{word} {' '.join(['%.9g'] * rows.shape[1])}\n"
+    return line * len(rows) % tuple(rows.ravel().tolist())
 
 
 def _primitive(shape: Shape) -> tuple[Any, tuple[float, ...]] | None:

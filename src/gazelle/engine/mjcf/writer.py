@@ -1,8 +1,11 @@
-"""A world as an MJCF file: bodies, joints and contacts as the engine has them."""
+"""A world as an MJCF file: bodies, joints and contacts as the engine has them, with every digit."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import ctypes
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,22 +16,28 @@ from gazelle.description.writers.xml_markup import Markup, head_comments, number
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.compiler import Assembly, Compiled, assemble_world, compile_assembly
-from gazelle.engine.mjcf.exact import exact_xml
-from gazelle.engine.mjcf.visual_writer import Looks
-from gazelle.engine.mjcf.wavefront import obj_bytes
+from gazelle.engine.mjcf.visual_writer import Looks, obj_bytes
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import root_joint
 from gazelle.engine.state import initial_data
 from gazelle.engine.wheel_slip import described_slips
 from gazelle.errors import EngineError
 
-__all__ = ["to_mjcf"]
+__all__ = ["exact_xml", "to_mjcf"]
+
+
+_EXACT_DIGITS = 17
+_SETTER = "_mjPRIVATE__set_xml_precision"
+_GETTER = "_mjPRIVATE__get_xml_precision"
+
 
 # Attributes that are names, however much they look like numbers.
 _NAMES = frozenset({
     "body", "body1", "body2", "class", "file", "geom1", "geom2", "hfield", "joint", "joint1",
     "joint2", "material", "mesh", "name", "site", "target", "tendon", "texture",
 })  # fmt: skip
+
+
 # Of meshes: long, and in files in the end.
 _TRIANGLES = frozenset({"face", "normal", "texcoord", "vertex"})
 # Kept in single precision by MuJoCo; the model has them as they were meant.
@@ -78,6 +87,46 @@ def to_mjcf(world: World, *, diagnostics: Diagnostics, beside: Beside | None = N
         diagnostics.add(item)
     source = world.file.name if world.file else f"'{world.name}'"
     return Converted(document.to_text(head_comments(source, found)), company.files)
+
+
+def exact_xml(spec: Any) -> str:
+    """Return the XML of a compiled spec; its numbers are read back as the same.
+
+    Raises:
+        EngineError: MuJoCo cannot write the spec.
+    """
+    with _all_digits():
+        try:
+            return str(spec.to_xml())
+        except ValueError as error:
+            raise EngineError(f"MuJoCo cannot write the world: {error}") from error
+
+
+@contextmanager
+def _all_digits() -> Iterator[None]:
+    """Set the writer's digits for a while; MuJoCo exports the setting without a header for it.
+
+    A library without it writes six digits, which is a description still, only not an exact one.
+    """
+    library = _library()
+    if library is None:
+        yield
+        return
+    before = getattr(library, _GETTER)()
+    getattr(library, _SETTER)(_EXACT_DIGITS)
+    try:
+        yield
+    finally:
+        getattr(library, _SETTER)(before)
+
+
+def _library() -> Any:
+    for path in sorted(Path(mujoco.__file__).parent.glob("*mujoco*")):
+        if path.name.startswith(("libmujoco", "mujoco.dll")):
+            library = ctypes.CDLL(str(path))
+            if hasattr(library, _SETTER) and hasattr(library, _GETTER):
+                return library
+    return None
 
 
 def _forbid_sleep(assembly: Assembly) -> None:

@@ -15,8 +15,7 @@ from typing import Any
 
 from gazelle.launch.environment import is_own_command
 from gazelle.launch.watchdog import Guard
-from gazelle.parent_process import PARENT_VARIABLE
-from gazelle.process_exit import interrupts_held
+from gazelle.process_lifetime import PARENT_VARIABLE, interrupts_held
 
 __all__ = ["ChildProcess", "Guarded", "OutputLines", "start_child"]
 

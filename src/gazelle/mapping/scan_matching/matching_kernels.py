@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 
-from gazelle.compiling import njit
+from gazelle.numba_jit import njit
 
 __all__ = [
     "accumulate",

@@ -13,6 +13,7 @@ from gazelle.motion.collision.sweep_kernels import COLLIDES, FREE, sweep
 from gazelle.motion.joint_space import BoolArray, FloatArray
 from gazelle.motion.planning.search_tree import TreeArrays
 from gazelle.motion.planning.search_tree_kernels import drawn, nearest
+from gazelle.numba_jit import njit
 
 __all__ = ["ARRIVED", "BLOCKED", "DOUBTFUL", "Draws", "connect_trees"]
 

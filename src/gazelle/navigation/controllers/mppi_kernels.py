@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
-from gazelle.compiling import njit
 from gazelle.navigation.costmap.costmap_kernels import outline_cost
+from gazelle.numba_jit import njit
 
 __all__ = ["roll_out", "score_batch"]
 

@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
-from gazelle.compiling import njit
-from gazelle.heap_kernels import sift_down, sift_up
 from gazelle.navigation.costmap.costmap_kernels import outline_cost, squared_distances
+from gazelle.numba_jit import njit
+from gazelle.priority_queue_kernels import sift_down, sift_up
 
 __all__ = ["find_maneuver", "outline_is_free"]
 

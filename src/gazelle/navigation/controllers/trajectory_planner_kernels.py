@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
-from gazelle.compiling import njit
 from gazelle.navigation.controllers.sampling_kernels import BLOCKED, simulate
 from gazelle.navigation.costmap.costmap_kernels import outline_cost
+from gazelle.numba_jit import njit
 
 __all__ = ["HIT", "NO_WAY", "roll_out"]
 

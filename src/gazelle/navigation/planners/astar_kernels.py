@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
-from gazelle.compiling import njit
-from gazelle.heap_kernels import sift_down, sift_up
 from gazelle.navigation.planners.navfn_kernels import FORBIDDEN, HIGH
+from gazelle.numba_jit import njit
+from gazelle.priority_queue_kernels import sift_down, sift_up
 
 __all__ = ["astar", "theta_star"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sys
 
+from gazelle.simulator.plugins.plugin_parameters import tables_as_markdown
 from gazelle.simulator.plugins.registry import all_tables
-from gazelle.simulator.plugins.table import tables_as_markdown
 
 if __name__ == "__main__":
     sys.stdout.write(tables_as_markdown(all_tables()))

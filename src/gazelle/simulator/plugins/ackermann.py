@@ -28,8 +28,7 @@ from gazelle.simulator.plugins.drive import (
 )
 from gazelle.simulator.plugins.drive_odometry import DriveOdometry, OdometrySetup, given_covariance
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.plugins.wheel_geometry import wheel_radius_m
 from gazelle.simulator.scheduler import period_in_steps
 

@@ -7,10 +7,10 @@ from typing import Any
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import floats_from
 from gazelle.diagnostics import nearest_names
-from gazelle.engine.wrenches import TimedWrench
+from gazelle.engine.link_handles import TimedWrench
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 
 __all__ = ["TABLE", "load"]
 

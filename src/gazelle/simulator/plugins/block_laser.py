@@ -11,9 +11,8 @@ from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.laser import lidar_place, start_scans
-from gazelle.simulator.plugins.noise import gaussian
-from gazelle.simulator.plugins.sensor_publisher import prefixed_frame
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
+from gazelle.simulator.plugins.sensor_publisher import gaussian, prefixed_frame
 
 if TYPE_CHECKING:
     from gazelle.sensors import LidarRecord

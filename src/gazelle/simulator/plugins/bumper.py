@@ -1,4 +1,4 @@
-"""Contact sensors: ``libgazebo_ros_bumper`` of ROS 1 and ROS 2."""
+"""Contact sensors: ``libgazebo_ros_bumper`` of ROS 1 and ROS 2, and Gazebo's own contact topics."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from gazelle.interfaces.poses import vector_message
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 from gazelle.simulator.plugins.sensor_publisher import (
     prefixed_frame,
     publish_at,
     sensor_period,
     sensor_place,
 )
-from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import ORDER_SENSOR
 
 if TYPE_CHECKING:
@@ -34,7 +34,6 @@ __all__ = ["TABLE", "gz_contacts_message", "load", "offer_world_contacts", "publ
 
 # On the first and on the second body, a pair for each point.
 Wrenches = list[tuple[Any, Any]]
-
 _TRANSPORT_TYPE = "ros_gz_interfaces/Contacts"
 _EVERY_STEP = Fraction(1)
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 
 __all__ = ["CAMERA_TABLE", "DEPTH_TABLE", "OPENNI_TABLE", "TRIGGERED_TABLE"]
 

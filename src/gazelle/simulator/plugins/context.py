@@ -15,8 +15,7 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.simulator.command_queue import CommandQueue
 from gazelle.simulator.input_validation import InputRefusedError, Inputs, problem_of, refusal
 from gazelle.simulator.node_interfaces import NodePort, PublisherPort
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.scheduler import (
     ORDER_CONTROL,
     Scheduler,

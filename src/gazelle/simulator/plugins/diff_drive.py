@@ -42,9 +42,8 @@ from gazelle.simulator.plugins.drive_odometry import (
     turned_back,
     wheel_transform,
 )
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
-from gazelle.simulator.plugins.wheel_checks import check_drive, exchange_wheels
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
+from gazelle.simulator.plugins.wheel_geometry import check_drive, exchange_wheels
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["GZ_TABLE", "TABLE", "load"]

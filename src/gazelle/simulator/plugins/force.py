@@ -6,11 +6,10 @@ from fractions import Fraction
 from typing import Any
 
 from gazelle.diagnostics import did_you_mean
-from gazelle.engine.wrenches import TimedWrench
+from gazelle.engine.link_handles import TimedWrench
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 
 __all__ = ["TABLE", "load"]
 

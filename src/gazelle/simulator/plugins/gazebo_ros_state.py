@@ -12,8 +12,7 @@ from gazelle.simulator.gazebo_ros.link_services import LinkServices
 from gazelle.simulator.gazebo_ros.model_services import Entities, ModelServices, Row
 from gazelle.simulator.gazebo_ros.world_services import LightServices
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 
 if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer

@@ -16,14 +16,13 @@ from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.hector_noise import ErrorSource, error_parameters, read_model
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.plugins.sensor_publisher import (
     once_per_step,
     publish_at,
     sensor_period,
     sensor_place,
 )
-from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 if TYPE_CHECKING:

@@ -16,10 +16,8 @@ from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.drive import gz_text, gz_topic
-from gazelle.simulator.plugins.noise import gaussian
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.sensor_publisher import once_per_step, publish_at
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
+from gazelle.simulator.plugins.sensor_publisher import gaussian, once_per_step, publish_at
 from gazelle.simulator.scheduler import ORDER_STATE, period_in_steps
 
 __all__ = ["POSE_TABLE", "TABLE", "load", "load_poses"]

@@ -1,12 +1,15 @@
-"""gz-sim systems that are always there, and server plug-ins of gazebo_ros."""
+"""gz-sim systems and gazebo_ros plug-ins that are always there; which worlds are gz-sim's."""
 
 from __future__ import annotations
 
+from gazelle.description.model import World
 from gazelle.parameters import ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
+from gazelle.simulator.plugins.registry import plain_name
 
-__all__ = ["BUILT_IN", "SERVER_TABLE", "TABLE", "load"]
+__all__ = ["BUILT_IN", "SERVER_TABLE", "TABLE", "is_gz_world", "load"]
+
 
 BUILT_IN = (
     "physics",
@@ -78,3 +81,17 @@ def load(context: PluginContext) -> None:
     """Say that the plug-in is built in."""
     text = f"plug-in '{context.plugin.name}' ({context.plugin.filename}) is part of Gazelle"
     context.report("plugin.built-in", text)
+
+
+_SYSTEMS = ("gz-sim", "ignition-gazebo")
+
+
+def is_gz_world(world: World) -> bool:
+    """Tell whether a world loads systems of gz-sim.
+
+    Those that serve all models may stand in a model as well (``Sensors``, ``Imu``, …).
+    """
+    if any(plain_name(plugin.filename).startswith(_SYSTEMS) for plugin in world.plugins):
+        return True
+    plugins = (plugin for model in world.models for plugin in model.plugins)
+    return any(plain_name(plugin.filename) in TABLE.parameters.types for plugin in plugins)

@@ -12,8 +12,7 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import pose_of_transform, transform_stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 
 __all__ = ["TABLE", "load"]
 

@@ -14,8 +14,7 @@ from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.hector_noise import ErrorSource, error_parameters, read_model
 from gazelle.simulator.plugins.imu import GRAVITY, OFFSETS, offset_pose, publish_readings
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 if TYPE_CHECKING:

@@ -15,8 +15,7 @@ from gazelle.interfaces.poses import vector_message
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.scheduler import ORDER_SENSOR, measured_period_in_steps, period_in_steps
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["GZ_TABLE", "TABLE", "load", "load_gz"]

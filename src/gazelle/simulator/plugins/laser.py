@@ -13,9 +13,8 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.plugins.sensor_publisher import prefixed_frame, sensor_place
-from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import ORDER_SENSOR
 
 if TYPE_CHECKING:

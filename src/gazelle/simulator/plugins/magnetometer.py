@@ -13,9 +13,8 @@ from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.hector_noise import ErrorSource, error_parameters, read_model
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.plugins.sensor_publisher import publish_at
-from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["BARO_TABLE", "TABLE", "load", "load_baro"]

@@ -10,7 +10,7 @@ from fractions import Fraction
 from gazelle.engine import JointHandle
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 
 __all__ = ["TABLE", "load"]
 

@@ -12,8 +12,7 @@ from gazelle.simulator.plugins.camera_table import CAMERA_TABLE
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace, join_names
 from gazelle.simulator.plugins.depth_camera import add_colour
 from gazelle.simulator.plugins.image_transport import add_transports
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.sensor_set import camera_members
 
 __all__ = ["TABLE", "load", "start_multicamera_ros2"]

@@ -10,9 +10,8 @@ from gazelle.interfaces.poses import pose_message, twist_message
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.noise import gaussian
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
+from gazelle.simulator.plugins.sensor_publisher import gaussian
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["TABLE", "load"]

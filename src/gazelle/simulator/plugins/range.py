@@ -16,14 +16,14 @@ from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.hector_noise import ErrorSource, error_parameters, read_model
-from gazelle.simulator.plugins.noise import gaussian
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 from gazelle.simulator.plugins.sensor_publisher import (
+    gaussian,
     prefixed_frame,
     publish_at,
     sensor_place,
     throttled_period,
 )
-from gazelle.simulator.plugins.table import PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["HECTOR_TABLE", "TABLE", "load", "load_hector"]

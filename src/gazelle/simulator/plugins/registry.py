@@ -11,7 +11,7 @@ from importlib import import_module
 from gazelle.description.model import PluginTag
 from gazelle.diagnostics import did_you_mean
 from gazelle.simulator.plugins.context import PluginContext
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 
 __all__ = ["all_tables", "known_names", "load_plugin", "looked_up", "plain_name"]
 

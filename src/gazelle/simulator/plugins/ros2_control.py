@@ -14,8 +14,7 @@ from gazelle.simulator.plugins.control_loop import (
     control_period,
     run_control_loop,
 )
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 
 if TYPE_CHECKING:
     from gazelle.control.hardware.gazebo_system import SystemOptions
@@ -157,7 +156,7 @@ def _load(context: PluginContext, parameters: PluginReader, *, is_gz: bool) -> N
     from gazelle.control.controller_manager import ControllerManager
     from gazelle.control.hardware.ros2_robot import build_ros2_robot
     from gazelle.simulator.controller_node import make_ports, offer_manager
-    from gazelle.simulator.plugins.ros_control_sensors import ModelSensors
+    from gazelle.simulator.plugins.control_loop import ModelSensors
 
     host, resources, engine = context.host, context.resources, context.host.engine
     namespace = context.namespace(parameters)

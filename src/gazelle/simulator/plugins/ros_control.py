@@ -12,8 +12,7 @@ from gazelle.simulator.plugins.control_loop import (
     control_period,
     run_control_loop,
 )
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 
 if TYPE_CHECKING:
     from gazelle.control.controller_manager import ControllerManager
@@ -163,7 +162,7 @@ def _namespace(context: PluginContext, parameters: PluginReader) -> str:
 
 def _robot(context: PluginContext, parameters: PluginReader, namespace: str) -> Robot:
     from gazelle.control.hardware.ros1_robot import RobotParameters, build_ros1_robot
-    from gazelle.simulator.plugins.ros_control_sensors import ModelSensors
+    from gazelle.simulator.plugins.control_loop import ModelSensors
 
     plugin = parameters.text("robotSimType")
     if plugin != DEFAULT_ROBOT_SIM:

@@ -1,4 +1,4 @@
-"""Publishes the readings of one sensor, and finds the sensor a plug-in stands in."""
+"""Publishes the readings of the sensor that a plug-in stands in, with noise of its own."""
 
 from __future__ import annotations
 
@@ -6,11 +6,16 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.description.model import NO_NOISE, Noise
 from gazelle.simulator.plugins.context import PluginContext, SensorPlace
 from gazelle.simulator.plugins.plugin_parameters import PluginReader
 from gazelle.simulator.scheduler import ORDER_SENSOR
 
 __all__ = [
+    "gaussian",
     "once_per_step",
     "prefixed_frame",
     "publish_at",
@@ -18,6 +23,25 @@ __all__ = [
     "sensor_place",
     "throttled_period",
 ]
+
+
+def gaussian(context: PluginContext, sigma: float) -> Callable[[int], NDArray[np.float64]]:
+    """Return a source of `count` normal values; seeded from the world's seed and the names.
+
+    A reset of the world starts it over, so that two runs are alike.
+    """
+    from gazelle.sensors import noise_stream
+
+    noise = Noise("gaussian", stddev=sigma) if sigma > 0 else NO_NOISE
+    words = (context.host.seed, f"{context.model.name}::{context.plugin.name}")
+    streams = [noise_stream(noise, *words)]
+
+    def restart() -> None:
+        streams[0] = noise_stream(noise, *words)
+
+    context.resources.on_reset(restart)
+    return lambda count: streams[0].apply(np.zeros(count))
+
 
 Reading = TypeVar("Reading")
 

@@ -22,8 +22,7 @@ from gazelle.simulator.plugins.drive_odometry import (
     frame_prefix,
     given_covariance,
 )
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["TABLE", "load"]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from gazelle.parameters import ParameterTable
 from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 from gazelle.simulator.plugins.registry import looked_up, plain_name
-from gazelle.simulator.plugins.table import PluginTable
 
 __all__ = ["NOTHING_TABLE", "TABLE", "load", "load_nothing"]
 

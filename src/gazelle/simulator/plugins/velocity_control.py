@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.geometry import Pose
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 
 __all__ = ["TABLE", "load"]
 

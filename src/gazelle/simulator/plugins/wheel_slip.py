@@ -17,8 +17,7 @@ from gazelle.interfaces import message_type
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.dynamic_reconfigure import DynamicParameter, DynamicParameters
-from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.plugins.wheel_geometry import wheel_radius_m
 from gazelle.simulator.scheduler import period_in_steps
 

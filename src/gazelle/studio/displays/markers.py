@@ -7,7 +7,7 @@ from typing import Annotated, Any, NotRequired, TypedDict
 
 from gazelle.geometry.pose import IDENTITY_POSE
 from gazelle.interfaces import message_type, service_type
-from gazelle.sensors.scene_types import Floats7, MeshFile
+from gazelle.sensors.scene_json_types import Floats7, MeshFile
 from gazelle.studio.displays.topic_display import Site
 from gazelle.studio.errors import StudioError
 from gazelle.studio.frames import pose_values

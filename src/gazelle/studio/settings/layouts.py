@@ -10,9 +10,9 @@ from typing import Any
 from urllib.parse import quote, unquote
 
 from gazelle.documents.files import refused_version
-from gazelle.folders import config_folder
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.request_params import Params
+from gazelle.user_folders import config_folder
 
 __all__ = ["delete_layout", "layout_folder", "list_layouts", "load_layout", "save_layout"]
 

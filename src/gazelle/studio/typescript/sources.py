@@ -11,7 +11,7 @@ from typing import Any
 
 from gazelle.bag.formats import OWN_FORMATS
 from gazelle.bag.storage import Encoding
-from gazelle.sensors.scene_types import (
+from gazelle.sensors.scene_json_types import (
     BodyValue,
     BoxGeometry,
     EllipsoidGeometry,
@@ -28,8 +28,8 @@ from gazelle.sensors.scene_types import (
     ShapeValue,
     SphereGeometry,
 )
-from gazelle.simulator.viewing.broadcast import WorldStats
 from gazelle.simulator.viewing.properties import PropertyRow
+from gazelle.simulator.viewing.scene_broadcaster import WorldStats
 from gazelle.studio.bags.methods import BagState
 from gazelle.studio.bags.player import BagTopic, PlayerState
 from gazelle.studio.bags.recorder import RecorderState

@@ -18,7 +18,7 @@ from gazelle.cli.ros2.bag import say
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
-from gazelle.process_exit import at_stop_signal
+from gazelle.process_lifetime import at_stop_signal
 
 __all__ = ["main"]
 

@@ -25,7 +25,7 @@ from gazelle.launch.ros2.utilities.type_utils import (
     normalize_typed_substitution,
     perform_typed_substitution,
 )
-from gazelle.temporary_files import own_prefix, sweep
+from gazelle.user_folders import own_prefix, sweep
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.launch_context import LaunchContext

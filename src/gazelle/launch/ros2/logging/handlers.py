@@ -8,7 +8,7 @@ import sys
 from typing import Any, TextIO
 
 from gazelle.log_handlers import RotatingLog, WatchedLog
-from gazelle.process_exit import drop_output
+from gazelle.process_lifetime import drop_output
 
 __all__ = ["ScreenHandler", "with_per_logger_formatting"]
 

@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
-from gazelle.simulator.plugins.user.base import ModelPlugin, Plugin, SensorPlugin, WorldPlugin
-from gazelle.simulator.plugins.user.views import PluginNode, PluginParameters, WorldOfPlugin
+from gazelle.simulator.plugins.user.plugin_api import (
+    ModelPlugin,
+    Plugin,
+    PluginNode,
+    PluginParameters,
+    SensorPlugin,
+    WorldOfPlugin,
+    WorldPlugin,
+)
 
 __all__ = [
     "ModelPlugin",

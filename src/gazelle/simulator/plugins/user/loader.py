@@ -12,7 +12,6 @@ from typing import Any
 from gazelle.control.python_controllers.adapter import located
 from gazelle.extensions import folder_of, told
 from gazelle.simulator.plugins.context import PluginContext, Resources
-from gazelle.simulator.plugins.user.base import ModelPlugin, Plugin, SensorPlugin, WorldPlugin
 from gazelle.simulator.plugins.user.finder import (
     PythonPlugin,
     compiled_plugin,
@@ -20,7 +19,15 @@ from gazelle.simulator.plugins.user.finder import (
     python_plugin,
     stems,
 )
-from gazelle.simulator.plugins.user.views import PluginNode, PluginParameters, WorldOfPlugin
+from gazelle.simulator.plugins.user.plugin_api import (
+    ModelPlugin,
+    Plugin,
+    PluginNode,
+    PluginParameters,
+    SensorPlugin,
+    WorldOfPlugin,
+    WorldPlugin,
+)
 from gazelle.simulator.scheduler import ORDER_CONTROL, period_in_steps
 from gazelle.simulator.simulation_handles import ModelOfSimulation, SensorOfSimulation
 from gazelle.workspace.python_files import import_python_file

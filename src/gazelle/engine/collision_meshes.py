@@ -1,9 +1,14 @@
-"""Collision meshes as convex pieces, the only solids MuJoCo collides."""
+"""Collision meshes as convex pieces, the only solids MuJoCo collides.
+
+They are kept on disk. Scenery one can be inside of becomes thin solids along its surface, and
+extruded outlines become prisms over triangles.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Sequence
 from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,9 +21,7 @@ from gazelle.description.model import MeshShape, Polyline, Solid
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents import read_limited
 from gazelle.documents.npz_files import keep_arrays, kept_arrays
-from gazelle.engine.outline import ear_clipped
 from gazelle.engine.primitive_fitting import RoundShape, fitted_round_shape
-from gazelle.engine.surface_pieces import MIN_VOLUME_M3, connected_parts, surface_pieces
 from gazelle.geometry import (
     Mesh,
     MeshError,
@@ -31,29 +34,47 @@ from gazelle.geometry import (
     load_mesh,
     mesh_volume_m3,
 )
-from gazelle.geometry.array_cache import keep_arrays, kept_arrays
-from gazelle.geometry.loading import MAX_MESH_BYTES
+from gazelle.geometry.mesh import part_from_soup
+from gazelle.geometry.mesh_files import MAX_MESH_BYTES
 from gazelle.user_folders import cache_folder
 
 __all__ = [
+    "MIN_VOLUME_M3",
     "Decomposition",
     "MeshKey",
     "Piece",
+    "connected_parts",
     "convex_pieces",
     "decomposed",
+    "ear_clipped",
     "kept_file",
     "mesh_key",
     "pieces_folder",
     "polyline_pieces",
     "solid_pieces",
+    "surface_pieces",
 ]
 
+
+Point = tuple[float, float]
+Array = NDArray[np.float64]
+Faces = NDArray[np.int32]
+
+
+MIN_VOLUME_M3 = 1e-13
+"""Solids below it are left out, cubes of 50 µm: MuJoCo refuses hulls without volume."""
+
+
+_THICKNESS_RATIO = 0.01
+_MAX_THICKNESS_M = 0.02
+_SAME_PLANE = 1e-4
+_FULL_SHARE = 0.999
 _UNSPLIT = "a run splits it into convex pieces"
 
-Array = NDArray[np.float64]
 
 CONVEX_SHARE = 0.9
 """A moving mesh that fills this share of its hull collides as its hull."""
+
 
 _MIN_THICKNESS_RATIO = 2e-7
 # To be raised with every change of what the pieces of a mesh are.
@@ -210,6 +231,144 @@ def kept_file(key: MeshKey) -> Path | None:
     digest = hashlib.sha256(repr(words).encode())
     digest.update(data)
     return pieces_folder() / f"{digest.hexdigest()}.npz"
+
+
+def surface_pieces(vertices_m: Array, faces: Faces) -> tuple[Array, ...]:
+    """Return prisms that together cover a surface.
+
+    Triangles of one plane that touch and together fill their outline's hull become one prism,
+    every other triangle becomes its own. Prisms extend behind the surface, against its normals,
+    by 1 % of the mesh's size, at most 2 cm.
+
+    Args:
+        vertices_m: (N, 3).
+        faces: (M, 3), counter-clockwise seen from outside.
+    """
+    corners = vertices_m[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    doubled = np.linalg.norm(normals, axis=1)
+    size = float(np.ptp(vertices_m, axis=0).max())
+    thickness = min(_THICKNESS_RATIO * size, _MAX_THICKNESS_M)
+    kept = doubled * thickness / 2 > MIN_VOLUME_M3
+    if not kept.any():
+        return ()
+    corners, normals = corners[kept], normals[kept] / doubled[kept, None]
+    pieces: list[Array] = []
+    for group in _flat_groups(corners, normals, size):
+        pieces.extend(_prisms(corners[group], normals[group[0]], thickness))
+    return tuple(pieces)
+
+
+def connected_parts(mesh: Mesh) -> tuple[Mesh, ...]:
+    """Return the parts of a mesh that do not share corners, in the order of the file."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    vertices, faces = np.asarray(mesh.vertices_m), np.asarray(mesh.faces)
+    ids = _corner_ids(vertices[faces].reshape(-1, 3), float(np.ptp(vertices, axis=0).max()))
+    triangles = ids.reshape(-1, 3)
+    first, second = triangles[:, [0, 1]].ravel(), triangles[:, [1, 2]].ravel()
+    size = int(ids.max()) + 1
+    graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(size, size))
+    _, labels = connected_components(graph, directed=False)
+    of_face = labels[triangles[:, 0]]
+    parts = [
+        part_from_soup(vertices[faces[of_face == label]], name="part")
+        for label in dict.fromkeys(of_face.tolist())
+    ]
+    return tuple(Mesh((part,), mesh.file) for part in parts)
+
+
+def ear_clipped(outline: Sequence[Point]) -> tuple[tuple[Point, Point, Point], ...]:
+    """Cut a closed outline into triangles by clipping ears (Meisters 1975).
+
+    Args:
+        outline: corners in order, either direction; a repeated last corner is allowed.
+    """
+    corners = list(dict.fromkeys((float(x), float(y)) for x, y in outline))
+    if _doubled_area(corners) < 0:
+        corners.reverse()
+    triangles: list[tuple[Point, Point, Point]] = []
+    while len(corners) > 3:
+        index = next((i for i in range(len(corners)) if _is_ear(corners, i)), 0)
+        triangles.append((corners[index - 1], corners[index], corners[(index + 1) % len(corners)]))
+        del corners[index]
+    if len(corners) == 3:
+        triangles.append((corners[0], corners[1], corners[2]))
+    return tuple(triangles)
+
+
+def _doubled_area(corners: Sequence[Point]) -> float:
+    return sum(
+        a[0] * b[1] - b[0] * a[1]
+        for a, b in zip(corners, [*corners[1:], *corners[:1]], strict=True)
+    )
+
+
+def _turn(a: Point, b: Point, c: Point) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def _is_ear(corners: Sequence[Point], index: int) -> bool:
+    a, b, c = corners[index - 1], corners[index], corners[(index + 1) % len(corners)]
+    if _turn(a, b, c) <= 0:
+        return False
+    others = (point for point in corners if point not in (a, b, c))
+    return not any(
+        _turn(a, b, p) >= 0 and _turn(b, c, p) >= 0 and _turn(c, a, p) >= 0 for p in others
+    )
+
+
+def _corner_ids(corners: Array, size: float) -> NDArray[np.intp]:
+    """Number corners; those at one place get one number."""
+    keys = np.round(corners / max(1e-6 * size, 1e-12)).astype(np.int64)
+    return np.asarray(np.unique(keys, axis=0, return_inverse=True)[1]).ravel()
+
+
+def _flat_groups(corners: Array, normals: Array, size: float) -> list[NDArray[np.intp]]:
+    """Group triangles that lie in one plane and hang together."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    count = len(corners)
+    triangles = _corner_ids(corners.reshape(-1, 3), size).reshape(-1, 3)
+    edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    same = np.flatnonzero((edges[order][1:] == edges[order][:-1]).all(axis=1))
+    first, second = order[same] // 3, order[same + 1] // 3
+    flat = np.einsum("ij,ij->i", normals[first], normals[second]) > 1 - _SAME_PLANE
+    first, second = first[flat], second[flat]
+    graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(count, count))
+    number, labels = connected_components(graph, directed=False)
+    order = np.argsort(labels, kind="stable")
+    return np.split(order, np.searchsorted(labels[order], np.arange(1, number)))
+
+
+def _prisms(corners: Array, normal: Array, thickness: float) -> list[Array]:
+    if len(corners) > 1 and _is_flat(corners, normal) and _fills_outline(corners, normal):
+        return [_prism(np.unique(corners.reshape(-1, 3), axis=0), normal, thickness)]
+    return [_prism(triangle, normal, thickness) for triangle in corners]
+
+
+def _prism(points: Array, normal: Array, thickness: float) -> Array:
+    return np.vstack([points, points - thickness * normal])
+
+
+def _is_flat(corners: Array, normal: Array) -> bool:
+    heights = corners.reshape(-1, 3) @ normal
+    return bool(np.ptp(heights) <= 1e-3 * np.ptp(corners.reshape(-1, 3), axis=0).max())
+
+
+def _fills_outline(corners: Array, normal: Array) -> bool:
+    from scipy.spatial import ConvexHull
+
+    edges = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = float(np.linalg.norm(edges, axis=1).sum()) / 2
+    reference = np.eye(3)[int(np.argmin(np.abs(normal)))]
+    x = np.cross(reference, normal)
+    x /= np.linalg.norm(x)
+    plane = np.stack([x, np.cross(normal, x)], axis=1)
+    return area >= _FULL_SHARE * float(ConvexHull(corners.reshape(-1, 3) @ plane).volume)
 
 
 def _kept(file: Path) -> Decomposition | None:

@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 from tests.patience import stretched
 
-from gazelle.process_exit import interrupts_held
+from gazelle.process_lifetime import interrupts_held
 
 _POSIX = pytest.mark.skipif(
     not hasattr(signal, "pthread_sigmask"), reason="needs POSIX signal masks"
 )
-_HEAD = "import atexit, sys, threading, time\nfrom gazelle.process_exit import end_with\n"
+_HEAD = "import atexit, sys, threading, time\nfrom gazelle.process_lifetime import end_with\n"
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_stop_signal_is_heard_while_the_main_thread_cannot_hear_it() -> None:
     """As when the kernel hands it to a thread of the transport, which Python's handlers await."""
     text = """
 import signal, threading, time
-from gazelle.process_exit import at_stop_signal
+from gazelle.process_lifetime import at_stop_signal
 threading.Thread(target=time.sleep, args=(30,), daemon=True).start()
 stop = threading.Event()
 at_stop_signal(stop.set)
@@ -110,7 +110,7 @@ def test_a_signal_is_heard_while_the_main_thread_holds_what_its_handler_needs() 
     """As when a second one comes in the midst of ``Event.set``, which waited for itself."""
     text = """
 import os, signal, threading
-from gazelle.process_exit import at_stop_signal
+from gazelle.process_lifetime import at_stop_signal
 lock, heard = threading.Lock(), threading.Event()
 def stop():
     with lock:
@@ -156,7 +156,7 @@ import sys
 print("loading", flush=True)
 sys.stdin.readline()
 print("loaded", flush=True)
-from gazelle.process_exit import end_at_interrupts
+from gazelle.process_lifetime import end_at_interrupts
 end_at_interrupts()
 print("lived on", flush=True)
 """
@@ -168,9 +168,8 @@ print("lived on", flush=True)
 def test_an_interrupt_in_the_midst_of_an_import_says_nothing(tmp_path: Path) -> None:
     body = "import sys\nprint('importing', flush=True)\nsys.stdin.readline()\nsys.stdin.readline()"
     (tmp_path / "slow_one.py").write_text(body, encoding="utf-8")
-    text = (
-        "from gazelle.process_exit import raise_interrupts\nraise_interrupts()\nimport slow_one\n"
-    )
+    text = "from gazelle.process_lifetime import raise_interrupts\nraise_interrupts()\n"
+    text += "import slow_one\n"
     ended = _interrupted(text, "importing", folder=str(tmp_path))
     assert ended == (-signal.SIGINT, "", "")
 
@@ -179,7 +178,7 @@ def test_an_interrupt_in_the_midst_of_an_import_says_nothing(tmp_path: Path) -> 
 def test_an_interrupt_in_a_librarys_callback_comes_again_when_that_is_done() -> None:
     text = """
 import contextlib, sys, threading
-from gazelle.process_exit import called_by_library, raise_interrupts
+from gazelle.process_lifetime import called_by_library, raise_interrupts
 raise_interrupts()
 
 @called_by_library
@@ -202,7 +201,7 @@ except KeyboardInterrupt:
 def test_an_interrupt_elsewhere_is_the_programs_to_catch() -> None:
     text = """
 import threading
-from gazelle.process_exit import raise_interrupts
+from gazelle.process_lifetime import raise_interrupts
 raise_interrupts()
 try:
     print("running", flush=True)
@@ -215,7 +214,7 @@ except KeyboardInterrupt:
 
 _STOPPED = """
 import threading
-from gazelle.process_exit import StopEvent, at_stop_signal, end_with
+from gazelle.process_lifetime import StopEvent, at_stop_signal, end_with
 def main():
     stop = StopEvent(patience_s=0.1)
     at_stop_signal(stop.request)
@@ -248,7 +247,7 @@ def test_a_program_told_to_stop_ends(look: str, wait: str, expected: tuple[int, 
 def test_a_second_interrupt_ends_a_process_that_ends() -> None:
     text = """
 import atexit, threading
-from gazelle.process_exit import end_with
+from gazelle.process_lifetime import end_with
 def last():
     print("ending", flush=True)
     threading.Event().wait(60)
@@ -265,7 +264,7 @@ def test_interrupt_that_another_thread_was_given_ends_a_wait_without_a_limit() -
     """As one that comes just as the main thread begins to wait."""
     text = """
 import signal
-from gazelle.process_exit import raise_interrupts
+from gazelle.process_lifetime import raise_interrupts
 def interrupt():
     main = threading.main_thread().ident
     while sys._current_frames()[main].f_code.co_name != "wait":

@@ -8,7 +8,7 @@ import numpy as np
 from PIL import Image
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.sensors.textures import TextureAtlas
+from gazelle.sensors.shading_tables import TextureAtlas
 
 
 def _png(pixels: np.ndarray) -> bytes:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.simulator.plugins.noise import gaussian
+from gazelle.simulator.plugins.sensor_publisher import gaussian
 
 
 def _context(plugin: str, seed: int = 1) -> Any:

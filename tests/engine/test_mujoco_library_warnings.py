@@ -7,8 +7,12 @@ import warnings
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.library_warnings import report_library_warnings
-from gazelle.engine.mujoco_library import compiled, drained_warnings, mujoco
+from gazelle.engine.mujoco_library import (
+    compiled,
+    drained_warnings,
+    mujoco,
+    report_library_warnings,
+)
 
 DEPRECATED = """<mujoco><compiler settotalmass="3"/><worldbody><body name="b"><freejoint/>
 <geom size=".1" mass="1"/></body></worldbody></mujoco>"""

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from gazelle.simulator.disturbances import Disturbances
+from gazelle.simulator.wall_clock import Disturbances
 
 _STOOD_STILL = (
     "nothing was computed for 20.0 s: this process was stopped, or the machine had no time for "

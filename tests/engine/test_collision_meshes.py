@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from gazelle.description.model import MeshShape
-from gazelle.engine import convex_decomposition, decomposition_workers
-from gazelle.engine.convex_decomposition import decomposed, kept_file, mesh_key, pieces_folder
+from gazelle.engine import collision_meshes, decomposition_workers
+from gazelle.engine.collision_meshes import decomposed, kept_file, mesh_key, pieces_folder
 from gazelle.engine.decomposition_workers import split_ahead
 from gazelle.geometry import (
     Mesh,
@@ -80,7 +80,7 @@ def test_kept_pieces_are_those_that_were_made(
     assert made[1].pieces[0].round_shape.half_length_m == pytest.approx(0.05)
     assert made[2].pieces[0].round_shape.half_length_m is None
     assert len(list(own_cache.iterdir())) == 3
-    monkeypatch.setattr(convex_decomposition, "load_mesh", None)
+    monkeypatch.setattr(collision_meshes, "load_mesh", None)
     assert all(_same(_made(path), one) for path, one in zip(paths, made, strict=True))
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from gazelle.errors import NotFoundError
-from gazelle.simulator.name_lookup import full_name
+from gazelle.simulator.simulation import full_name
 
 NAMES = ("arm::shoulder", "arm::elbow", "cart::left", "truck::left")
 

@@ -1,9 +1,9 @@
-"""World, parameters and node as a plug-in of the user's own sees them."""
+"""What a plug-in of the user's own derives from, and what it is given: world, parameters, node."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from gazelle.description.model import World
 from gazelle.description.xml import Tag
@@ -14,10 +14,67 @@ from gazelle.interfaces import message_type
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.simulator.node_interfaces import PublisherPort
 from gazelle.simulator.plugins.context import Host, PluginContext, Resources
-from gazelle.simulator.plugins.table import PluginTable
+from gazelle.simulator.plugins.plugin_parameters import PluginTable
 from gazelle.simulator.simulation_handles import ModelOfSimulation
 
-__all__ = ["PluginNode", "PluginParameters", "WorldOfPlugin"]
+if TYPE_CHECKING:
+    from gazelle.simulator.simulation_handles import ModelOfSimulation, SensorOfSimulation
+
+__all__ = [
+    "ModelPlugin",
+    "Plugin",
+    "PluginNode",
+    "PluginParameters",
+    "SensorPlugin",
+    "WorldOfPlugin",
+    "WorldPlugin",
+]
+
+
+class Plugin:
+    """Hooks that every plug-in may have; those it does not write cost nothing.
+
+    Attributes:
+        update_rate_hz: how often `on_update` is called; None for every step, and for the rate of
+            the sensor that a sensor plug-in stands in.
+    """
+
+    update_rate_hz: ClassVar[float | None] = None
+
+    def on_update(self, time_s: float) -> None:
+        """Called between two steps, at simulated time."""
+
+    def on_reset(self) -> None:
+        """Called after the world was put back to its start."""
+
+    def close(self) -> None:
+        """Called when the model goes or the world ends; topics are closed without it."""
+
+
+class WorldPlugin(Plugin):
+    """A ``<plugin>`` that stands in a ``<world>``."""
+
+    def load(self, world: WorldOfPlugin, parameters: PluginParameters, node: PluginNode) -> None:
+        """Called once, before the first step."""
+
+
+class ModelPlugin(Plugin):
+    """A ``<plugin>`` that stands in a ``<model>``, or in a ``<gazebo>`` of a URDF."""
+
+    def load(
+        self, model: ModelOfSimulation, parameters: PluginParameters, node: PluginNode
+    ) -> None:
+        """Called once, when the model enters the world."""
+
+
+class SensorPlugin(Plugin):
+    """A ``<plugin>`` that stands in a ``<sensor>``."""
+
+    def load(
+        self, sensor: SensorOfSimulation, parameters: PluginParameters, node: PluginNode
+    ) -> None:
+        """Called once, when the sensor's model enters the world."""
+
 
 _TABLE = PluginTable(
     ParameterTable(
@@ -27,6 +84,7 @@ _TABLE = PluginTable(
         (Parameter("robotNamespace", "text", "", "namespace of the topics"),),
     ),
 )
+
 Guard = Callable[[Callable[[], Any]], Any]
 
 
