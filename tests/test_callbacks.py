@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "gazelle"
 # What others call from the moment on when it is made.
 _OFFERS = frozenset({
-    "ActionServer", "NodeParameters", "SingleGoal", "create_service", "create_subscription",
+    "ActionServer", "NodeParameters", "SimpleActionServer", "create_service", "create_subscription",
     "node_parameters", "offer_parameters",
 })  # fmt: skip
 _BLOCKS = ast.If | ast.For | ast.With | ast.Try | ast.While | ast.FunctionDef
