@@ -25,8 +25,8 @@ _PICTURES = [str(_ROOT / ".ci" / "pictures.py")]
 PAGES = {
     "builtin_nodes.md": "gazelle.node_specs.docs",
     "controllers.md": "gazelle.control.controllers",
-    "diagnostics.md": "gazelle.diagnostics.docs",
-    "launch.md": "gazelle.launch.ros2.reference",
+    "diagnostics.md": "gazelle.diagnostics.documentation",
+    "launch.md": "gazelle.launch.ros2.documentation",
     "navigation.md": "gazelle.nodes.navigation.docs",
     "nodes.md": "gazelle.nodes.docs",
     "plugins.md": "gazelle.simulator.plugins",

@@ -10,7 +10,7 @@ from tests.ci_scripts import ci_script
 
 from gazelle.compat.unsupported.docs import unsupported_markdown
 from gazelle.diagnostics.catalogue import all_entries
-from gazelle.diagnostics.docs import catalogue_markdown
+from gazelle.diagnostics.documentation import catalogue_markdown
 from gazelle.node_specs.docs import nodes_markdown
 
 ROOT = Path(__file__).parents[1]
@@ -19,7 +19,7 @@ _TEST = re.compile(r"`((?:tests|benchmarks)/[\w/.]+)`")
 
 def test_diagnostics_page_is_generated_from_the_catalogue() -> None:
     page = (ROOT / "docs" / "diagnostics.md").read_text(encoding="utf-8")
-    command = "python -m gazelle.diagnostics.docs > docs/diagnostics.md"
+    command = "python -m gazelle.diagnostics.documentation > docs/diagnostics.md"
     assert page == catalogue_markdown(), f"run: {command}"
 
 

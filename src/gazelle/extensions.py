@@ -26,12 +26,12 @@ __all__ = [
     "ExtensionError",
     "ExtensionGroup",
     "Extensions",
+    "entry_point_text",
     "entry_points_of",
     "find_entry_point",
     "folder_of",
     "load_extension",
     "load_extensions",
-    "told",
 ]
 
 _T = TypeVar("_T")
@@ -100,7 +100,7 @@ def folder_of(point: EntryPoint) -> Path:
     return Path(str(distribution.locate_file(""))) if distribution is not None else Path()
 
 
-def told(point: EntryPoint) -> str:
+def entry_point_text(point: EntryPoint) -> str:
     """Return an entry point in words: its line, the package with its version, the group."""
     distribution: Any = point.dist
     package = f"{distribution.name} {distribution.version}" if distribution else "no known package"
@@ -120,11 +120,11 @@ def load_extension(point: EntryPoint, kind: type[_T]) -> _T:
     try:
         part = point.load()
     except Exception as error:
-        text = f"{told(point)} cannot be loaded: {type(error).__name__}: {error}"
+        text = f"{entry_point_text(point)} cannot be loaded: {type(error).__name__}: {error}"
         raise ExtensionError(text) from error
     if not isinstance(part, kind):
         what = f"a {type(part).__name__}, not a {kind.__module__}.{kind.__qualname__}"
-        raise ExtensionError(f"{told(point)} is {what}")
+        raise ExtensionError(f"{entry_point_text(point)} is {what}")
     return part
 
 
@@ -140,7 +140,9 @@ def load_extensions(group: ExtensionGroup, kind: type[_T]) -> Extensions[_T]:
     problems: list[str] = []
     for point in entry_points_of(group):
         try:
-            parts.append(Extension(point.name, told(point), load_extension(point, kind)))
+            parts.append(
+                Extension(point.name, entry_point_text(point), load_extension(point, kind))
+            )
         except ExtensionError as error:
             problems.append(str(error))
     return Extensions(tuple(parts), tuple(problems))

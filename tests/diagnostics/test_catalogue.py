@@ -5,7 +5,7 @@ import re
 import pytest
 
 from gazelle.diagnostics.catalogue import Entry, all_entries, entry_for
-from gazelle.diagnostics.docs import catalogue_markdown
+from gazelle.diagnostics.documentation import catalogue_markdown
 
 
 def test_codes_are_sorted_and_well_formed():

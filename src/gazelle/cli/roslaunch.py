@@ -13,7 +13,7 @@ from gazelle.errors import NotFoundError
 from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.console import dump_text
 from gazelle.launch.executables import find_executable
-from gazelle.launch.node_process import node_words
+from gazelle.launch.node_process import node_argv
 from gazelle.launch.ros1.loader import load_launch_files, load_launch_text
 from gazelle.launch.roslaunch import LaunchOptions, launch
 from gazelle.launch.supervisor import StopTimes
@@ -190,7 +190,7 @@ def _command_line(spec: NodeTag, workspace: Workspace, diagnostics: Diagnostics)
     namespace = spec.namespace.rstrip("/") or "/"
     environment = [f'ROS_NAMESPACE="{namespace}"', *(f'{key}="{value}"' for key, value in spec.env)]
     prefix = shlex.split(spec.launch_prefix)
-    return " ".join([*environment, *prefix, *executable.command, *node_words(spec)])
+    return " ".join([*environment, *prefix, *executable.command, *node_argv(spec)])
 
 
 def _args_text(config: LaunchConfig) -> str:

@@ -22,7 +22,7 @@ from gazelle.graph import Graph
 from gazelle.launch.config import LaunchConfig, TestTag
 from gazelle.launch.environment import node_environment
 from gazelle.launch.executables import find_executable
-from gazelle.launch.node_process import node_words
+from gazelle.launch.node_process import node_argv
 from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.process_lifetime import PARENT_VARIABLE
 from gazelle.user_folders import ros_home
@@ -107,7 +107,7 @@ class _TestRun:
         if found is None:
             why = "; ".join(item.message for item in diagnostics)
             return [_missing_result(test.test_name, f"Test node cannot be found: {why}")]
-        own = [*node_words(node), f"--gtest_output=xml:{result}"]
+        own = [*node_argv(node), f"--gtest_output=xml:{result}"]
         words = [*shlex.split(node.launch_prefix), *found.command, *own]
         cases: list[Case] = []
         for _ in range(test.retry + 1):

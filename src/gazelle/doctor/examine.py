@@ -9,7 +9,7 @@ from pathlib import Path
 from gazelle.description.downgraded_errors import strict
 from gazelle.diagnostics import Diagnostic
 from gazelle.doctor.descriptions import without_superseded
-from gazelle.doctor.examine_file import examine_file, kind_word
+from gazelle.doctor.examine_file import examine_file, kind_name
 from gazelle.doctor.examine_package import examine_folder, examine_package
 from gazelle.doctor.file_kinds import Kind, kind_of
 from gazelle.doctor.merged_findings import condensed
@@ -22,7 +22,7 @@ __all__ = ["examine"]
 
 
 def examine(
-    words: Sequence[str],
+    argv: Sequence[str],
     *,
     workspace: Workspace | None = None,
     options: Options | None = None,
@@ -34,7 +34,7 @@ def examine(
     Nothing is started: no process, no socket, no thread stays behind.
 
     Args:
-        words: ``PKG``, ``FOLDER``, ``FILE``, ``PKG FILE``, or nothing for what the current
+        argv: ``PKG``, ``FOLDER``, ``FILE``, ``PKG FILE``, or nothing for what the current
             folder is in; arguments (``name:=value``) are in `options`.
         workspace: finds packages and models; made from the options' environment when None.
         options: choices of the caller.
@@ -48,7 +48,7 @@ def examine(
     options = options or Options()
     here = Path.cwd() if cwd is None else cwd
     workspace = workspace or Workspace.discover(environ=options.environ, cwd=here)
-    target = find_target(words, workspace, here)
+    target = find_target(argv, workspace, here)
     examination = Examination(workspace, options)
     if progress is not None:
         examination.say = progress
@@ -97,4 +97,4 @@ def _examine(target: Target, examination: Examination) -> str:
         examine_package(owner, examination)
         return "package"
     examine_file(target.files, kind, examination)
-    return kind_word(kind)
+    return kind_name(kind)

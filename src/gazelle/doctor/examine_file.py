@@ -22,16 +22,16 @@ from gazelle.doctor.target import package_at
 from gazelle.documents.files import is_file
 from gazelle.workspace.environment_paths import BUILTIN
 
-__all__ = ["examine_file", "kind_word"]
+__all__ = ["examine_file", "kind_name"]
 
 _EMPTY = BUILTIN / "worlds" / "empty.world"
 _IN_EMPTY = frozenset({"ground_plane", "sun"})
 
 
-def kind_word(kind: Kind) -> str:
+def kind_name(kind: Kind) -> str:
     """Return the report's word for a kind of file."""
-    words = {Kind.LAUNCH_ROS2: "launch", Kind.MODEL: "robot"}
-    return words.get(kind, kind.value)
+    argv = {Kind.LAUNCH_ROS2: "launch", Kind.MODEL: "robot"}
+    return argv.get(kind, kind.value)
 
 
 def examine_file(files: Sequence[Path], kind: Kind, examination: Examination) -> None:
@@ -98,7 +98,7 @@ def _examine_semantics(file: Path, examination: Examination) -> None:
 
 
 def _examine_world(file: Path, examination: Examination) -> None:
-    _bring_up(StartPlan(Program("gazebo", words=(str(file),))), file.name, examination)
+    _bring_up(StartPlan(Program("gazebo", argv=(str(file),))), file.name, examination)
 
 
 def _examine_robot(
@@ -119,7 +119,7 @@ def _examine_robot(
     world = examination.options.world
     # A package of the workspace may have an empty.world of its own, which says other things.
     place = str(_EMPTY) if world == "empty" else world
-    plan = StartPlan(Program("gazebo", words=(place,)), models=tuple(map(_beside_world, models)))
+    plan = StartPlan(Program("gazebo", argv=(place,)), models=tuple(map(_beside_world, models)))
     alone = replace(examination, diagnostics=found)
     _bring_up(plan, file.name, alone)
     for item in found:

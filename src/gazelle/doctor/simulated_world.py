@@ -63,7 +63,7 @@ def plugins_section(world: World, findings: Iterable[Diagnostic], *, subject: st
         item.span: _MISSING_CODES[item.code] for item in findings if item.code in _MISSING_CODES
     }
     rows = tuple(
-        (plugin.filename or plugin.name, owner, _done(plugin, wrong), _place(plugin.span))
+        (plugin.filename or plugin.name, owner, _done(plugin, wrong), _location(plugin.span))
         for owner, plugin in _plugins(world)
     )
     return Section("plugins", "plug-ins", ("plug-in", "of", "what runs", "place"), rows, subject)
@@ -72,7 +72,7 @@ def plugins_section(world: World, findings: Iterable[Diagnostic], *, subject: st
 def tags_section(findings: Iterable[Diagnostic], *, subject: str = "") -> Section:
     """Return a row for every finding about a tag that has no effect."""
     rows = tuple(
-        (_place(item.span), item.message.partition("\n")[0], item.code)
+        (_location(item.span), item.message.partition("\n")[0], item.code)
         for item in findings
         if item.code in _TAG_CODES
     )
@@ -144,7 +144,7 @@ def _tables_by_name() -> dict[str, PluginTable]:
     return {plain_name(name): table for table in all_tables() for name in table.parameters.types}
 
 
-def _place(span: SourceSpan | None) -> str:
+def _location(span: SourceSpan | None) -> str:
     if span is None:
         return ""
     return f"{PurePath(span.file).name}:{span.line}" if span.line else PurePath(span.file).name

@@ -33,11 +33,11 @@ class Target(NamedTuple):
     packages: tuple[Package, ...] = ()
 
 
-def find_target(words: Sequence[str], workspace: Workspace, cwd: Path) -> Target:
+def find_target(argv: Sequence[str], workspace: Workspace, cwd: Path) -> Target:
     """Return what the words mean: ``PKG``, ``FOLDER``, ``FILE``, ``PKG FILE``, nothing, a URI.
 
     Args:
-        words: of the command line, arguments (``name:=value``) taken out.
+        argv: of the command line, arguments (``name:=value``) taken out.
         workspace: where packages, models and worlds are.
         cwd: the current folder.
 
@@ -45,18 +45,18 @@ def find_target(words: Sequence[str], workspace: Workspace, cwd: Path) -> Target
         NotFoundError: nothing has such a name; holds the nearest names there are.
         GazelleError: there is nothing in the current folder, or there are too many words.
     """
-    if not words:
+    if not argv:
         return _around(cwd, workspace)
-    name = " ".join(words)
-    paths = tuple(cwd / Path(word).expanduser() for word in words)
-    if len(words) > 1 and all(is_file(path) for path in paths):
+    name = " ".join(argv)
+    paths = tuple(cwd / Path(word).expanduser() for word in argv)
+    if len(argv) > 1 and all(is_file(path) for path in paths):
         return Target(name, paths)
-    if len(words) == 2:
-        return Target(name, (_file_in(workspace.package(words[0]), words[1]),))
-    if len(words) > 2:
+    if len(argv) == 2:
+        return Target(name, (_file_in(workspace.package(argv[0]), argv[1]),))
+    if len(argv) > 2:
         missing = next(path for path in paths if not is_file(path))
         raise NotFoundError("file", str(missing), hint="give one target, or files of one launch")
-    return _single(words[0], paths[0], workspace)
+    return _single(argv[0], paths[0], workspace)
 
 
 def package_at(folder: Path, workspace: Workspace) -> Package | None:

@@ -99,16 +99,16 @@ def command_folder() -> Path:
     return folder
 
 
-def is_own_command(words: Sequence[str], path: str | None) -> bool:
+def is_own_command(argv: Sequence[str], path: str | None) -> bool:
     """Tell whether a command is one of Gazelle's, which all begin with `end_at_interrupts`.
 
     Args:
-        words: the command, or one word that a shell splits.
+        argv: the command, or one word that a shell splits.
         path: ``PATH`` where it is looked for.
     """
-    if list(words[:2]) == [sys.executable, "-m"]:
-        return words[2].startswith("gazelle.")
-    text = " ".join(words)
+    if list(argv[:2]) == [sys.executable, "-m"]:
+        return argv[2].startswith("gazelle.")
+    text = " ".join(argv)
     if not set(text).isdisjoint(_SHELL_SIGNS):
         return False
     name, *_ = [*text.removeprefix("exec ").split(), ""]

@@ -10,14 +10,14 @@ from gazelle.process_lifetime import end_at_interrupts, end_with_parent
 __all__ = ["main"]
 
 
-def main(words: list[str]) -> int:
+def main(argv: list[str]) -> int:
     """Replace this process by the command; the parent-death signal survives exec."""
     end_at_interrupts()
     end_with_parent()
     try:
-        os.execvp(words[0], words)  # noqa: S606 - starting what a launch file names is the purpose
+        os.execvp(argv[0], argv)  # noqa: S606 - starting what a launch file names is the purpose
     except OSError as error:
-        print(f"cannot run '{words[0]}': {error.strerror}", file=sys.stderr)  # noqa: T201
+        print(f"cannot run '{argv[0]}': {error.strerror}", file=sys.stderr)  # noqa: T201
         return 127
 
 

@@ -32,14 +32,14 @@ class Executable:
         builtin: the built-in node, None for a file.
         folder: folder of the file, for ``cwd="node"``.
         script: the user's Python file that is run, None for anything else.
-        takes_ros_words: ``__name:=`` and the like follow too.
+        takes_ros_args: ``__name:=`` and the like follow too.
     """
 
     command: tuple[str, ...]
     builtin: NodeSpec | None = None
     folder: Path | None = None
     script: Path | None = None
-    takes_ros_words: bool = True
+    takes_ros_args: bool = True
 
 
 def find_executable(
@@ -62,8 +62,8 @@ def find_executable(
         return found
     command = command_of(package, type_name)
     if command:
-        words = (sys.executable, "-m", "gazelle.cli", *command)
-        return Executable(words)
+        argv = (sys.executable, "-m", "gazelle.cli", *command)
+        return Executable(argv)
     try:
         builtin = node_spec(package, type_name)
     except ExtensionError as error:
@@ -71,8 +71,8 @@ def find_executable(
         diagnostics.report("launch.executable-missing", message, span)
         return None
     if builtin is not None:
-        words = (sys.executable, "-m", "gazelle.nodes", f"{package}/{type_name}")
-        return Executable(words, builtin)
+        argv = (sys.executable, "-m", "gazelle.nodes", f"{package}/{type_name}")
+        return Executable(argv, builtin)
     native = _native(package, type_name, os.environ if environ is None else environ)
     if native is not None:
         return Executable((str(native),), folder=native.parent)

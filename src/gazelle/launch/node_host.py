@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.launch.config import NodeTag
-from gazelle.launch.node_process import node_words
+from gazelle.launch.node_process import node_argv
 from gazelle.process_lifetime import PARENT_VARIABLE
 
 __all__ = ["HostEnded", "NodeEnded", "NodeHost", "NodeReady"]
@@ -53,9 +53,9 @@ class NodeHost:
     ) -> None:
         read_fd, write_fd = os.pipe()
         variables = {**environment, PARENT_VARIABLE: str(os.getpid())}
-        words = [sys.executable, "-m", "gazelle.nodes", "--host", str(write_fd)]
+        argv = [sys.executable, "-m", "gazelle.nodes", "--host", str(write_fd)]
         self.popen = subprocess.Popen(
-            words,
+            argv,
             env=variables,
             cwd=cwd,
             stdin=subprocess.PIPE,
@@ -72,7 +72,7 @@ class NodeHost:
         start = {
             "id": host_id,
             "node": node,
-            "argv": [*node_words(spec), f"__log:={log_file}"],
+            "argv": [*node_argv(spec), f"__log:={log_file}"],
             "namespace": spec.namespace.rstrip("/") or "/",
             "output": spec.output,
         }

@@ -23,7 +23,7 @@ __all__ = [
     "StoppedProcess",
     "code_text",
     "end_text",
-    "node_words",
+    "node_argv",
     "start_process",
 ]
 
@@ -72,7 +72,7 @@ class LaunchedProcess:
     Attributes:
         label: roslaunch's name for it, such as ``rsp-2``.
         spec: what it was started from.
-        words: its command line.
+        argv: its command line.
         log_stem: path of its log files without ``.log``.
         popen: the process; None for a hosted node.
         host_id: number in the host; None for a process of its own.
@@ -81,7 +81,7 @@ class LaunchedProcess:
 
     label: str
     spec: NodeTag
-    words: tuple[str, ...]
+    argv: tuple[str, ...]
     log_stem: Path
     popen: subprocess.Popen[bytes] | None = None
     host_id: int | None = None
@@ -93,7 +93,7 @@ class LaunchedProcess:
         return self.popen.pid if self.popen is not None else 0
 
 
-def node_words(spec: NodeTag) -> list[str]:
+def node_argv(spec: NodeTag) -> list[str]:
     """Return a node's own arguments: those of the file, its remaps, name and log file."""
     remaps = [f"{source}:={target}" for source, target in spec.remaps]
     return [*shlex.split(spec.args), *remaps, f"__name:={spec.name}"]
@@ -108,9 +108,9 @@ def start_process(
         OSError: the command cannot be started.
     """
     prefix = shlex.split(process.spec.launch_prefix)
-    words = [*prefix, *process.words]
+    argv = [*prefix, *process.argv]
     if prefix or executable.command[0] != sys.executable:
-        words = [sys.executable, "-m", "gazelle.launch.exec_program", *words]
+        argv = [sys.executable, "-m", "gazelle.launch.exec_program", *argv]
     variables = {
         **environment,
         **dict(process.spec.env),
@@ -120,7 +120,7 @@ def start_process(
     folder = executable.folder if process.spec.cwd == "node" and executable.folder else cwd
     with _log_stream(process) as log, interrupts_held():
         process.popen = subprocess.Popen(
-            words, env=variables, cwd=folder, stdout=log, stderr=None, start_new_session=True
+            argv, env=variables, cwd=folder, stdout=log, stderr=None, start_new_session=True
         )
 
 
@@ -129,7 +129,7 @@ def end_text(process: LaunchedProcess, code: int) -> str:
     log = f"log file: {process.log_stem}*.log"
     if code == 0:
         return f"process has finished cleanly\n{log}"
-    command = " ".join(process.words)
+    command = " ".join(process.argv)
     return f"process has died [pid {process.pid}, {code_text(code)}, cmd {command}].\n{log}"
 
 

@@ -80,7 +80,7 @@ def start_bridges(environ: Mapping[str, str]) -> None:
             file=sys.stderr,
         )
         subprocess.Popen(
-            _bridge_words(one.bridge),
+            _bridge_argv(one.bridge),
             env={**environ, PARENT_VARIABLE: str(os.getpid())},
             start_new_session=True,
         )
@@ -94,7 +94,7 @@ def _names_on_graph() -> tuple[str, ...]:
         return ()
 
 
-def _bridge_words(name: str) -> tuple[str, ...]:
+def _bridge_argv(name: str) -> tuple[str, ...]:
     """Return what runs a bridge; it ends with the process that starts it."""
     return (sys.executable, "-m", "gazelle.cli", "bridge", name)
 
@@ -114,8 +114,8 @@ def join(seen: Sequence[RealRos], supervisor: Supervisor, graph: Graph, console:
             f"(roslaunch --no-bridge or {_VARIABLE}=no keep apart)"
         )
         spec = NodeTag("gazelle", "bridge", f"{one.bridge}_bridge", output="screen")
-        words = _bridge_words(one.bridge)
-        supervisor.start(spec, Executable(words, takes_ros_words=False), core=True)
+        argv = _bridge_argv(one.bridge)
+        supervisor.start(spec, Executable(argv, takes_ros_args=False), core=True)
         if not _is_joined(one, graph, partial(supervisor.runs, spec)):
             console.warning(f"the bridge to {one.bridge} is not ready; the launch goes on")
 

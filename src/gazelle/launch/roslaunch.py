@@ -33,7 +33,7 @@ from gazelle.launch.spawner_sequence import (
     holds_time,
     is_simulator,
     starts_in_turn,
-    with_simulator_words,
+    with_simulator_args,
 )
 from gazelle.launch.supervisor import StopTimes, Supervisor
 from gazelle.user_folders import ros_home
@@ -189,7 +189,7 @@ class _Run:
             self._held = HeldStart(nodes, start=supervisor.start, release=release)
         for spec, executable in HeldStart.others(nodes) if in_turn else nodes:
             pause = held and is_simulator(executable)
-            supervisor.start(with_simulator_words(spec, ["-u"]) if pause else spec, executable)
+            supervisor.start(with_simulator_args(spec, ["-u"]) if pause else spec, executable)
         if self._held is not None:
             self._held.begin()
         return supervisor.run()
@@ -245,11 +245,11 @@ def _with_options(spec: NodeTag, executable: Executable, options: LaunchOptions)
     output = "screen" if options.screen else "log" if options.log else spec.output
     required = spec.required or options.required
     if is_simulator(executable):
-        words = list(options.simulator_args)
+        argv = list(options.simulator_args)
         if options.iterations:
-            words += ["--iters", str(options.iterations)]
+            argv += ["--iters", str(options.iterations)]
             required = True
-        spec = with_simulator_words(spec, words)
+        spec = with_simulator_args(spec, argv)
     return replace(spec, output=output, required=required)
 
 

@@ -16,7 +16,7 @@ __all__ = [
     "holds_time",
     "is_simulator",
     "starts_in_turn",
-    "with_simulator_words",
+    "with_simulator_args",
 ]
 
 Startable = tuple[NodeTag, Executable]
@@ -31,9 +31,9 @@ def is_simulator(executable: Executable) -> bool:
     return builtin is not None and builtin.role is NodeRole.SIMULATOR
 
 
-def with_simulator_words(spec: NodeTag, words: Sequence[str]) -> NodeTag:
+def with_simulator_args(spec: NodeTag, argv: Sequence[str]) -> NodeTag:
     """Return a simulator's node with more arguments."""
-    return replace(spec, args=" ".join([spec.args, *words]).strip())
+    return replace(spec, args=" ".join([spec.args, *argv]).strip())
 
 
 def holds_time(nodes: Sequence[Startable]) -> bool:

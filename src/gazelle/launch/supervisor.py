@@ -24,10 +24,10 @@ from gazelle.launch.node_process import (
     StoppedProcess,
     code_text,
     end_text,
-    node_words,
+    node_argv,
     start_process,
 )
-from gazelle.launch.watchdog import Guard
+from gazelle.launch.watchdog import Watchdog
 
 __all__ = ["StopTimes", "Supervisor"]
 
@@ -106,7 +106,7 @@ class Supervisor:
         self._core: set[str] = set()
         self._count = 0
         self._respawning = 0
-        self._guard: Guard | None = None
+        self._guard: Watchdog | None = None
         self._host: NodeHost | None = None
         self._host_ids = itertools.count(1)
         self._host_deaths: deque[float] = deque(maxlen=_HOST_DEATHS)
@@ -182,10 +182,10 @@ class Supervisor:
         """
         executable = self._executables[label]
         stem = self._log_folder / label
-        words = executable.command
-        if executable.takes_ros_words:
-            words = (*words, *node_words(spec), f"__log:={stem}.log")
-        process = LaunchedProcess(label, spec, words, stem)
+        argv = executable.command
+        if executable.takes_ros_args:
+            argv = (*argv, *node_argv(spec), f"__log:={stem}.log")
+        process = LaunchedProcess(label, spec, argv, stem)
         builtin = executable.builtin
         if builtin is not None and builtin.is_light and not spec.env and not spec.launch_prefix:
             self._start_hosted(process, f"{builtin.package}/{builtin.executable}")
@@ -260,7 +260,7 @@ class Supervisor:
         """Let the guard end a process, and what it starts, should this one be killed."""
         assert popen is not None
         if self._guard is None:
-            self._guard = Guard()
+            self._guard = Watchdog()
         self._guard.begun(popen.pid)
 
     def _tell_stopped(self) -> None:

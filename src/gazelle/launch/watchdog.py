@@ -16,14 +16,14 @@ import sys
 import time
 from typing import TextIO
 
-__all__ = ["Guard", "end_groups", "guard"]
+__all__ = ["Watchdog", "end_groups", "watch"]
 
 _PATIENCE_S = 2.0
 _POLL_S = 0.05
 _MAX_DURATION_S = 4.0
 
 
-class Guard:
+class Watchdog:
     """The launcher's side.
 
     Attributes:
@@ -67,7 +67,7 @@ class Guard:
             self.popen.stdin.flush()
 
 
-def guard(stream: TextIO, patience_s: float = _PATIENCE_S) -> None:
+def watch(stream: TextIO, patience_s: float = _PATIENCE_S) -> None:
     """Follow the launcher's messages to their end, then end what is left."""
     groups: set[int] = set()
     for line in stream:
@@ -102,4 +102,4 @@ def _signalled(group: int, number: int) -> bool:
 if __name__ == "__main__":
     for ignored in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(ignored, signal.SIG_IGN)
-    guard(sys.stdin, float(sys.argv[1]))
+    watch(sys.stdin, float(sys.argv[1]))

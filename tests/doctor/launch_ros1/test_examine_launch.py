@@ -229,8 +229,8 @@ def test_finding_about_a_value_stands_in_the_yaml_file(written: Write, examined:
         for item in examined(folder, "bot", "one.launch").findings
         if item.code == "doctor.sim-time-name"
     ]
-    places = [(Path(item.span.file).name, item.span.line) for item in found if item.span]
-    assert places == [("c.yaml", 1), ("c.yaml", 3)]
+    spans = [(Path(item.span.file).name, item.span.line) for item in found if item.span]
+    assert spans == [("c.yaml", 1), ("c.yaml", 3)]
     assert all(item.span and item.span.via[0].file.endswith("one.launch") for item in found)
 
 

@@ -29,7 +29,7 @@ from gazelle.control.parameter_sources.ros2_parameter_file import read_parameter
 from gazelle.description.moveit.package_files import read_yaml
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.doctor.launch_ros1.launched_nodes import parameter_places
+from gazelle.doctor.launch_ros1.launched_nodes import parameter_spans
 from gazelle.doctor.launch_ros2.xml_yaml_file import read_yaml_file
 from gazelle.doctor.parameters.check_parameters import check_parameter_file
 from gazelle.documents.yaml import YamlError
@@ -177,7 +177,7 @@ def _roslaunch(path: Path, diagnostics: Diagnostics) -> None:
 def _places(path: Path) -> None:
     config = LaunchConfig()
     config.yaml_files[SourceSpan("a.launch", 1)] = (str(path), "/")
-    parameter_places(config)
+    parameter_spans(config)
 
 
 def _metadata(path: Path) -> None:

@@ -50,7 +50,7 @@ class Ran:
 def _own_logs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     monkeypatch.setattr(watchdog, "_PATIENCE_S", 0.2)
-    deprecation.TOLD.clear()
+    deprecation.WARNED.clear()
     for name in list(os.environ):
         if name.startswith("OVERRIDE_LAUNCH"):
             monkeypatch.delenv(name)

@@ -299,11 +299,11 @@ def ProcessStderr(run: Run) -> None:
 def ProcessStdin(run: Run) -> None:
     reader = a.ExecuteProcess(cmd=["head", "-n", "1"], cached_output=True)
 
-    def tell(event: Any, _context: LaunchContext) -> list[Any]:
+    def report(event: Any, _context: LaunchContext) -> list[Any]:
         details = {**reader.process_details} if reader.process_details else {}
         return [a.EmitEvent(event=process.ProcessStdin(text=b"hello\n", **details))]
 
-    on_start = event_handlers.OnProcessStart(target_action=reader, on_start=tell)
+    on_start = event_handlers.OnProcessStart(target_action=reader, on_start=report)
     run(a.RegisterEventHandler(on_start), reader)
     assert reader.get_stdout() == "hello\n"
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from gazelle.control.controllers.controller import Controller
 from gazelle.control.errors import ControllerError
 from gazelle.control.python_controllers.adapter import adapted, located
-from gazelle.extensions import ExtensionGroup, find_entry_point, folder_of, told
+from gazelle.extensions import ExtensionGroup, entry_point_text, find_entry_point, folder_of
 from gazelle.workspace.python_files import import_python_file
 
 if TYPE_CHECKING:
@@ -74,10 +74,10 @@ def find_installed_controller(type_name: str) -> type[Controller] | None:
         found = point.load()
     except Exception as error:
         raise ControllerError(
-            f"{told(point)} cannot be loaded: {located(error, folder)}"
+            f"{entry_point_text(point)} cannot be loaded: {located(error, folder)}"
         ) from error
     if not isinstance(found, type):
-        raise ControllerError(f"{told(point)} is a {type(found).__name__}, not a class")
+        raise ControllerError(f"{entry_point_text(point)} is a {type(found).__name__}, not a class")
     return found if issubclass(found, Controller) else adapted(found, type_name, folder)
 
 

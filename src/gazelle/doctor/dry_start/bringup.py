@@ -92,7 +92,7 @@ def dry_start(
     node = DryNode(_node_name(plan.server.name), plan.server.namespace, plan.server.remappings)
     for name, value in plan.parameters.items():
         node.parameters.set(name, value)
-    options = read_server_options(plan.server.words, diagnostics)
+    options = read_server_options(plan.server.argv, diagnostics)
     # What shows while time passes is the business of the probes: it is not passed on.
     found = Diagnostics()
     with texts_known(plan.text_files), without_splitting():

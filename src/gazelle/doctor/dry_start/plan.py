@@ -90,14 +90,14 @@ class Program:
     Attributes:
         name: of the node, without namespace.
         namespace: absolute.
-        words: its own arguments.
+        argv: its own arguments.
         remappings: from → to, as written.
         span: place of the ``<node>`` tag.
     """
 
     name: str
     namespace: str = "/"
-    words: tuple[str, ...] = ()
+    argv: tuple[str, ...] = ()
     remappings: Mapping[str, str] = field(default_factory=dict)
     span: SourceSpan | None = None
 

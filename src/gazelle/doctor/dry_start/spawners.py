@@ -22,7 +22,7 @@ from gazelle.simulator.spawn_model import spawn_model
 
 __all__ = ["Spawning", "managers_of", "start_controllers"]
 
-_BOND_WORDS = frozenset({"-b", "-bond", "--bond"})
+_BOND_FLAGS = frozenset({"-b", "-bond", "--bond"})
 
 
 class Spawning:
@@ -52,8 +52,8 @@ class Spawning:
     def run(self, diagnostics: Diagnostics) -> str:
         """Spawn; report what goes wrong and return the name of the model that came, if one did."""
         before, errors = self._models(), len(diagnostics.errors)
-        words = [word for word in self._program.words if word not in _BOND_WORDS]
-        code = spawn_model(words, self._node, self._stop)
+        argv = [word for word in self._program.argv if word not in _BOND_FLAGS]
+        code = spawn_model(argv, self._node, self._stop)
         new = [name for name in self._models() if name not in before]
         if code:
             self._report(diagnostics, is_explained=len(diagnostics.errors) > errors)
@@ -89,9 +89,9 @@ class Spawning:
 
     def model_states(self, callback: Callable[[Any], None]) -> None:
         """Tell which models there are, for ``-wait``."""
-        names, words = self._models(), self._program.words
+        names, argv = self._models(), self._program.argv
         callback(SimpleNamespace(name=names))
-        wanted = words[words.index("-wait") + 1]
+        wanted = argv[argv.index("-wait") + 1]
         if wanted not in names:
             listed = ", ".join(names) or "none"
             text = f"model '{wanted}', which no spawner before it brings; there are: {listed}"

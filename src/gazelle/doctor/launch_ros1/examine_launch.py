@@ -14,8 +14,8 @@ from gazelle.doctor.launch_ros1.launched_nodes import (
     Launched,
     Role,
     launched_from,
-    placed,
     start_plan,
+    with_parameter_span,
 )
 from gazelle.doctor.launch_ros1.name_checks import check_descriptions, check_remaps, check_topics
 from gazelle.doctor.launch_ros1.node_checks import (
@@ -99,10 +99,10 @@ def _report_required(config: LaunchConfig, found: Diagnostics, examination: Exam
     if not missing:
         return False
     file = Path(config.files[0])
-    words = " ".join(f"{item.name}:=…" for item in missing)
+    argv = " ".join(f"{item.name}:=…" for item in missing)
     text = f"'{file.name}' needs arguments and is not examined: "
     text += ", ".join(f"{item.name} ({item.doc})" if item.doc else item.name for item in missing)
-    fix = f"examine it with them: gazelle doctor {file} {words}"
+    fix = f"examine it with them: gazelle doctor {file} {argv}"
     phrase = f"RLException: [{file}] requires the '{missing[0].name}' arg to be set"
     examination.diagnostics.report(
         "doctor.needs-arguments", text, missing[0].span, fix=fix, phrase=phrase
@@ -133,7 +133,7 @@ def _starts(launched: Launched, examination: Examination) -> dict[str, DryStart]
         heard = Diagnostics()
         plan = start_plan(launched, server, heard)
         start = dry_start(plan, workspace=examination.workspace, diagnostics=heard)
-        told = tuple(placed(item, launched.places) for item in heard)
+        told = tuple(with_parameter_span(item, launched.spans) for item in heard)
         for item in told:
             examination.diagnostics.add(item)
         if start is not None:

@@ -244,7 +244,7 @@ def _edges_of(publisher: StatePublisher) -> list[Edge]:
 
 def _static_edges(node: LaunchedNode, diagnostics: Diagnostics) -> list[Edge]:
     try:
-        found = parse_arguments(node.program.words, with_period=node.spec.package == "tf")
+        found = parse_arguments(node.program.argv, with_period=node.spec.package == "tf")
     except LaunchError as error:
         text = f"'{node.full_name}' ends at once: {error}"
         diagnostics.report("doctor.bad-arguments", text, node.spec.span)

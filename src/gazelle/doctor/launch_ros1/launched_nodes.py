@@ -29,9 +29,9 @@ __all__ = [
     "Role",
     "controller_start",
     "launched_from",
-    "parameter_places",
-    "placed",
+    "parameter_spans",
     "start_plan",
+    "with_parameter_span",
 ]
 
 _NAME = re.compile(r"'(/[^'\s]+)'")
@@ -105,7 +105,7 @@ class Launched:
         parameters: the parameter store before any node has started.
         name: of the launch, for tables.
         is_whole: its files were read without an error.
-        places: where each parameter is set, in a YAML file where one is loaded.
+        spans: where each parameter is set, in a YAML file where one is loaded.
     """
 
     config: LaunchConfig
@@ -113,7 +113,7 @@ class Launched:
     parameters: ParameterTree = field(default_factory=ParameterTree)
     name: str = ""
     is_whole: bool = True
-    places: Mapping[str, SourceSpan] = field(default_factory=dict)
+    spans: Mapping[str, SourceSpan] = field(default_factory=dict)
 
     def of_role(self, *roles: Role) -> tuple[LaunchedNode, ...]:
         """Return the nodes that have one of the roles."""
@@ -138,21 +138,21 @@ class Launched:
         return text if text.strip() else None
 
 
-def parameter_places(config: LaunchConfig) -> dict[str, SourceSpan]:
+def parameter_spans(config: LaunchConfig) -> dict[str, SourceSpan]:
     """Return where each parameter is set; the line of the YAML file where one is loaded."""
-    places = dict(config.param_spans)
+    spans = dict(config.param_spans)
     for element, (file, target) in config.yaml_files.items():
         for name, span in _lines(file, target):
             if config.param_spans.get(name) == element:
-                places[name] = replace(span, via=(element, *element.via))
-    return places
+                spans[name] = replace(span, via=(element, *element.via))
+    return spans
 
 
-def placed(item: Diagnostic, places: Mapping[str, SourceSpan]) -> Diagnostic:
+def with_parameter_span(item: Diagnostic, spans: Mapping[str, SourceSpan]) -> Diagnostic:
     """Return a finding that names a parameter at the place where that is set."""
     if item.span is not None:
         return item
-    named = (places[name] for name in _NAME.findall(item.message) if name in places)
+    named = (spans[name] for name in _NAME.findall(item.message) if name in spans)
     return replace(item, span=next(named, None))
 
 
@@ -177,7 +177,7 @@ def launched_from(
     parameters = ParameterTree()
     for key, value in config.params.items():
         parameters.set(key, value)
-    return Launched(config, nodes, parameters, name, is_whole, parameter_places(config))
+    return Launched(config, nodes, parameters, name, is_whole, parameter_spans(config))
 
 
 def start_plan(launched: Launched, server: LaunchedNode, diagnostics: Diagnostics) -> StartPlan:
@@ -208,7 +208,7 @@ def controller_start(node: LaunchedNode, diagnostics: Diagnostics) -> Controller
     try:
         if executable == "controller_manager":
             return _of_command(node)
-        if executable == "spawner.py" or is_ros2(node.program.words):
+        if executable == "spawner.py" or is_ros2(node.program.argv):
             return _of_ros2(node)
         return _of_ros1(node)
     except LaunchError as error:
@@ -226,10 +226,10 @@ def _lines(file: str, target: str) -> Iterator[tuple[str, SourceSpan]]:
 
 def _node(spec: NodeTag, executable: Executable | None) -> LaunchedNode:
     try:
-        words = shlex.split(spec.args)
+        argv = shlex.split(spec.args)
     except ValueError:
-        words = spec.args.split()
-    line = parse_command_line(words)
+        argv = spec.args.split()
+    line = parse_command_line(argv)
     remappings: Mapping[str, str] = {**dict(spec.remaps), **line.remappings}
     program = Program(
         line.name or spec.name,
@@ -254,7 +254,7 @@ def _role(executable: Executable | None) -> Role:
 
 
 def _of_ros1(node: LaunchedNode) -> ControllerStart:
-    options = spawner_parser().parse_args(list(node.program.words))
+    options = spawner_parser().parse_args(list(node.program.argv))
     name = f"{options.namespace.rstrip('/')}/controller_manager".lstrip("/")
     if options.namespace.startswith("/"):
         name = f"/{name}"
@@ -264,7 +264,7 @@ def _of_ros1(node: LaunchedNode) -> ControllerStart:
 
 
 def _of_ros2(node: LaunchedNode) -> ControllerStart:
-    options = spawner_options(node.program.words)
+    options = spawner_options(node.program.argv)
     name = options.controller_manager
     if options.namespace and not name.startswith("/"):
         name = f"/{options.namespace.strip('/')}/{name}"
@@ -280,10 +280,10 @@ def _of_ros2(node: LaunchedNode) -> ControllerStart:
 
 def _of_command(node: LaunchedNode) -> ControllerStart | None:
     """``controller_manager spawn NAME``: other commands change nothing before the first step."""
-    words = [word for word in node.program.words if not word.startswith("-")]
-    if not words or words[0] not in _LOADS:
+    argv = [word for word in node.program.argv if not word.startswith("-")]
+    if not argv or argv[0] not in _LOADS:
         return None
-    starts = words[0] != "load"
+    starts = argv[0] != "load"
     return ControllerStart(
-        node.resolve("controller_manager"), tuple(words[1:]), node.program, starts=starts
+        node.resolve("controller_manager"), tuple(argv[1:]), node.program, starts=starts
     )

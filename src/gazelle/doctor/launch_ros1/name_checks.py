@@ -78,9 +78,9 @@ def check_descriptions(launched: Launched, diagnostics: Diagnostics) -> None:
         if isinstance(value, str) and _is_unexpanded(value):
             text = f"parameter '{name}' holds xacro that nobody has expanded: its "
             text += "${…} and <xacro:…> mean nothing to a URDF reader"
-            place = launched.places.get(name)
+            span = launched.spans.get(name)
             fix = 'write command="$(find xacro)/xacro FILE" in place of textfile='
-            diagnostics.report("doctor.description-not-expanded", text, place, fix=fix)
+            diagnostics.report("doctor.description-not-expanded", text, span, fix=fix)
 
 
 def _is_unexpanded(text: str) -> bool:

@@ -53,7 +53,7 @@ def check_nodes(launched: Launched, diagnostics: Diagnostics) -> None:
         except ValueError as error:
             text = f"args of '{node.full_name}' cannot be split into words: {error}"
             diagnostics.report("doctor.bad-arguments", text, node.spec.span)
-        if node.role not in _ENDS or _BOND in node.program.words:
+        if node.role not in _ENDS or _BOND in node.program.argv:
             continue
         if node.spec.required:
             text = f"'{node.full_name}' is required and ends as soon as its model is there: that "
@@ -75,14 +75,14 @@ def check_idle_parameters(launched: Launched, diagnostics: Diagnostics) -> None:
         for item in idle_parameters(f"{builtin.package}/{builtin.executable}", values, 1):
             text = f"'{node.full_name}': parameter '{item.key}' has no effect here: {item.reason}"
             name = f"{node.full_name}/{item.key.replace('.', '/')}"
-            span = launched.places.get(name, node.spec.span)
+            span = launched.spans.get(name, node.spec.span)
             diagnostics.report("parameter.idle", text, span)
 
 
 def nodes_section(launched: Launched) -> Section:
     """Return the table of what is started, and by what."""
     rows = tuple(
-        (node.full_name, f"{node.spec.package}/{node.spec.type}", _runs(node), _place(node))
+        (node.full_name, f"{node.spec.package}/{node.spec.type}", _runs(node), _location(node))
         for node in launched.nodes
     )
     return Section("nodes", "nodes", ("node", "package/type", "what it is", "place"), rows,
@@ -91,7 +91,7 @@ def nodes_section(launched: Launched) -> Section:
 
 def _owns_clock(node: LaunchedNode) -> bool:
     plays = (node.spec.package, node.spec.type) == ("rosbag", "play")
-    return node.role is Role.SIMULATOR or (plays and "--clock" in node.program.words)
+    return node.role is Role.SIMULATOR or (plays and "--clock" in node.program.argv)
 
 
 def _check_names(launched: Launched, diagnostics: Diagnostics) -> None:
@@ -107,14 +107,14 @@ def _check_names(launched: Launched, diagnostics: Diagnostics) -> None:
             text = f"parameter '{name}' is looked at by no node; did you mean '{_WORD}'?"
         else:
             continue
-        place = launched.places.get(name)
-        diagnostics.report("doctor.sim-time-name", text, place, fix=fix)
+        span = launched.spans.get(name)
+        diagnostics.report("doctor.sim-time-name", text, span, fix=fix)
 
 
 def _is_misspelled(name: str) -> bool:
     """Tell whether a name is a slip for the clock's: ``use_map_topic`` is another thing."""
-    words = name.casefold().replace("_", "")
-    likeness = SequenceMatcher(None, words, _WORD.replace("_", "")).ratio()
+    argv = name.casefold().replace("_", "")
+    likeness = SequenceMatcher(None, argv, _WORD.replace("_", "")).ratio()
     return name.startswith("use") and likeness >= _MIN_LIKENESS
 
 
@@ -133,7 +133,7 @@ def _check_value(launched: Launched, owners: list[LaunchedNode], diagnostics: Di
     elif not owners and value is True:
         text = f"{_NAME} is true and nothing in this launch publishes /clock: time stands at 0 "
         text += "until a simulator or `rosbag play --clock` runs elsewhere"
-        diagnostics.report("doctor.no-clock", text, launched.places.get(_NAME))
+        diagnostics.report("doctor.no-clock", text, launched.spans.get(_NAME))
 
 
 def _has_a_clock(node: LaunchedNode) -> bool:
@@ -168,6 +168,6 @@ def _runs(node: LaunchedNode) -> str:
     return _REPLACEMENTS.get(node.role, node.role.value)
 
 
-def _place(node: LaunchedNode) -> str:
+def _location(node: LaunchedNode) -> str:
     span = node.spec.span
     return "" if span is None else f"{span.file.rpartition('/')[2]}:{span.line}"

@@ -233,14 +233,14 @@ class _Reader(ast.NodeVisitor):
 
     def _topic(self, node: ast.Call, called: str) -> None:
         is_ros2 = called.startswith("create_")
-        words = {item.arg: item.value for item in node.keywords if item.arg}
-        places = (1, 0) if is_ros2 else (0, 1)
+        keywords = {item.arg: item.value for item in node.keywords if item.arg}
+        positions = (1, 0) if is_ros2 else (0, 1)
         given: list[ast.expr | None] = []
-        for place, keys in zip(
-            places, (("topic", "name"), ("msg_type", "data_class")), strict=True
+        for position, keys in zip(
+            positions, (("topic", "name"), ("msg_type", "data_class")), strict=True
         ):
-            found = next((words[key] for key in keys if key in words), None)
-            given.append(node.args[place] if place < len(node.args) else found)
+            found = next((keywords[key] for key in keys if key in keywords), None)
+            given.append(node.args[position] if position < len(node.args) else found)
         name = self._text(given[0])
         if name is None:
             self.is_complete = False
@@ -355,8 +355,8 @@ def _named(
     listens: Mapping[str, str],
     is_complete: bool = True,
 ) -> NodeTopics:
-    place, own = node.program.namespace, node.full_name
-    written = frozenset(resolve(name, place, node=own) for name in (*publishes, *listens))
+    namespace, own = node.program.namespace, node.full_name
+    written = frozenset(resolve(name, namespace, node=own) for name in (*publishes, *listens))
     return NodeTopics(
         node,
         {node.resolve(name): kind for name, kind in publishes.items()},
@@ -367,13 +367,13 @@ def _named(
 
 
 def _of_relay(node: LaunchedNode) -> NodeTopics:
-    words = [word for word in node.program.words if word != "messages"]
-    if not words:
+    argv = [word for word in node.program.argv if word != "messages"]
+    if not argv:
         return NodeTopics(node, {}, {}, frozenset(), is_complete=False)
-    last = words[-1]
+    last = argv[-1]
     is_number = last.replace(".", "", 1).isdigit()
-    target = last if len(words) > 1 and not is_number else f"{words[0]}_{node.spec.type}"
-    return _named(node, {target: ""}, {words[0]: ""})
+    target = last if len(argv) > 1 and not is_number else f"{argv[0]}_{node.spec.type}"
+    return _named(node, {target: ""}, {argv[0]: ""})
 
 
 def _of_simulator(node: LaunchedNode, start: DryStart | None) -> NodeTopics:

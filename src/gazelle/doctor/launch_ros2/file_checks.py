@@ -27,7 +27,7 @@ def check_commands(
     for item in files:
         for command in item.file.commands:
             if command.is_substitution:
-                _check_words(command, diagnostics)
+                _check_blanks(command, diagnostics)
                 _check_wrapped(command, workspace, diagnostics)
 
 
@@ -130,7 +130,7 @@ def _robot(command: Command) -> RobotSource | None:
     return RobotSource(path, parsed.mappings, command.span)
 
 
-def _check_words(command: Command, diagnostics: Diagnostics) -> None:
+def _check_blanks(command: Command, diagnostics: Diagnostics) -> None:
     if command.text.startswith(("xacro/", "xacro$", "cat/")):
         word = command.text.partition("/")[0]
         shown = command.text if len(command.text) < 60 else f"{command.text[:57]}…"

@@ -88,12 +88,12 @@ def _report_missing(source: SourcePackage, missing: Sequence[str], d: Diagnostic
         example = PurePosixPath(names[0]).name
         text = f"{_listed([PurePosixPath(name).name for name in names])} of folder '{folder}' "
         text += "is not installed" if len(names) == 1 else "are not installed"
-        text += f"; found here in the source folder, {_real_words(source, folder, example)}"
+        text += f"; found here in the source folder, {_ros_text(source, folder, example)}"
         span, fix = _rule_to_write(source, folder, names)
         d.report("package.not-installed", text, span, fix=fix, severity=severity)
 
 
-def _real_words(source: SourcePackage, folder: str, example: str) -> str:
+def _ros_text(source: SourcePackage, folder: str, example: str) -> str:
     name = source.package.name
     if source.is_ros2 and example.endswith(_LAUNCH_ENDINGS):
         words = f"file '{example}' was not found in the share directory of package '{name}'"

@@ -95,7 +95,7 @@ def _check_entry_point(
 ) -> None:
     module, _, function = (part.strip() for part in target.partition(":"))
     own = module.partition(".")[0]
-    span = _place(source, target) or _place(source, name)
+    span = _span_of(source, target) or _span_of(source, name)
     if not _is_own(source, own):
         return
     file = _module_file(source, module)
@@ -123,7 +123,7 @@ def _is_own(source: SourcePackage, module: str) -> bool:
     return module == source.package.name or bool(nearest_names(module, folders))
 
 
-def _place(source: SourcePackage, text: str) -> SourceSpan | None:
+def _span_of(source: SourcePackage, text: str) -> SourceSpan | None:
     for file in ("setup.py", "setup.cfg", "pyproject.toml"):
         for number, line in enumerate(source.text(file).splitlines(), 1):
             column = line.find(text)

@@ -44,7 +44,7 @@ class _Started(NamedTuple):
     state: str
     joints: tuple[str, ...] = ()
     holds: bool = False
-    place: SourceSpan | None = None
+    span: SourceSpan | None = None
 
 
 class _Course(NamedTuple):
@@ -91,15 +91,15 @@ def _start_all(
         state = _start(controllers, item.name)
         if state not in ("running", "in use by another"):
             text = f"controller '{name}' ({item.type}) cannot be started: {state}"
-            diagnostics.report("probe.controller-start", text, item.place)
-            found.append(_Started(name, item.type, "failed", place=item.place))
+            diagnostics.report("probe.controller-start", text, item.span)
+            found.append(_Started(name, item.type, "failed", span=item.span))
             continue
         record = manager.controllers[item.name]
         commands = record.commands if record.is_active else ()
         joints = _full_names([one.rpartition("/")[0] for one in commands], robots)
         efforts = bool(commands) and all(one.endswith("/effort") for one in commands)
         holds = bool(joints) and not (efforts and not item.gains)
-        found.append(_Started(name, item.type, state, joints, holds, item.place))
+        found.append(_Started(name, item.type, state, joints, holds, item.span))
     return found
 
 
@@ -157,7 +157,7 @@ def _judge(
             f"{_unit(name, robots)}/s"
         )
         fix = "lower p or raise d, or give the joint a damping"
-        diagnostics.report("probe.controller-shakes", text, item.place, fix=fix)
+        diagnostics.report("probe.controller-shakes", text, item.span, fix=fix)
         return "shakes"
     sagging = [name for name in item.joints if courses[name].motion > _largest(name, robots)]
     if sagging and item.holds:
@@ -171,7 +171,7 @@ def _judge(
             "raise p (and i) of its gains, raise the joint's <limit effort>, or use a position "
             "interface"
         )
-        diagnostics.report("probe.controller-sags", text, item.place, fix=fix)
+        diagnostics.report("probe.controller-sags", text, item.span, fix=fix)
         return "sags"
     return "good"
 

@@ -121,7 +121,7 @@ def _command(simulation: Simulation, kind: str, speeds: tuple[float, float]) -> 
 
 
 def _judge(robot: Model, topic: str, test: _Test, diagnostics: Diagnostics) -> str:
-    place = _place(robot)
+    span = _plugin_span(robot)
     ahead_m_s, turn_rad_s = test.straight.ahead_m_s, test.turning.yaw_rad_s
     ahead, turn = ahead_m_s / _AHEAD_M_S, turn_rad_s / _TURN_RAD_S
     who = f"robot '{robot.name}', told on {topic}"
@@ -130,7 +130,7 @@ def _judge(robot: Model, topic: str, test: _Test, diagnostics: Diagnostics) -> s
             f"{who} to drive {_AHEAD_M_S:g} m/s and to turn {_TURN_RAD_S:g} rad/s, does not move: "
             f"{ahead_m_s:.2g} m/s, {turn_rad_s:.2g} rad/s"
         )
-        diagnostics.report("probe.does-not-drive", text, place)
+        diagnostics.report("probe.does-not-drive", text, span)
         return "does not move"
     if abs(test.straight.yaw_rad_s) > _STRAY_RAD_S:
         text = (
@@ -138,28 +138,28 @@ def _judge(robot: Model, topic: str, test: _Test, diagnostics: Diagnostics) -> s
             f"{test.straight.yaw_rad_s:.3g} rad/s and drives {ahead_m_s:.3g} m/s"
         )
         fix = "let the axes of both wheels point to the left, and both wheels touch the ground"
-        diagnostics.report("probe.drives-wrong", text, place, fix=fix)
+        diagnostics.report("probe.drives-wrong", text, span, fix=fix)
         return "does not drive straight"
     verdict = []
     if turn < -_SHARE:
         text = f"{who} to turn left with {_TURN_RAD_S:g} rad/s, turns right: {turn_rad_s:.3g} rad/s"
-        diagnostics.report("probe.turns-wrong", text, place)
+        diagnostics.report("probe.turns-wrong", text, span)
         verdict.append("turns the wrong way")
     if ahead < -_SHARE:
         text = f"{who} to drive ahead with {_AHEAD_M_S:g} m/s, drives back: {ahead_m_s:.3g} m/s"
-        diagnostics.report("probe.drives-wrong", text, place)
+        diagnostics.report("probe.drives-wrong", text, span)
         verdict.append("drives backwards")
     elif abs(ahead - 1.0) > _TOLERANCE:
         text = (
             f"{who} to drive {_AHEAD_M_S:g} m/s, drives {ahead_m_s:.3g} m/s: odometry from the "
             "wheels will be wrong by that, too"
         )
-        diagnostics.report("probe.speed-differs", text, place)
+        diagnostics.report("probe.speed-differs", text, span)
         verdict.append(f"{ahead:.2f} times as fast")
     return ", ".join(verdict) or "good"
 
 
-def _place(robot: Model) -> SourceSpan | None:
+def _plugin_span(robot: Model) -> SourceSpan | None:
     """Return the place of the drive's plug-in."""
     for plugin in robot.plugins:
         if any(word in plugin.filename.lower() for word in ("drive", "planar", "control")):

@@ -58,7 +58,7 @@ def _report(
 ) -> str:
     touching = contacts_of(simulation, robot, with_itself=False)
     link = robot.link(worst)
-    place = link.span if link is not None else robot.span
+    span = link.span if link is not None else robot.span
     if not touching and base.moved_m > _FALLING_M:
         text = (
             f"robot '{robot.name}' falls: {base.moved_m:.3g} m in {_WATCH_S:g} s, and nothing "
@@ -68,7 +68,7 @@ def _report(
             "put a ground plane into the world below the robot, and give the links that stand on "
             "it a <collision> whose mesh can be found"
         )
-        diagnostics.report("probe.falls", text, place, fix=fix)
+        diagnostics.report("probe.falls", text, span, fix=fix)
         return FALLS
     text = (
         f"robot '{robot.name}' moved {_length(base.moved_m)} and turned {base.turned_deg:.3g}° "
@@ -77,7 +77,7 @@ def _report(
     text += (
         f"; it touches {', '.join(sorted(touching)[:4])}" if touching else "; it touches nothing"
     )
-    diagnostics.report("probe.idle-drift", text, place)
+    diagnostics.report("probe.idle-drift", text, span)
     return "moves"
 
 

@@ -66,7 +66,7 @@ def run_probes(
             for section in _probed(simulation, node, robots, diagnostics, progress or _silent):
                 sections.append(section)
     except SimulationDivergedError as error:
-        diagnostics.report("probe.diverged", str(error), _place(str(error), robots))
+        diagnostics.report("probe.diverged", str(error), _span_of(str(error), robots))
     except EngineError as error:
         diagnostics.report("probe.not-built", f"the world cannot be built: {error}", world.span)
     return tuple(section for section in sections if section.rows)
@@ -99,7 +99,7 @@ def _probed(
         yield probe_drive(simulation, robots, topics, diagnostics)
 
 
-def _place(text: str, robots: Sequence[Model]) -> SourceSpan | None:
+def _span_of(text: str, robots: Sequence[Model]) -> SourceSpan | None:
     """Return the place of the link that an error names as ``model::link``."""
     named = re.search(r"link '([^']+)::([^':]+)'", text)
     if named is None:

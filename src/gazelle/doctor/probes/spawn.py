@@ -83,7 +83,7 @@ def _report_overlap(
             f"{others}; {does}"
         )
         fix = f"spawn it {_upwards(depth)} m higher (spawn_model … -z), or somewhere free"
-    diagnostics.report("probe.spawn-overlap", text, _place_of(robot, worst), fix=fix)
+    diagnostics.report("probe.spawn-overlap", text, _span_of(robot, worst), fix=fix)
 
 
 def _upwards(depth_m: float) -> str:
@@ -99,10 +99,10 @@ def _report_throw(
     )
     if worst:
         text += f"; its deepest contact is {worst}, {depth_m * 1e3:.3g} mm"
-    diagnostics.report("probe.thrown", text, _place_of(robot, worst))
+    diagnostics.report("probe.thrown", text, _span_of(robot, worst))
 
 
-def _place_of(robot: Model, pair: str) -> SourceSpan | None:
+def _span_of(robot: Model, pair: str) -> SourceSpan | None:
     """Return the place of the collision that a pair names first."""
     name = pair.strip("'").partition("'")[0]
     for link in robot.links:

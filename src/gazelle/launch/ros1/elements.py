@@ -128,15 +128,15 @@ def _value(tag: Tag, name: str, scope: Scope, reading: Reading) -> Any:
 def _run(command: str, name: str, scope: Scope, reading: Reading) -> str:
     """Run a command and return what it prints; xacro runs in this process, it is Python."""
     try:
-        words = shlex.split(command)
+        argv = shlex.split(command)
     except ValueError as error:
         raise TagError("launch.param-command-failed", f"[{name}]: {error}: {command}") from error
-    if words and Path(words[0]).name in {"xacro", "xacro.py"}:
-        return _run_xacro(words[1:], name, reading)
-    reading.config.text_files += [word for word in words[1:] if is_file(word)]
+    if argv and Path(argv[0]).name in {"xacro", "xacro.py"}:
+        return _run_xacro(argv[1:], name, reading)
+    reading.config.text_files += [word for word in argv[1:] if is_file(word)]
     environment = {**node_environment(reading.environ, reading.workspace), **scope.env}
     try:
-        done = run_limited(words, env=environment)
+        done = run_limited(argv, env=environment)
     except OSError as error:
         message = f"Cannot load command parameter [{name}]: '{command}': {error.strerror}"
         raise TagError("launch.param-command-failed", message) from error
@@ -146,19 +146,19 @@ def _run(command: str, name: str, scope: Scope, reading: Reading) -> str:
     if done.returncode:
         detail = done.stderr.strip()
         message = (
-            f"Cannot load command parameter [{name}]: command [{words}] "
+            f"Cannot load command parameter [{name}]: command [{argv}] "
             f"returned with code [{done.returncode}]"
         )
         raise TagError("launch.param-command-failed", f"{message}\n{detail}" if detail else message)
     return done.stdout
 
 
-def _run_xacro(words: list[str], name: str, reading: Reading) -> str:
+def _run_xacro(argv: list[str], name: str, reading: Reading) -> str:
     from gazelle.description.source_maps import remember
     from gazelle.description.xacro import expand_xacro, parse_xacro_arguments
 
     try:
-        command = parse_xacro_arguments(words)
+        command = parse_xacro_arguments(argv)
     except ValueError as error:
         raise TagError("launch.param-command-failed", f"[{name}]: {error}") from error
     errors_before = len(reading.diagnostics.errors)
@@ -339,8 +339,8 @@ def _output(tag: Tag, scope: Scope, reading: Reading) -> Literal["log", "screen"
 
 
 def _cwd(tag: Tag, scope: Scope, reading: Reading) -> Literal["ROS_HOME", "node"]:
-    words = ("ROS_HOME", "ros-root", "ros_home", "node")
-    return "node" if reading.choice(tag, "cwd", scope, words) == "node" else "ROS_HOME"
+    choices = ("ROS_HOME", "ros-root", "ros_home", "node")
+    return "node" if reading.choice(tag, "cwd", scope, choices) == "node" else "ROS_HOME"
 
 
 def _private_params(scope: Scope, name: str, reading: Reading) -> None:

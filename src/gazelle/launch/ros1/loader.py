@@ -13,7 +13,7 @@ from gazelle.launch.config import LaunchConfig
 from gazelle.launch.environment import ros1_variables
 from gazelle.launch.ros1.element_reader import ELEMENTS, Reading, Scope, TagError
 from gazelle.launch.ros1.elements import HANDLERS
-from gazelle.launch.ros1.substitution_args import TOLD
+from gazelle.launch.ros1.substitution_args import REPORTED
 from gazelle.workspace import Workspace
 
 __all__ = ["load_launch_files", "load_launch_text"]
@@ -37,7 +37,7 @@ def load_launch_files(
         environ: environment for ``$(env …)``; the process's own when None.
     """
     config = LaunchConfig()
-    reading = Reading(config, workspace, diagnostics, _surroundings(environ or os.environ))
+    reading = Reading(config, workspace, diagnostics, _ros1_environment(environ or os.environ))
     for file in files:
         root = read_xml(file, diagnostics)
         if root is not None:
@@ -56,7 +56,7 @@ def load_launch_text(
 ) -> LaunchConfig:
     """Read launch XML that has no file (``roslaunch -``)."""
     config = LaunchConfig()
-    reading = Reading(config, workspace, diagnostics, _surroundings(os.environ))
+    reading = Reading(config, workspace, diagnostics, _ros1_environment(os.environ))
     root = parse_xml(text, file, diagnostics)
     if root is not None:
         _load_root(root, Scope(file, given=dict(args)), reading, top=True)
@@ -64,7 +64,7 @@ def load_launch_text(
     return config
 
 
-def _surroundings(environ: Mapping[str, str]) -> dict[str, str]:
+def _ros1_environment(environ: Mapping[str, str]) -> dict[str, str]:
     return {**environ, **ros1_variables(environ)}
 
 
@@ -86,7 +86,7 @@ def _load_children(parent: Tag, scope: Scope, reading: Reading) -> None:
         try:
             _load_element(tag, scope, reading)
         except TagError as error:
-            if error.code != TOLD:
+            if error.code != REPORTED:
                 span = reading.located(error.span or tag.span, scope)
                 reading.diagnostics.report(
                     error.code, str(error), span, fix=error.fix, phrase=error.phrase

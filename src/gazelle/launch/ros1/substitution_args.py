@@ -16,12 +16,12 @@ from gazelle.errors import NotFoundError
 from gazelle.graph.names import anonymous_name
 from gazelle.workspace import Workspace
 
-__all__ = ["TOLD", "UNREADABLE", "Substitution", "SubstitutionError"]
+__all__ = ["REPORTED", "UNREADABLE", "Substitution", "SubstitutionError"]
 
 # The value of an argument whose own text has no value; no XML text holds this character.
 UNREADABLE = "\0"
 # The code of what follows from a mistake that is reported already.
-TOLD = ""
+REPORTED = ""
 
 _CALL = re.compile(r"\$\(([^()]*(?:\([^()]*\)[^()]*)*)\)")
 _FIND = re.compile(r"\$\(find([^()]*)\)")
@@ -151,7 +151,7 @@ class Substitution:
             phrase = f"RLException: requires the '{name}' arg to be set"
             raise SubstitutionError("launch.arg-missing", message, fix, phrase)
         if value == UNREADABLE:
-            raise SubstitutionError(TOLD, f"arg '{name}' could not be read")
+            raise SubstitutionError(REPORTED, f"arg '{name}' could not be read")
         return value
 
     def _eval(self, expression: str) -> Any:

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.launch.environment import is_own_command
-from gazelle.launch.watchdog import Guard
+from gazelle.launch.watchdog import Watchdog
 from gazelle.process_lifetime import PARENT_VARIABLE, interrupts_held
 
-__all__ = ["ChildProcess", "Guarded", "OutputLines", "start_child"]
+__all__ = ["ChildProcess", "OutputLines", "WatchedGroups", "start_child"]
 
 # What a process wrote last is awaited so long, since a child of it may hold its output open.
-_LAST_WORDS_S = 0.5
+_LAST_OUTPUT_S = 0.5
 
 
 class OutputLines:
@@ -57,33 +57,33 @@ class OutputLines:
 
 
 @dataclass(frozen=True, slots=True)
-class Guarded:
+class WatchedGroups:
     """Process groups that end with the launcher, whatever ends it.
 
     Attributes:
-        guard: the process that watches.
+        watchdog: the process that watches.
         groups: those that may have something left in them.
     """
 
-    guard: Guard
+    watchdog: Watchdog
     groups: set[int]
 
     def begun(self, group: int) -> None:
         """Watch over a group."""
         self.groups.add(group)
-        self.guard.begun(group)
+        self.watchdog.begun(group)
 
     def ended(self, group: int) -> None:
         """Forget a group, unless something in it still runs."""
         if not _is_there(group):
             self.groups.discard(group)
-            self.guard.ended(group)
+            self.watchdog.ended(group)
 
     def close(self) -> None:
         """End what is left, and wait for that."""
         for group in list(self.groups):
             self.ended(group)
-        self.guard.close()
+        self.watchdog.close()
 
 
 class ChildProcess(asyncio.SubprocessProtocol):
@@ -130,7 +130,7 @@ class ChildProcess(asyncio.SubprocessProtocol):
     def process_exited(self) -> None:
         """Hear that it has ended."""
         self._finish_when_silent()
-        self._loop.call_later(_LAST_WORDS_S, self._finish)
+        self._loop.call_later(_LAST_OUTPUT_S, self._finish)
 
     def send_signal(self, number: int, *, whole_group: bool = False) -> None:
         """Send it a signal, or it and everything it has started.

@@ -34,12 +34,12 @@ def generate_controllers_spawner_launch_description(
         controller_params_files: files with their parameters.
         extra_spawner_args: more words for the spawner, such as ``--load-only``.
     """
-    words: list[Any] = [*controller_names, "--controller-manager"]
-    words.append(LaunchConfiguration("controller_manager_name"))
+    argv: list[Any] = [*controller_names, "--controller-manager"]
+    argv.append(LaunchConfiguration("controller_manager_name"))
     for file in controller_params_files or ():
-        words += ["--param-file", file] if file else []
+        argv += ["--param-file", file] if file else []
     unload: list[Any] = ['"--unload-on-kill" if "true" == "', LaunchConfiguration("unload_on_kill")]
-    words.append(PythonExpression([*unload, '" else ""']))
+    argv.append(PythonExpression([*unload, '" else ""']))
     return LaunchDescription(
         [
             DeclareLaunchArgument(
@@ -52,7 +52,7 @@ def generate_controllers_spawner_launch_description(
                 default_value="false",
                 description="Wait for the end, and unload the controllers then",
             ),
-            _spawner([*words, *extra_spawner_args]),
+            _spawner([*argv, *extra_spawner_args]),
         ]
     )
 
@@ -101,23 +101,23 @@ def generate_spawner_launch_description(
         ValueError: it is no dict, or one of its values has another type.
     """
     _check_dict(controller_info_dict)
-    words: list[Any] = []
+    argv: list[Any] = []
     for name, given in controller_info_dict.items():
-        words += ["--controller", name]
+        argv += ["--controller", name]
         for file in _files(given.get("param_file")):
-            words += ["--param-file", file]
+            argv += ["--param-file", file]
         for key, flag in _FLAGS.items():
-            words += [flag] if _checked(given.get(key, False), bool, key) else []
+            argv += [flag] if _checked(given.get(key, False), bool, key) else []
         if "ros_args" in given:
-            words += ["--controller-ros-args", _checked(given["ros_args"], str, "ros_args")]
-    return LaunchDescription([_spawner([*words, *extra_spawner_args])])
+            argv += ["--controller-ros-args", _checked(given["ros_args"], str, "ros_args")]
+    return LaunchDescription([_spawner([*argv, *extra_spawner_args])])
 
 
-def _spawner(words: Sequence[Any]) -> Node:
+def _spawner(argv: Sequence[Any]) -> Node:
     return Node(  # noqa: S604 - as the original: an empty word disappears
         package="controller_manager",
         executable="spawner",
-        arguments=words,
+        arguments=argv,
         shell=True,
         output="screen",
     )

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import warnings
 
-__all__ = ["TOLD", "warn_once"]
+__all__ = ["WARNED", "warn_once"]
 
 # What was said. Launch files repeat themselves, and Python counts warnings by lines.
-TOLD: set[str] = set()
+WARNED: set[str] = set()
 
 
 def warn_once(text: str, category: type[Warning] = UserWarning, *, stacklevel: int = 2) -> None:
     """Warn at the first place a text is said for; `stacklevel` counts from the caller."""
-    if text in TOLD:
+    if text in WARNED:
         return
-    TOLD.add(text)
+    WARNED.add(text)
     warnings.warn(text, category, stacklevel=stacklevel + 1)

@@ -80,7 +80,7 @@ class Executable:
         """
         cmd = [perform_substitutions(context, word) for word in self.cmd]
         program = Path(cmd[0]).name if cmd else ""
-        self.final_cmd = [*self._prefix_words(context, program), *cmd]
+        self.final_cmd = [*self._prefix_argv(context, program), *cmd]
         name = Path(self.final_cmd[0]).name if self.final_cmd else ""
         if self.name is not None:
             name = perform_substitutions(context, self.name)
@@ -89,12 +89,12 @@ class Executable:
         env = dict(context.environment) if self.env is None else _performed(context, self.env)
         self.final_env = {**env, **_performed(context, self.additional_env or [])}
 
-    def _prefix_words(self, context: LaunchContext, program: str) -> list[str]:
+    def _prefix_argv(self, context: LaunchContext, program: str) -> list[str]:
         """Return the prefix; one from the command line goes only before programs of its filter."""
-        words = shlex.split(perform_substitutions(context, self.prefix))
+        argv = shlex.split(perform_substitutions(context, self.prefix))
         pattern = context.launch_configurations.get("launch-prefix-filter", "")
         if self.__has_own_prefix or re.match(pattern, program):
-            return words
+            return argv
         return []
 
 

@@ -21,7 +21,7 @@ from gazelle.launch.environment import ROS_COMMANDS
 from gazelle.launch.ros2.conditions import InvalidConditionExpressionError
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.substitutions.substitution_failure import SubstitutionFailure
-from gazelle.launch.ros2.user_spans import is_the_users, kept_explanation, kept_place, raising_place
+from gazelle.launch.ros2.user_spans import is_the_users, kept_explanation, kept_span, raising_span
 from gazelle.node_specs.unavailable_packages import replacement_of
 from gazelle.workspace.ament_index import PackageNotFoundError
 
@@ -146,13 +146,13 @@ def with_diagnostic(
     error: Exception,
     code: str,
     message: str,
-    place: SourceSpan | None = None,
+    span: SourceSpan | None = None,
     *,
     fix: str = "",
 ) -> Exception:
     """Return an error that brings its own finding along, to be raised."""
     diagnostics = Diagnostics()
-    diagnostics.report(code, message, place, fix=fix)
+    diagnostics.report(code, message, span, fix=fix)
     setattr(error, _ATTRIBUTE, next(iter(diagnostics)))
     return error
 
@@ -167,12 +167,12 @@ def diagnose(error: BaseException) -> list[Diagnostic]:
             continue
         known = explain(cause) or Explained(_code(cause))
         message = known.message or f"{type(cause).__name__}: {cause}"
-        found.report(known.code, message, _place(cause, error), fix=known.fix)
+        found.report(known.code, message, _span(cause, error), fix=known.fix)
     return list(found)
 
 
 def not_started(
-    error: Exception, cmd: Sequence[str], cwd: str | None, place: SourceSpan | None
+    error: Exception, cmd: Sequence[str], cwd: str | None, span: SourceSpan | None
 ) -> Diagnostic:
     """Return the finding about a process that cannot be started."""
     program = cmd[0] if cmd else ""
@@ -191,7 +191,7 @@ def not_started(
     else:
         message = f"'{program}' cannot be started: {error}"
     found = Diagnostics()
-    found.report("ros2_launch.process-not-started", message, place, fix=fix)
+    found.report("ros2_launch.process-not-started", message, span, fix=fix)
     return next(iter(found))
 
 
@@ -343,13 +343,13 @@ def _code(error: BaseException) -> str:
         return "ros2_launch.substitution"
     if isinstance(error, InvalidConditionExpressionError):
         return "ros2_launch.bad-condition"
-    if isinstance(error, FileNotFoundError) and raising_place(error) is None:
+    if isinstance(error, FileNotFoundError) and raising_span(error) is None:
         return "ros2_launch.file-missing"
     return "ros2_launch.exception"
 
 
-def _place(cause: BaseException, error: BaseException) -> SourceSpan | None:
-    return raising_place(cause) or kept_place(cause) or kept_place(error)
+def _span(cause: BaseException, error: BaseException) -> SourceSpan | None:
+    return raising_span(cause) or kept_span(cause) or kept_span(error)
 
 
 _KINDS: tuple[tuple[type[BaseException], Callable[[BaseException], Explained | None]], ...] = (

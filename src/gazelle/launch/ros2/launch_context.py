@@ -9,12 +9,12 @@ from collections.abc import Iterable, MutableMapping
 from typing import Any
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, render
-from gazelle.launch.ros2.child_process import Guarded
+from gazelle.launch.ros2.child_process import WatchedGroups
 from gazelle.launch.ros2.event import Event
 from gazelle.launch.ros2.event_handler import BaseEventHandler
 from gazelle.launch.ros2.substitution import Substitution
-from gazelle.launch.ros2.user_spans import keep_place
-from gazelle.launch.watchdog import Guard
+from gazelle.launch.ros2.user_spans import keep_span
+from gazelle.launch.watchdog import Watchdog
 
 __all__ = ["LaunchContext"]
 
@@ -45,14 +45,14 @@ class LaunchContext:
 
     Attributes:
         diagnostics: what is wrong with the user's files, everything so far.
-        guarded: the processes, which end when the launcher does; None before the first.
+        watched_groups: the processes, which end when the launcher does; None before the first.
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
         self.__argv = list(argv) if argv is not None else []
         self.__noninteractive = noninteractive
         self.diagnostics = Diagnostics()
-        self.guarded: Guarded | None = None
+        self.watched_groups: WatchedGroups | None = None
         self._event_queue: asyncio.Queue[Event] = asyncio.Queue()
         self._event_handlers: collections.deque[BaseEventHandler] = collections.deque()
         self._completion_futures: list[asyncio.Future[Any]] = []
@@ -96,19 +96,19 @@ class LaunchContext:
         """The environment of processes to come."""
         return os.environ
 
-    def tell(self, diagnostic: Diagnostic) -> None:
+    def report(self, diagnostic: Diagnostic) -> None:
         """Keep a finding about the user's files and show it on the terminal, once."""
         known = len(self.diagnostics)
         self.diagnostics.add(diagnostic)
         if len(self.diagnostics) > known:
             render([diagnostic])
 
-    def guard(self, group: int) -> Guarded:
+    def watch(self, group: int) -> WatchedGroups:
         """Let a process group end with the launcher, even when that is killed."""
-        if self.guarded is None:
-            self.guarded = Guarded(Guard(), set())
-        self.guarded.begun(group)
-        return self.guarded
+        if self.watched_groups is None:
+            self.watched_groups = WatchedGroups(Watchdog(), set())
+        self.watched_groups.begun(group)
+        return self.watched_groups
 
     def add_completion_future(self, completion_future: asyncio.Future[Any]) -> None:
         """Let the launch go on at least until this is done."""
@@ -167,7 +167,7 @@ class LaunchContext:
         try:
             return substitution.perform(self)
         except Exception as error:
-            keep_place(error, getattr(substitution, "place", None))
+            keep_span(error, getattr(substitution, "span", None))
             raise
 
     def _set_is_shutdown(self, state: bool) -> None:

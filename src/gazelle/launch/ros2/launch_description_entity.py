@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import SourceSpan
-from gazelle.launch.ros2.user_spans import calling_place
+from gazelle.launch.ros2.user_spans import calling_span
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.launch_context import LaunchContext
@@ -26,15 +26,15 @@ class LaunchDescriptionEntity:
     """Something that launch visits: an action, or a description with more of them.
 
     Attributes:
-        place: the user's line that made it, None when no file did.
+        span: the user's line that made it, None when no file did.
     """
 
-    place: SourceSpan | None
+    span: SourceSpan | None
 
     def __new__(cls, *_args: Any, **_kwargs: Any) -> LaunchDescriptionEntity:
         """Make it and note the user's line that did so, for messages."""
         instance = super().__new__(cls)
-        instance.place = calling_place()
+        instance.span = calling_span()
         return instance
 
     def describe(self) -> str:

@@ -213,7 +213,7 @@ class LaunchService:
         self.__logger.debug("".join(traceback.format_exception(error)))
         self.__logger.error(message)
         for diagnostic in diagnose(error):
-            self.context.tell(diagnostic)
+            self.context.report(diagnostic)
         self.__begin_shutdown(message)
 
     @contextlib.contextmanager
@@ -247,9 +247,9 @@ class LaunchService:
 
     def __end(self) -> None:
         """End what is left of the processes, and let it be run again."""
-        if self.context.guarded is not None:
-            self.context.guarded.close()
-            self.context.guarded = None
+        if self.context.watched_groups is not None:
+            self.context.watched_groups.close()
+            self.context.watched_groups = None
         with self.__lock:
             self.event_loop = None
             self.task = None

@@ -32,10 +32,10 @@ __all__ = [
     "configured",
     "is_true",
     "lifecycle_manager",
+    "log_absent_nodes",
     "navigation_nodes",
     "section_names",
     "started",
-    "told",
     "value_of",
 ]
 
@@ -204,7 +204,7 @@ def lifecycle_manager(name: str, values: Mapping[str, Any], log: Sequence[str]) 
     )  # fmt: skip
 
 
-def told(sections: Iterable[str]) -> list[LogInfo]:
+def log_absent_nodes(sections: Iterable[str]) -> list[LogInfo]:
     """Say which nodes a file of parameters speaks of that are not here."""
     return [
         LogInfo(msg=f"nav2_bringup: {name} is left out: {ABSENT[name]}")

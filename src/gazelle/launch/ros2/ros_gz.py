@@ -59,7 +59,7 @@ class _Included(Action):
         include = IncludeLaunchDescription(
             PythonLaunchDescriptionSource(str(path)), launch_arguments=given
         )
-        include.place = self.place
+        include.span = self.span
         return [include]
 
 

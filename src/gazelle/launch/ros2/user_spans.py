@@ -14,13 +14,13 @@ from types import FrameType
 from gazelle.diagnostics import SourceSpan
 
 __all__ = [
-    "calling_place",
+    "calling_span",
     "is_the_users",
     "keep_explanation",
-    "keep_place",
+    "keep_span",
     "kept_explanation",
-    "kept_place",
-    "raising_place",
+    "kept_span",
+    "raising_span",
     "written_at",
 ]
 
@@ -48,16 +48,16 @@ def kept_explanation(error: BaseException) -> tuple[str, str]:
 
 
 @contextlib.contextmanager
-def written_at(place: SourceSpan | None) -> Iterator[None]:
-    """Let `calling_place` return the place of an element of XML or YAML."""
-    token = _element.set(place or _element.get())
+def written_at(span: SourceSpan | None) -> Iterator[None]:
+    """Let `calling_span` return the place of an element of XML or YAML."""
+    token = _element.set(span or _element.get())
     try:
         yield
     finally:
         _element.reset(token)
 
 
-def calling_place() -> SourceSpan | None:
+def calling_span() -> SourceSpan | None:
     """Return the line of the user's own file that is being executed, None outside of any."""
     element = _element.get()
     if element is not None:
@@ -70,12 +70,12 @@ def calling_place() -> SourceSpan | None:
     return None
 
 
-def raising_place(error: BaseException) -> SourceSpan | None:
+def raising_span(error: BaseException) -> SourceSpan | None:
     """Return the innermost line of the user's own files in a traceback."""
     if isinstance(error, SyntaxError) and error.filename and error.lineno:
-        place = SourceSpan(error.filename, error.lineno, error.offset or 0)
+        span = SourceSpan(error.filename, error.lineno, error.offset or 0)
         # That of a text, such as an expression, has the line of whoever gave the text.
-        return place if is_the_users(error.filename) else None
+        return span if is_the_users(error.filename) else None
     frames = [
         (frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(error.__traceback__)
     ]
@@ -85,16 +85,16 @@ def raising_place(error: BaseException) -> SourceSpan | None:
     return None
 
 
-def keep_place(error: BaseException, place: SourceSpan | None) -> None:
+def keep_span(error: BaseException, span: SourceSpan | None) -> None:
     """Remember with an error what it is about; the first place that is told counts."""
-    if place is not None and getattr(error, _ATTRIBUTE, None) is None:
-        setattr(error, _ATTRIBUTE, place)
+    if span is not None and getattr(error, _ATTRIBUTE, None) is None:
+        setattr(error, _ATTRIBUTE, span)
 
 
-def kept_place(error: BaseException) -> SourceSpan | None:
+def kept_span(error: BaseException) -> SourceSpan | None:
     """Return the place that was remembered with an error."""
-    place: SourceSpan | None = getattr(error, _ATTRIBUTE, None)
-    return place
+    span: SourceSpan | None = getattr(error, _ATTRIBUTE, None)
+    return span
 
 
 def is_the_users(file: str) -> bool:

@@ -148,7 +148,7 @@ def test_action_of_ros_gz(name: str, context: LaunchContext) -> None:
     description = include.launch_description_source.get_launch_description(context)
     nodes = [one for one in description.entities if hasattr(one, "node_executable")]
     assert [one.node_executable for one in nodes] == [_NODES[name]]
-    assert include.place.file == __file__
+    assert include.span.file == __file__
     with pytest.raises(TypeError, match="unexpected keyword argument 'worldsdffile'"):
         getattr(ros_gz, name)(**{**_GIVEN[name], "worldsdffile": "x"})
 

@@ -7,10 +7,10 @@ from gazelle.launch.ros2.nav2_bringup import (
     configured,
     is_true,
     lifecycle_manager,
+    log_absent_nodes,
     navigation_nodes,
     section_names,
     started,
-    told,
     value_of,
 )
 
@@ -21,9 +21,9 @@ __all__ = [
     "configured",
     "is_true",
     "lifecycle_manager",
+    "log_absent_nodes",
     "navigation_nodes",
     "section_names",
     "started",
-    "told",
     "value_of",
 ]

@@ -143,7 +143,7 @@ class ProcessEnding:
     def _timer(
         self, period_s: float, text: str, sent: signal.Signals, next_signal: signal.Signals
     ) -> TimerAction:
-        def tell(_context: LaunchContext) -> None:
+        def report(_context: LaunchContext) -> None:
             name = self._name()
             launch_logging.get_logger(name).error(
                 f"process[{name}] failed to terminate '{text}' seconds after receiving "
@@ -152,7 +152,7 @@ class ProcessEnding:
 
         return TimerAction(
             period=period_s,
-            actions=[OpaqueFunction(function=tell), self._signal_action(next_signal)],
+            actions=[OpaqueFunction(function=report), self._signal_action(next_signal)],
             cancel_on_shutdown=False,
         )
 
@@ -351,18 +351,18 @@ class ExecuteLocal(Action):
             child = await self.__start(context, details)
         except (OSError, ValueError) as error:
             logger.error(f"exception occurred while executing process: {error}")
-            context.tell(not_started(error, details["cmd"], details["cwd"], self.place))
+            context.report(not_started(error, details["cmd"], details["cwd"], self.span))
             return False
         code = await _end_of(child, logger)
         await context.emit_event(ProcessExited(returncode=code, **details))
         child.close()
-        if context.guarded is not None:
-            context.guarded.ended(child.pid)
+        if context.watched_groups is not None:
+            context.watched_groups.ended(child.pid)
         return True
 
     async def __start(self, context: LaunchContext, details: dict[str, Any]) -> ChildProcess:
         def on_start(child: ChildProcess) -> None:
-            context.guard(child.pid)
+            context.watch(child.pid)
             self.__child = child
             details["pid"] = child.pid
             logger = launch_logging.get_logger(details["name"])

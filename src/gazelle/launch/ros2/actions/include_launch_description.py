@@ -17,7 +17,7 @@ from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntit
 from gazelle.launch.ros2.launch_description_source import LaunchDescriptionSource
 from gazelle.launch.ros2.launch_description_sources import AnyLaunchDescriptionSource
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType
-from gazelle.launch.ros2.user_spans import keep_place
+from gazelle.launch.ros2.user_spans import keep_span
 from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
@@ -95,7 +95,7 @@ class IncludeLaunchDescription(Action):
         self.__check_arguments(description, context)
         settings = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         for setting in settings:
-            setting.place = self.place
+            setting.span = self.span
         return [*settings, description]
 
     def __check_arguments(self, description: LaunchDescription, context: LaunchContext) -> None:
@@ -115,8 +115,8 @@ class IncludeLaunchDescription(Action):
                 )
                 error = RuntimeError(f"{message}; {hint}" if hint else message)
                 # Of the command line's own include no line is the user's.
-                inner = includes[-1].place if includes else self.place
-                keep_place(error, inner or argument.place)
+                inner = includes[-1].span if includes else self.span
+                keep_span(error, inner or argument.span)
                 raise error
 
     def _argument_names(self, context: LaunchContext) -> list[str]:

@@ -15,10 +15,10 @@ class Entity:
     """An element: a kind, attributes and children.
 
     Attributes:
-        place: where it is written, None when that is not known.
+        span: where it is written, None when that is not known.
     """
 
-    place: SourceSpan | None = None
+    span: SourceSpan | None = None
 
     @property
     def type_name(self) -> str:

@@ -22,7 +22,7 @@ from gazelle.launch.ros2.frontend.parse_substitution import (
 )
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.substitution import Substitution
-from gazelle.launch.ros2.user_spans import keep_place, written_at
+from gazelle.launch.ros2.user_spans import keep_span, written_at
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.launch_description import LaunchDescription
@@ -76,10 +76,10 @@ class Parser:
         """Return the action that an element stands for."""
         self.load_launch_extensions()
         try:
-            with written_at(entity.place):
+            with written_at(entity.span):
                 return instantiate_action(entity, self)
         except Exception as error:
-            keep_place(error, entity.place)
+            keep_span(error, entity.span)
             raise
 
     def parse_substitution(self, value: str) -> list[Substitution]:
@@ -111,7 +111,7 @@ class Parser:
             actions = [self.parse_action(child) for child in entity.children]
             entity.assert_entity_completely_parsed()
         except Exception as error:
-            keep_place(error, entity.place)
+            keep_span(error, entity.span)
             raise
         return LaunchDescription(actions, deprecated_reason=deprecated)
 

@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.launch.ros2.frontend.entity import Entity as BaseEntity
 from gazelle.launch.ros2.frontend.parser import Parser as BaseParser
 from gazelle.launch.ros2.frontend.type_utils import check_is_list_entity
-from gazelle.launch.ros2.user_spans import keep_place
+from gazelle.launch.ros2.user_spans import keep_span
 from gazelle.launch.ros2.utilities.type_utils import get_typed_value
 
 __all__ = ["Entity", "Parser"]
@@ -25,7 +25,7 @@ class Entity(BaseEntity):
         self.__parent = parent
         self.__read_attributes: set[str] = set()
         self.__read_children: set[str] = set()
-        self.place: SourceSpan | None = xml_element.span
+        self.span: SourceSpan | None = xml_element.span
 
     @property
     def type_name(self) -> str:
@@ -59,7 +59,7 @@ class Entity(BaseEntity):
             hint = did_you_mean(first, sorted(self.__read_attributes))
             text = f"Unexpected attribute(s) found in `{tag.name}`: {_set(attributes)}"
             error = ValueError(f"{text}; {hint}" if hint else text)
-            keep_place(error, attribute_span(tag.span, first, whole=True))
+            keep_span(error, attribute_span(tag.span, first, whole=True))
             raise error
 
     def get_attr(
@@ -103,7 +103,7 @@ class Entity(BaseEntity):
                 f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type "
                 f"'{data_type}'.'{value}' can not be converted to one of those types"
             )
-            keep_place(error, attribute_span(self.__tag.span, name))
+            keep_span(error, attribute_span(self.__tag.span, name))
             raise error from problem
 
 
@@ -128,7 +128,7 @@ class Parser(BaseParser):
         if root is None:
             problem = diagnostics.errors[0]
             error = ValueError(f"{problem.span or name}: {problem.message}")
-            keep_place(error, problem.span)
+            keep_span(error, problem.span)
             raise error
         return Entity(root), cls()
 

@@ -11,7 +11,7 @@ from gazelle.documents.yaml import Dialect, YamlError, read_yaml
 from gazelle.launch.ros2.frontend.entity import Entity as BaseEntity
 from gazelle.launch.ros2.frontend.parser import Parser as BaseParser
 from gazelle.launch.ros2.frontend.type_utils import check_is_list_entity
-from gazelle.launch.ros2.user_spans import keep_place
+from gazelle.launch.ros2.user_spans import keep_span
 from gazelle.launch.ros2.utilities.type_utils import is_instance_of
 
 __all__ = ["Entity", "Parser"]
@@ -30,9 +30,9 @@ class Entity(BaseEntity):
         self.__read_keys: set[str] = set()
         self.__asked_keys: set[str] = set()
         self.__children_called = False
-        self.place: SourceSpan | None = getattr(element, "place", None)
-        if self.place is None and parent is not None:
-            self.place = parent.place
+        self.span: SourceSpan | None = getattr(element, "place", None)
+        if self.span is None and parent is not None:
+            self.span = parent.span
 
     @property
     def type_name(self) -> str:
@@ -73,11 +73,11 @@ class Entity(BaseEntity):
             error = RuntimeError(
                 "Subentities must be a dictionary with only one key, which is the entity type"
             )
-            keep_place(error, getattr(item, "place", None) or self.place)
+            keep_span(error, getattr(item, "place", None) or self.span)
             raise error
         [(name, value)] = item.items()
         child = Entity(value, str(name), parent=self)
-        child.place = getattr(item, "place", None)
+        child.span = getattr(item, "place", None)
         return child
 
     def assert_entity_completely_parsed(self) -> None:
@@ -159,16 +159,16 @@ class Parser(BaseParser):
             tree = read_yaml(text, name, _PLACED, name=name).value
         except YamlError as error:
             if error.problem.has_place:
-                keep_place(error, error.problem.span)
+                keep_span(error, error.problem.span)
             raise
         if not isinstance(tree, dict) or len(tree) != 1:
             problem = RuntimeError("Expected only one root")
             begin = SourceSpan(name, 1)
-            keep_place(problem, getattr(tree, "place", None) or begin)
+            keep_span(problem, getattr(tree, "place", None) or begin)
             raise problem
         [(name, value)] = tree.items()
         entity = Entity(value, str(name))
-        entity.place = getattr(tree, "place", None)
+        entity.span = getattr(tree, "place", None)
         return entity, cls()
 
     @classmethod

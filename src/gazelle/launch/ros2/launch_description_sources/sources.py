@@ -21,7 +21,7 @@ from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError
 from gazelle.launch.ros2.launch_description import LaunchDescription
 from gazelle.launch.ros2.launch_description_source import LaunchDescriptionSource
 from gazelle.launch.ros2.substitution import SomeSubstitutionsType
-from gazelle.launch.ros2.user_spans import keep_place
+from gazelle.launch.ros2.user_spans import keep_span
 
 __all__ = [
     "AnyLaunchDescriptionSource",
@@ -135,18 +135,18 @@ def get_launch_description_from_python_launch_file(
         message = f"launch file at '{path}' does not contain the required function '{_FUNCTION}()'"
         raise _invalid(f"{message}; {hint}" if hint else message, SourceSpan(path))
     code = getattr(function, "__code__", None)
-    place = SourceSpan(path, code.co_firstlineno if code is not None else 0)
+    span = SourceSpan(path, code.co_firstlineno if code is not None else 0)
     try:
         description: Any = function()
     except TypeError as error:
         # That of a call without arguments is raised here, not in the user's file.
-        keep_place(error, place)
+        keep_span(error, span)
         raise
     if not isinstance(description, LaunchDescription):
         kind = type(description).__name__
         hint = " (is a return missing?)" if description is None else ""
         raise _invalid(
-            f"'{_FUNCTION}()' of '{path}' returned a {kind}, not a LaunchDescription{hint}", place
+            f"'{_FUNCTION}()' of '{path}' returned a {kind}, not a LaunchDescription{hint}", span
         )
     return description
 
@@ -210,7 +210,7 @@ def _check_exists(path: str) -> None:
     raise FileNotFoundError(f"{message}; {hint}" if hint else message)
 
 
-def _invalid(message: str, place: SourceSpan) -> InvalidPythonLaunchFileError:
+def _invalid(message: str, span: SourceSpan) -> InvalidPythonLaunchFileError:
     error = InvalidPythonLaunchFileError(message)
-    keep_place(error, place)
+    keep_span(error, span)
     return error

@@ -38,12 +38,12 @@ class NodeCommand(NamedTuple):
     """How a node is run.
 
     Attributes:
-        words: of its command.
+        argv: of its command.
         program: the name that its output begins with.
         found: what it is; None for a path.
     """
 
-    words: tuple[str, ...]
+    argv: tuple[str, ...]
     program: str
     found: FoundExecutable | None = None
 
@@ -65,7 +65,7 @@ class NodeExecutable(Executable):
         return made
 
     def find(
-        self, context: LaunchContext, package: Any, executable: Any, place: SourceSpan | None
+        self, context: LaunchContext, package: Any, executable: Any, span: SourceSpan | None
     ) -> bool:
         """Look for what runs the node; False when it is compiled code that is not here.
 
@@ -75,28 +75,28 @@ class NodeExecutable(Executable):
         """
         name = _text(context, executable)
         self.command = node_command(
-            context, None if package is None else _text(context, package), name, place
+            context, None if package is None else _text(context, package), name, span
         )
         if self.command is None:
             return False
-        first = [normalize_to_list_of_substitutions(word) for word in self.command.words]
+        first = [normalize_to_list_of_substitutions(word) for word in self.command.argv]
         self.cmd = [*first, *self.cmd[1:]]
         if self.name is None:
             self.name = normalize_to_list_of_substitutions(self.command.program)
         return True
 
-    def add_words(self, words: Iterable[Any]) -> None:
+    def add_arguments(self, argv: Iterable[Any]) -> None:
         """Put words behind the command."""
-        self.cmd += [normalize_to_list_of_substitutions(word) for word in words]
+        self.cmd += [normalize_to_list_of_substitutions(word) for word in argv]
 
-    def _prefix_words(self, context: LaunchContext, program: str) -> list[str]:
+    def _prefix_argv(self, context: LaunchContext, program: str) -> list[str]:
         # A filter is about the node, not about the interpreter that runs it.
         own = program if self.command is None else self.command.program
-        return super()._prefix_words(context, own)
+        return super()._prefix_argv(context, own)
 
 
 def node_command(
-    context: LaunchContext, package: str | None, executable: str, place: SourceSpan | None = None
+    context: LaunchContext, package: str | None, executable: str, span: SourceSpan | None = None
 ) -> NodeCommand | None:
     """Return what runs an executable of a package, or a path.
 
@@ -104,7 +104,7 @@ def node_command(
         context: of the launch; findings are told to it.
         package: None when `executable` is a path or a command.
         executable: as written.
-        place: of the user's file, for messages.
+        span: of the user's file, for messages.
 
     Returns:
         None when it is compiled code that is not built here, or a package of ROS that Gazelle
@@ -117,25 +117,25 @@ def node_command(
     program = Path(executable).name
     if package is None:
         path = Path(executable)
-        words = script_command(path) if path.is_file() else (executable,)
-        return NodeCommand(words, program)
+        argv = script_command(path) if path.is_file() else (executable,)
+        return NodeCommand(argv, program)
     diagnostics = Diagnostics()
     found = find_executable(
         package,
         executable,
         workspace=known_workspace(),
         diagnostics=diagnostics,
-        span=place,
+        span=span,
         environ=context.environment,
         ros_version=2,
     )
     if found is not None:
         for one in diagnostics:
-            context.tell(one)
+            context.report(one)
         return NodeCommand(found.command, program, found)
     missing = diagnostics.errors[0]
     if missing.code == _COMPILED:
-        context.tell(replace(missing, fix=_BUILD))
+        context.report(replace(missing, fix=_BUILD))
         return None
     what = replacement_of(package)
     if missing.code == _NO_PACKAGE and what:
@@ -157,10 +157,10 @@ def node_command(
 
 def wrapper_script(command: NodeCommand) -> Path:
     """Return a file that runs a command, for where the path of an executable is wanted."""
-    if len(command.words) == 1:
-        return Path(command.words[0])
-    text = f'#!/bin/sh\nexec {shlex.join(command.words)} "$@"\n'
-    folder = command_folder() / "nodes" / command.words[-1].strip("/").replace("/", "-")
+    if len(command.argv) == 1:
+        return Path(command.argv[0])
+    text = f'#!/bin/sh\nexec {shlex.join(command.argv)} "$@"\n'
+    folder = command_folder() / "nodes" / command.argv[-1].strip("/").replace("/", "-")
     folder.mkdir(parents=True, exist_ok=True)
     script = folder / command.program
     if not script.is_file() or script.read_text(encoding="utf-8") != text:
@@ -175,7 +175,7 @@ def _tell_of_absence(context: LaunchContext, missing: Diagnostic, code: str, wha
     found = Diagnostics()
     message = f"{missing.message.partition(chr(10))[0].partition(';')[0]}; the others go on"
     found.report(code, message, missing.span, fix=what)
-    context.tell(next(iter(found)))
+    context.report(next(iter(found)))
 
 
 def _near(missing: Diagnostic) -> str:

@@ -116,7 +116,7 @@ class ExecutableInPackage(FindPackagePrefix):
         """
         package = perform_substitutions(context, self.package)
         name = perform_substitutions(context, self.executable)
-        command = node_command(context, package, name, self.place)
+        command = node_command(context, package, name, self.span)
         if command is None:
             raise SubstitutionFailure(f"executable '{name}' of package '{package}' is not built")
         return str(wrapper_script(command))

@@ -15,7 +15,7 @@ from gazelle.launch.ros2.launch_description import argument_lines
 from gazelle.launch.ros2.launch_testing.loader import LoadTestsFromPythonModule
 from gazelle.launch.ros2.launch_testing.test_result import unittestResultsToXml
 from gazelle.launch.ros2.launch_testing.test_runner import LaunchTestRunner
-from gazelle.launch.ros2.user_spans import raising_place
+from gazelle.launch.ros2.user_spans import raising_span
 
 __all__ = ["add_arguments", "main", "run"]
 
@@ -63,18 +63,18 @@ def run(
     return 0 if all(one.wasSuccessful() for one in results.values()) else 1
 
 
-def main(words: Sequence[str] | None = None) -> int:
+def main(argv: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code."""
     parser = argparse.ArgumentParser(
         prog="launch_test", description="Launch integration testing tool."
     )
     add_arguments(parser)
-    args = parser.parse_args(words)
+    args = parser.parse_args(argv)
     try:
         return run(parser, args)
     except Exception as error:  # noqa: BLE001 - a test file may raise anything when it is loaded
-        place = raising_place(error)
-        parser.error(f"{place.file}:{place.line}: {error}" if place else str(error))
+        span = raising_span(error)
+        parser.error(f"{span.file}:{span.line}: {error}" if span else str(error))
 
 
 def _module(name: str, file: Path) -> ModuleType:

@@ -155,11 +155,11 @@ def _has_ended(process: Any) -> bool:
 
 
 @contextlib.contextmanager
-def _told(context: LaunchContext, process: Any, tell: Callable[[], object]) -> Iterator[None]:
+def _told(context: LaunchContext, process: Any, report: Callable[[], object]) -> Iterator[None]:
     """Call a function whenever something happens to a process."""
 
     def on_event(*_event: Any) -> None:
-        tell()
+        report()
 
     handlers = [
         OnProcessIO(target_action=process, on_stdout=on_event, on_stderr=on_event),

@@ -22,8 +22,8 @@ class _WithTimes(unittest.TestResult):
         testTimes: seconds by test.
     """
 
-    def __init__(self, *words: Any, **options: Any) -> None:
-        super().__init__(*words, **options)
+    def __init__(self, *argv: Any, **options: Any) -> None:
+        super().__init__(*argv, **options)
         self.testTimes: dict[Any, float] = {}
 
     @property

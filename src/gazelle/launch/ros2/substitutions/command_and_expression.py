@@ -99,7 +99,7 @@ def _check(result: CommandResult, line: str, on_stderr: str) -> None:
 
 def _failed(message: str, what: str, result: CommandResult) -> SubstitutionFailure:
     """Return the error about a command: what it wrote stands in the log line above."""
-    line = shlex.join(result.words)
+    line = shlex.join(result.argv)
     first = (result.stderr or result.stdout).strip().partition("\n")[0]
     return SubstitutionFailure(message).explained(
         short=f"{what}: {line}" + (f": {first}" if first else ""),
@@ -141,8 +141,8 @@ class PythonExpression(Substitution):
         data = counted(data, 1, 2, "eval")
         kwargs: dict[str, Any] = {"expression": data[0]}
         if len(data) > 1:
-            words = "".join(sub.text for sub in data[1]).split(",")
-            kwargs["python_modules"] = [word.strip() for word in words]
+            modules = "".join(sub.text for sub in data[1]).split(",")
+            kwargs["python_modules"] = [module.strip() for module in modules]
         return cls, kwargs
 
     def describe(self) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity, SomeEntitiesType
 from gazelle.launch.ros2.substitution import Substitution, TextSubstitution
-from gazelle.launch.ros2.user_spans import keep_place
+from gazelle.launch.ros2.user_spans import keep_span
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.launch_context import LaunchContext
@@ -88,7 +88,7 @@ def visit_all_entities_and_collect_futures(
         yielded = entity.visit(context)
         future = entity.get_asyncio_future()
     except Exception as error:
-        keep_place(error, getattr(entity, "place", None))
+        keep_span(error, getattr(entity, "span", None))
         raise
     if future is not None:
         pairs.append((entity, future))

@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from gazelle.control.python_controllers.adapter import located
-from gazelle.extensions import folder_of, told
+from gazelle.extensions import entry_point_text, folder_of
 from gazelle.simulator.plugins.context import PluginContext, Resources
 from gazelle.simulator.plugins.user.finder import (
     PythonPlugin,
@@ -72,7 +72,7 @@ def _load_installed(context: PluginContext) -> bool:
         runner.start(wanted)
         return True
     text = f"plug-in '{context.plugin.name}' stands in a {role.lower()} and needs a class derived "
-    text += f"from {role}Plugin; {told(point)} is {_kind_of(wanted)}; it is left out"
+    text += f"from {role}Plugin; {entry_point_text(point)} is {_kind_of(wanted)}; it is left out"
     fix = f"derive it from gazelle.simulator.plugins.user.{role}Plugin"
     context.report("plugin.user-class", text, fix=fix)
     return True

@@ -127,7 +127,7 @@ class Node(ExecuteProcess):
         self.__expanded_namespace = self.UNSPECIFIED_NODE_NAMESPACE
         self.__final_name: str | None = None
         self.__expanded_remappings: list[tuple[str, str]] | None = None
-        self.__ros_words: list[str] | None = None
+        self.__ros_arguments: list[str] | None = None
 
     @staticmethod
     def parse_nested_parameters(params: Iterable[Entity], parser: Parser) -> list[Any]:
@@ -182,18 +182,18 @@ class Node(ExecuteProcess):
 
     def _perform_substitutions(self, context: LaunchContext) -> None:
         """Find out names, parameters and remaps, once."""
-        if self.__ros_words is not None:
+        if self.__ros_arguments is not None:
             return
         self.__expand_names(context)
-        words: list[str] = []
+        argv: list[str] = []
         for one in context.launch_configurations.get("global_params") or ():
-            words += _global_parameter(one)
+            argv += _global_parameter(one)
         for one in evaluate_parameters(context, self.__parameters):
-            words += self.__parameter_words(context, one)
+            argv += self.__parameter_arguments(context, one)
         self.__expanded_remappings = self.__expand_remaps(context) or None
         for source, target in self.__expanded_remappings or ():
-            words += ["-r", f"{source}:={target}"]
-        self.__ros_words = words
+            argv += ["-r", f"{source}:={target}"]
+        self.__ros_arguments = argv
 
     def __expand_names(self, context: LaunchContext) -> None:
         if self.__name is not None:
@@ -208,10 +208,10 @@ class Node(ExecuteProcess):
             self.__expanded_namespace = full
         self.__final_name = prefix_namespace(self.__expanded_namespace, self.__expanded_name)
 
-    def __parameter_words(self, context: LaunchContext, given: Any) -> list[str]:
+    def __parameter_arguments(self, context: LaunchContext, given: Any) -> list[str]:
         if isinstance(given, Parameter):
             name, value = given.evaluate(context)
-            return ["-p", f"{name}:={_yaml_word(value)}"]
+            return ["-p", f"{name}:={_yaml_text(value)}"]
         if isinstance(given, dict):
             return ["--params-file", str(self._write_parameters(given))]
         if not is_file(given):
@@ -225,8 +225,8 @@ class Node(ExecuteProcess):
         names = [one.name for one in path.parent.iterdir()] if is_folder(path.parent) else []
         found = Diagnostics()
         fix = did_you_mean(path.name, sorted(names))
-        found.report("ros2_launch.parameter-file", message, self.place, fix=fix)
-        context.tell(next(iter(found)))
+        found.report("ros2_launch.parameter-file", message, self.span, fix=fix)
+        context.report(next(iter(found)))
 
     def _write_parameters(self, values: dict[str, Any]) -> Path:
         name = self.node_name if self.is_node_name_fully_specified() else "/**"
@@ -254,12 +254,12 @@ class Node(ExecuteProcess):
         self._perform_substitutions(context)
         what = self.process_description
         assert isinstance(what, NodeExecutable)
-        if not what.find(context, self.__package, self.__executable, self.place):
+        if not what.find(context, self.__package, self.__executable, self.span):
             # Compiled code: that has been said, and the launch goes on without it.
             self.is_absent = True
             self.__note_absence(context)
             return None
-        what.add_words([*self.__own_words(context), *(self.__ros_words or ())])
+        what.add_arguments([*self.__own_arguments(context), *(self.__ros_arguments or ())])
         carry_graph()
         found = super().execute(context)
         self.__count_name(context)
@@ -273,7 +273,7 @@ class Node(ExecuteProcess):
             known = context.environment.get(ABSENT_NODES, "").split()
             context.environment[ABSENT_NODES] = " ".join([*known, f"{base}/{self.__expanded_name}"])
 
-    def __own_words(self, context: LaunchContext) -> list[Any]:
+    def __own_arguments(self, context: LaunchContext) -> list[Any]:
         rules: dict[str, Any] = {}
         if self.__name is not None:
             rules["name"] = f"__node:={self.__expanded_name}"
@@ -308,7 +308,7 @@ def _global_parameter(given: Any) -> list[str]:
     """Return the words for what `SetParameter` or `SetParametersFromFile` has set."""
     if isinstance(given, tuple):
         name, value = given
-        return ["-p", f"{name}:={_yaml_word(value) if isinstance(value, tuple) else value}"]
+        return ["-p", f"{name}:={_yaml_text(value) if isinstance(value, tuple) else value}"]
     path = Path(given).absolute()
     if not is_file(path):
         raise FileNotFoundError(f"SetParametersFromFile: '{path}' is not a file")
@@ -319,7 +319,7 @@ def _plain(value: Any) -> Any:
     return list(value) if isinstance(value, tuple) else value
 
 
-def _yaml_word(value: Any) -> str:
+def _yaml_text(value: Any) -> str:
     plain = _plain(value)
     style = MESSAGE_STYLE._replace(writer=Writer.PYTHON, layout=Layout.FLOW)
     text = dump_yaml(plain, style)

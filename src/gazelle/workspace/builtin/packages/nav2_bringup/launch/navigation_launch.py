@@ -3,10 +3,10 @@
 from launch.actions import OpaqueFunction, SetEnvironmentVariable
 from nav2_common.bringup import (
     arguments,
+    log_absent_nodes,
     navigation_nodes,
     section_names,
     started,
-    told,
 )
 
 from launch import LaunchDescription
@@ -37,4 +37,4 @@ def generate_launch_description():
 def _start(context):
     sections = section_names(context)
     rows = navigation_nodes(sections)
-    return [*told(sections), *started(context, rows, "lifecycle_manager_navigation")]
+    return [*log_absent_nodes(sections), *started(context, rows, "lifecycle_manager_navigation")]

@@ -1,4 +1,4 @@
-"""The catalogue as a page: ``python -m gazelle.diagnostics.docs > docs/diagnostics.md``."""
+"""The catalogue as a page: `python -m gazelle.diagnostics.documentation > docs/diagnostics.md`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["catalogue_markdown"]
 _HEAD = """# Diagnostics
 
 Every finding that Gazelle reports has one of these codes. A code never changes its meaning.
-This page is generated: `python -m gazelle.diagnostics.docs > docs/diagnostics.md`.
+This page is generated: `python -m gazelle.diagnostics.documentation > docs/diagnostics.md`.
 """
 
 

@@ -1,4 +1,4 @@
-"""What launch has, as a page: ``python -m gazelle.launch.ros2.reference > docs/launch.md``."""
+"""What launch has, as a page: ``python -m gazelle.launch.ros2.documentation > docs/launch.md``."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _HEAD = """# launch, launch_ros and launch_testing
 
 Everything of these packages of ROS 2, Foxy to Jazzy, that launch files and tests import; each row
 is executed in a test. This page is generated:
-`python -m gazelle.launch.ros2.reference > docs/launch.md`.
+`python -m gazelle.launch.ros2.documentation > docs/launch.md`.
 """
 _SECTIONS: dict[str, ModuleType] = {
     "launch.actions": actions,

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gazelle.launch.ros2.reference import reference_markdown
+from gazelle.launch.ros2.documentation import reference_markdown
 
 PAGE = Path(__file__).parents[3] / "docs" / "launch.md"
 
 
 def test_the_page_is_generated() -> None:
-    command = "python -m gazelle.launch.ros2.reference > docs/launch.md"
+    command = "python -m gazelle.launch.ros2.documentation > docs/launch.md"
     assert PAGE.read_text(encoding="utf-8") == reference_markdown(), f"run: {command}"
 
 
