@@ -24,7 +24,9 @@ def _range(**params: Any) -> dict[str, Any]:
 
 
 def test_chains_of_both_generations_are_read() -> None:
-    found, one = Diagnostics(), _range(lower_threshold=1)
+    # Replacements are given: their default is no number, which no number equals.
+    numbers = {"lower_replacement_value": 0.0, "upper_replacement_value": 9.0}
+    found, one = Diagnostics(), _range(lower_threshold=1, **numbers)
     chain = _chain({"scan_filter_chain": [one]}, found)
     assert chain == _chain({"filter1": one}, found)
     assert chain[0].options.lower_threshold == 1.0
