@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.cli.ros2.control import chains
+from gazelle.cli.ros2.control import view_controller_chains as chains
 
 
 def _controller(name: str, **given: list[str]) -> Any:

@@ -22,14 +22,15 @@ _PATIENCE_S = 10.0
 
 def main(argv: list[str]) -> int:
     """Run a verb of ``ros2 control``."""
-    from gazelle.cli.ros2.control import chains, listing, verbs
+    from gazelle.cli.ros2.control import list_verbs, state_verbs, view_controller_chains
 
     parser = _parser()
     options = parser.parse_args(split_arguments(argv).own)
     if not options.verb:
         parser.print_help()
         return 0
-    module = next(one for one in (listing, verbs, chains) if options.verb in one.__all__)
+    modules = (list_verbs, state_verbs, view_controller_chains)
+    module = next(one for one in modules if options.verb in one.__all__)
     try:
         with joined() as graph:
             node = graph.create_node("ros2control", anonymous=True, rosout=False)
