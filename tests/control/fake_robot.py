@@ -68,7 +68,7 @@ class Recorder(Controller):
         self.gain = context.parameters.number("gain")
         joint = context.parameters.text("joint")
         self.commands = (f"{joint}/{context.parameters.text('interface')}",)
-        context.command_places(self.commands)
+        context.command_indices(self.commands)
         self.states = (f"{joint}/position",)
         self.calls: list[tuple[Any, ...]] = []
 

@@ -11,7 +11,7 @@ from tests.control.plant import MS, PlantJoint, make_robot
 def test_constant_effort_falls_like_a_stone() -> None:
     robot, plant = make_robot([PlantJoint("a", 2.0), PlantJoint("b", 2.0, damping=4.0)])
     robot.interface_values.commands[
-        robot.interface_values.command_places(["a/effort", "b/effort"])
+        robot.interface_values.command_indices(["a/effort", "b/effort"])
     ] = 3.0
     robot.write(0, MS)
     for _ in range(1000):

@@ -26,9 +26,9 @@ class InterfaceValues:
         commands: what controllers want (C,); NaN for nothing yet.
         stiffness: what a command loses per motion of its own joint (C,), 0 where it does not look.
         damping: what it loses per velocity.
-        state_index: place of each state interface.
-        command_index: place of each command interface.
-        looked_up: places of states that somebody reads; hardware may leave the costly others out.
+        state_index: index of each state interface.
+        command_index: index of each command interface.
+        looked_up: indices of states that somebody reads; hardware may leave the costly others out.
     """
 
     def __init__(self) -> None:
@@ -44,7 +44,7 @@ class InterfaceValues:
         self._frozen = False
 
     def add_state(self, name: str, initial: float = math.nan) -> int:
-        """Register a state interface and return its place.
+        """Register a state interface and return its index.
 
         Raises:
             ValueError: the interfaces are frozen or it is there already.
@@ -52,7 +52,7 @@ class InterfaceValues:
         return self._add(self.state_index, self._initial_states, name, initial)
 
     def add_command(self, name: str, initial: float = math.nan) -> int:
-        """Register a command interface and return its place.
+        """Register a command interface and return its index.
 
         Raises:
             ValueError: the interfaces are frozen or it is there already.
@@ -66,18 +66,18 @@ class InterfaceValues:
         self.stiffness, self.damping = np.zeros((2, len(self.commands)))
         self._frozen = True
 
-    def state_places(self, names: Iterable[str]) -> Indices:
-        """Return the places of n state interfaces, (n,); hardware keeps them filled from now on.
+    def state_indices(self, names: Iterable[str]) -> Indices:
+        """Return the indices of n state interfaces, (n,); hardware keeps them filled from now on.
 
         Raises:
             KeyError: there is no such interface.
         """
-        places = [self.state_index[name] for name in names]
-        self.looked_up.update(places)
-        return np.array(places, dtype=np.intp)
+        indices = [self.state_index[name] for name in names]
+        self.looked_up.update(indices)
+        return np.array(indices, dtype=np.intp)
 
-    def command_places(self, names: Iterable[str]) -> Indices:
-        """Return the places of n command interfaces, (n,).
+    def command_indices(self, names: Iterable[str]) -> Indices:
+        """Return the indices of n command interfaces, (n,).
 
         Raises:
             KeyError: there is no such interface.
@@ -85,18 +85,18 @@ class InterfaceValues:
         return np.array([self.command_index[name] for name in names], dtype=np.intp)
 
     def answer(
-        self, places: Indices | int, stiffness: Array | float, damping: Array | float
+        self, indices: Indices | int, stiffness: Array | float, damping: Array | float
     ) -> None:
         """Tell how efforts answer to their joints, at every update of a feedback.
 
         Hardware that has the physics at hand lets light joints feel it within a step.
 
         Args:
-            places: of n commands, (n,).
+            indices: of n commands, (n,).
             stiffness: (n,), what each loses per rad or m of its own joint.
             damping: (n,), what each loses per rad/s or m/s.
         """
-        self.stiffness[places], self.damping[places] = stiffness, damping
+        self.stiffness[indices], self.damping[indices] = stiffness, damping
 
     def _add(self, index: dict[str, int], initial: list[float], name: str, value: float) -> int:
         if self._frozen:

@@ -178,9 +178,9 @@ class Robot:
 
     def switch(self, start: frozenset[str], stop: frozenset[str]) -> None:
         """Tell the hardware what is claimed and released."""
-        places = self.interface_values.command_places(
+        indices = self.interface_values.command_indices(
             [name for name in start | stop if name in self.interface_values.command_index]
         )
-        self.interface_values.stiffness[places] = self.interface_values.damping[places] = 0.0
+        self.interface_values.stiffness[indices] = self.interface_values.damping[indices] = 0.0
         for component in self.components:
             component.switch(start, stop)

@@ -54,7 +54,7 @@ class Bench:
 
     @property
     def command(self) -> float:
-        (place,) = self.robot.interface_values.command_places(self.controller.commands)
+        (place,) = self.robot.interface_values.command_indices(self.controller.commands)
         return float(self.robot.interface_values.commands[place])
 
 

@@ -57,7 +57,7 @@ class Bench:
         return self.ports.send_goal(ACTION, request)
 
     def command(self, name: str) -> float:
-        (place,) = self.robot.interface_values.command_places([f"finger/{name}"])
+        (place,) = self.robot.interface_values.command_indices([f"finger/{name}"])
         return float(self.robot.interface_values.commands[place])
 
 

@@ -128,7 +128,7 @@ def test_references_are_sorted_by_name_and_wrong_ones_refused() -> None:
     ports.send("~/reference", Reference(dof_names=["b"], values=[2.0]))
     controller.update(0, MS)
     assert list(
-        robot.interface_values.commands[robot.interface_values.command_places(controller.commands)]
+        robot.interface_values.commands[robot.interface_values.command_indices(controller.commands)]
     ) == [1.0, 2.0]
     first, second = (text for _, text in ports.lines)
     assert "DoF name 'a' not found" in first

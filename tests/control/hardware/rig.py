@@ -90,7 +90,7 @@ class Rig:
 
     def state(self, name: str) -> float:
         """Return a state as controllers see it."""
-        (place,) = self.robot.interface_values.state_places([name])
+        (place,) = self.robot.interface_values.state_indices([name])
         self.robot.read(self.engine.time_ns, 0)
         return float(self.robot.interface_values.states[place])
 

@@ -59,7 +59,7 @@ def test_tracks_of_a_trajectory_fill_their_own_joints() -> None:
     assert both.state_at(10 * MS).position.tolist() == pytest.approx([6.0, 1.0])
     both.sample(15 * MS)
     assert both.state[1].tolist() == pytest.approx([100.0, 0.0])
-    assert [both.track_of(joint)[0].places.tolist() for joint in (0, 1)] == [[0], [1]]
+    assert [both.track_of(joint)[0].indices.tolist() for joint in (0, 1)] == [[0], [1]]
 
 
 def test_holding_changes_nothing_after_the_first_sample() -> None:

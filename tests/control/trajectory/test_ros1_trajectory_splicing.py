@@ -135,7 +135,7 @@ def test_a_goal_owns_all_segments_that_still_come() -> None:
     tolerances = Tolerances.of([0.1] * 3, [0.2] * 3, 0.01, 0.0)
     message = trajectory(["b"], point(1, [0]), stamp_s=0.9)
     new, _ = put(message, moving(), 500, tolerances=tolerances)
-    by_joint = {int(track.places[0]): track.segments for track in new.tracks}
+    by_joint = {int(track.indices[0]): track.segments for track in new.tracks}
     assert [segment.is_of_goal for segment in by_joint[1]] == [False, True]
     assert [segment.tolerances is None for segment in by_joint[1]] == [True, False]
     assert all(segment.is_of_goal for segment in by_joint[0])

@@ -21,7 +21,7 @@ def test_columns_come_in_the_controllers_order() -> None:
     message = trajectory(["c", "a"], point(1.0, [3, 1], [30, 10], [300, 100], [3000, 1000]))
     places = check_joints(message.joint_names, JOINTS, allow_partial=True)
     read = read_waypoints(message, places)
-    assert read.places.tolist() == [0, 2]
+    assert read.indices.tolist() == [0, 2]
     assert read.times_ns == (1_000_000_000,)
     state = read.states[0]
     for values, expected in zip(

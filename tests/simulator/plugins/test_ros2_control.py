@@ -234,7 +234,7 @@ def test_sensors_of_the_block_measure_the_arm(load: Load) -> None:
     sim = load(robot(body=STATES, extra=SENSORS).replace(">0.2<", ">0.0<"))
     known = sim.server.controls.manager().robot
     names = [name for item in known.sensors.values() for name in item]
-    places = known.interface_values.state_places(names)
+    places = known.interface_values.state_indices(names)
     sim.run(seconds=0.5)
     values = dict(zip(names, known.interface_values.states[places], strict=True))
     # Held level: the joint carries the weight of 2 kg at 0.5 m.
@@ -252,7 +252,7 @@ def test_reading_of_a_sensor_stands_for_a_period_of_its_rate(load: Load, tmp_pat
     keys = f"<parameters>{path}</parameters><hold_joints>false</hold_joints>"
     sim = load(robot(keys=keys, body=STATES, extra=SENSORS))
     known = sim.server.controls.manager().robot
-    places = known.interface_values.state_places(["imu/angular_velocity.y"])
+    places = known.interface_values.state_indices(["imu/angular_velocity.y"])
     values = []
     for _ in range(100):
         sim.step()

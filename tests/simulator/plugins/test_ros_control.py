@@ -239,7 +239,7 @@ def test_imus_of_the_model_are_there_for_controllers(load: Load) -> None:
     sim = load(robot(joint("j"), sensor))
     found_robot = sim.server.controls.manager().robot
     assert found_robot.sensor_frames == {"imu_sensor": "j_link"}
-    (place,) = found_robot.interface_values.state_places(["imu_sensor/linear_acceleration.z"])
+    (place,) = found_robot.interface_values.state_indices(["imu_sensor/linear_acceleration.z"])
     sim.run(seconds=0.1)
     assert found_robot.interface_values.states[place] == pytest.approx(9.8, rel=1e-3)
 

@@ -64,8 +64,8 @@ class Ros1AckermannDrive:
         wheel, steer = parameters.text("rear_wheel"), parameters.text("front_steer")
         self.commands: tuple[str, ...] = (f"{wheel}/velocity", f"{steer}/position")
         self.states: tuple[str, ...] = (f"{wheel}/position", f"{steer}/position")
-        self._command_places = context.command_places(self.commands)
-        self._state_places = context.state_places(self.states)
+        self._command_indices = context.command_indices(self.commands)
+        self._state_indices = context.state_indices(self.states)
         self._read_geometry(context, wheel, steer)
         self._open_loop = parameters.flag("open_loop")
         self._limiters = (
@@ -100,7 +100,7 @@ class Ros1AckermannDrive:
         linear = self._limiters[0].limit(twist.linear_x, period_s)
         angle = self._limiters[1].limit(twist.angular_z, period_s)
         self._applied = (linear, angle)
-        self._interface_values.commands[self._command_places] = (linear / self._radius_m, angle)
+        self._interface_values.commands[self._command_indices] = (linear / self._radius_m, angle)
 
     def stop(self, time_ns: int) -> None:
         """Brake and steer straight."""
@@ -114,7 +114,7 @@ class Ros1AckermannDrive:
 
     def _brake(self) -> None:
         self._applied = (0.0, 0.0)
-        self._interface_values.commands[self._command_places] = 0.0
+        self._interface_values.commands[self._command_indices] = 0.0
 
     def _read_geometry(self, context: ControllerContext, wheel: str, steer: str) -> None:
         parameters, model = context.parameters, context.robot.model
@@ -132,7 +132,7 @@ class Ros1AckermannDrive:
         if self._open_loop:
             self._odometry.drive_open_loop(self._applied[0], 0.0, self._applied[1], period_s)
             return True
-        position, angle = self._interface_values.states[self._state_places].tolist()
+        position, angle = self._interface_values.states[self._state_indices].tolist()
         if math.isnan(position) or math.isnan(angle):
             return False
         (turned,) = self._travel.step((position,))

@@ -62,25 +62,25 @@ class ControllerContext:
             return found
         raise ControllerError(self._no_joint(name))
 
-    def command_places(self, names: Sequence[str]) -> Indices:
-        """Return the places, (n,), of command interfaces such as ``joint_1/effort``.
+    def command_indices(self, names: Sequence[str]) -> Indices:
+        """Return the indices, (n,), of command interfaces such as ``joint_1/effort``.
 
         Raises:
             ControllerError: one is not there; the message says what is.
         """
         known = self.robot.interface_values.command_index
         self._check(names, known, "command")
-        return self.robot.interface_values.command_places(names)
+        return self.robot.interface_values.command_indices(names)
 
-    def state_places(self, names: Sequence[str]) -> Indices:
-        """Return the places, (n,), of state interfaces.
+    def state_indices(self, names: Sequence[str]) -> Indices:
+        """Return the indices, (n,), of state interfaces.
 
         Raises:
             ControllerError: one is not there; the message says what is.
         """
         known = self.robot.interface_values.state_index
         self._check(names, known, "state")
-        return self.robot.interface_values.state_places(names)
+        return self.robot.interface_values.state_indices(names)
 
     def _check(self, names: Sequence[str], known: dict[str, int], kind: str) -> None:
         for name in names:

@@ -185,7 +185,7 @@ class WheelStateOutput:
         self._names = [*left, *right]
         self._half = len(left)
         self._interface_values = context.robot.interface_values
-        self._places = [self._found(interface) for interface in ("position", "velocity", "effort")]
+        self._indices = [self._found(interface) for interface in ("position", "velocity", "effort")]
         zeros = np.zeros(len(self._names))
         self._target, self._last_desired, self._last_actual = zeros, zeros, zeros
         topic = "~/wheel_joint_controller_state"
@@ -196,7 +196,7 @@ class WheelStateOutput:
         """Go on by a period with the desired speeds of the left and right wheels."""
         speeds = np.repeat(desired_rad_s, self._half)
         self._target = self._target + speeds * period_s
-        position, velocity, effort = (self._read(places) for places in self._places)
+        position, velocity, effort = (self._read(indices) for indices in self._indices)
         last_desired, self._last_desired = self._last_desired, speeds
         last_actual, self._last_actual = self._last_actual, velocity
         if not self._publisher.matched:
@@ -217,15 +217,15 @@ class WheelStateOutput:
         names = [f"{name}/{interface}" for name in self._names]
         index = self._interface_values.state_index
         return (
-            self._interface_values.state_places(names)
+            self._interface_values.state_indices(names)
             if all(name in index for name in names)
             else None
         )
 
-    def _read(self, places: Indices | None) -> Array:
-        if places is None:
+    def _read(self, indices: Indices | None) -> Array:
+        if indices is None:
             return np.full(len(self._names), np.nan)
-        return self._interface_values.states[places]
+        return self._interface_values.states[indices]
 
 
 def _point(position: Array, velocity: Array, acceleration: Array, effort: Array) -> Any:
@@ -251,8 +251,8 @@ class DiffDriveController(Controller):
         if context.ros_version == 1 or parameters.flag("position_feedback"):
             self._feedback = "position"
         self.states = tuple(f"{name}/{self._feedback}" for name in wheels)
-        self._command_places = context.command_places(self.commands)
-        self._state_places = context.state_places(self.states)
+        self._command_indices = context.command_indices(self.commands)
+        self._state_indices = context.state_indices(self.states)
         self._active = False
         self._read_geometry()
         self._limiters = (
@@ -389,7 +389,7 @@ class DiffDriveController(Controller):
             linear, angular = self._applied
             self._odometry.drive_open_loop(linear, 0.0, angular, period_s)
             return True
-        values = self.robot.interface_values.states[self._state_places].tolist()
+        values = self.robot.interface_values.states[self._state_indices].tolist()
         if any(map(math.isnan, values)):
             return False
         half = len(self._left)
@@ -403,8 +403,8 @@ class DiffDriveController(Controller):
 
     def _command(self, left_rad_s: float, right_rad_s: float) -> None:
         half = len(self._left)
-        self.robot.interface_values.commands[self._command_places[:half]] = left_rad_s
-        self.robot.interface_values.commands[self._command_places[half:]] = right_rad_s
+        self.robot.interface_values.commands[self._command_indices[:half]] = left_rad_s
+        self.robot.interface_values.commands[self._command_indices[half:]] = right_rad_s
 
     def _publish_limited(self, time_ns: int, linear: float, angular: float) -> None:
         message = message_type("geometry_msgs/TwistStamped")(

@@ -71,7 +71,7 @@ class ForceTorqueSensorBroadcaster(Controller):
         names = self._names()
         self.states = tuple(name for name in names if name)
         self._given = np.array([k for k, name in enumerate(names) if name], dtype=np.intp)
-        self._places: Indices = context.state_places(self.states)
+        self._indices: Indices = context.state_indices(self.states)
         self._offset = self._factors("offset")
         self._multiplier = self._factors("multiplier")
         self._publisher = context.ports.publisher("~/wrench", "geometry_msgs/WrenchStamped")
@@ -85,7 +85,7 @@ class ForceTorqueSensorBroadcaster(Controller):
         if not self._publisher.matched:
             return
         values = np.full(len(WRENCH_INTERFACES), np.nan)
-        values[self._given] = self.robot.interface_values.states[self._places]
+        values[self._given] = self.robot.interface_values.states[self._indices]
         message = stamped("geometry_msgs/WrenchStamped", time_ns, self._frame_id)
         fill_wrench(message, (values + self._offset) * self._multiplier)
         self._publisher.publish(message)

@@ -53,23 +53,23 @@ class JointCommandController(Controller):
         context.joint(joint)
         interface = _JOINT_INTERFACES[context.type.replace("::", "/")]
         self.commands = (f"{joint}/{interface}",)
-        self._place = int(context.command_places(self.commands)[0])
-        self._state_place = -1
+        self._index = int(context.command_indices(self.commands)[0])
+        self._state_index = -1
         if interface == "position":
             self.states = (f"{joint}/position",)
-            self._state_place = int(context.state_places(self.states)[0])
+            self._state_index = int(context.state_indices(self.states)[0])
         self._command = 0.0
         context.ports.subscription("~/command", "std_msgs/Float64", self._take)
 
     def start(self, time_ns: int) -> None:
         """Begin at rest, where the joint is."""
         self._command = 0.0
-        if self._state_place >= 0:
-            self._command = self.robot.interface_values.states.item(self._state_place)
+        if self._state_index >= 0:
+            self._command = self.robot.interface_values.states.item(self._state_index)
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Pass the command on."""
-        self.robot.interface_values.commands[self._place] = self._command
+        self.robot.interface_values.commands[self._index] = self._command
 
     def _take(self, message: Any) -> None:
         self._command = float(message.data)
@@ -103,7 +103,7 @@ class _ForwardController(Controller):
         """Look up interfaces and listen."""
         context = self.context
         self.commands = commands
-        self._places: Indices = context.command_places(commands)
+        self._indices: Indices = context.command_indices(commands)
         self._values: Array | None = None
         topic = "~/command" if context.ros_version == 1 else "~/commands"
         context.ports.subscription(topic, _ARRAY, self._take)
@@ -115,12 +115,12 @@ class _ForwardController(Controller):
     def update(self, time_ns: int, period_ns: int) -> None:
         """Pass the last array on."""
         if self._values is not None:
-            self.robot.interface_values.commands[self._places] = self._values
+            self.robot.interface_values.commands[self._indices] = self._values
 
     def stop(self, time_ns: int) -> None:
         """Set everything to 0 where the original does."""
         if self.stop_value is not None:
-            self.robot.interface_values.commands[self._places] = self.stop_value
+            self.robot.interface_values.commands[self._indices] = self.stop_value
 
     def _take(self, message: Any) -> None:
         values = np.array(message.data, dtype=np.float64)
@@ -194,18 +194,18 @@ class JointGroupCommandController(_ForwardController):
             text = f"'interface_name' has no effect: {context.type} commands {interface}"
             parameters.report("parameter.idle", text, key="interface_name")
         self._forward(tuple(f"{joint}/{interface}" for joint in joints))
-        self._state_places: Indices | None = None
+        self._state_indices: Indices | None = None
         if context.ros_version == 1 and interface == "position":
             self.states = self.commands
-            self._state_places = context.state_places(self.states)
+            self._state_indices = context.state_indices(self.states)
         if context.ros_version == 2 and interface != "position" and kind != _FORWARD:
             self.stop_value = 0.0
 
     def start(self, time_ns: int) -> None:
         """Begin at rest in ROS 1, with nothing in ROS 2."""
         super().start(time_ns)
-        if self._state_places is not None:
-            self._values = self.robot.interface_values.states[self._state_places]
+        if self._state_indices is not None:
+            self._values = self.robot.interface_values.states[self._state_indices]
         elif self.context.ros_version == 1:
             self._values = np.zeros(len(self.commands))
 

@@ -123,8 +123,8 @@ class FourWheelSteeringController(Controller):
             [f"{name}/velocity" for name in wheels] + [f"{name}/position" for name in steers]
         )
         self.states = self.commands
-        self._command_places = context.command_places(self.commands)
-        self._state_places = context.state_places(self.states)
+        self._command_indices = context.command_indices(self.commands)
+        self._state_indices = context.state_indices(self.states)
         self._base = _base(context, wheels, steers)
         self._limiters = (
             SpeedLimiter(read_limits(context.parameters, "linear.x", 1)),
@@ -140,7 +140,7 @@ class FourWheelSteeringController(Controller):
         """Stand still and count time from now."""
         self._active = True
         self._order, self._order_since_ns, self._waiting = _STOP, -1, None
-        self.robot.interface_values.commands[self._command_places] = 0.0
+        self.robot.interface_values.commands[self._command_indices] = 0.0
         for limiter in self._limiters:
             limiter.reset()
         self._input.open(time_ns)
@@ -161,13 +161,13 @@ class FourWheelSteeringController(Controller):
             speeds, angles = self._from_order(self._order if held else _STOP, period_s)
         else:
             speeds, angles = self._from_twist(twist or REST, period_s)
-        self.robot.interface_values.commands[self._command_places] = (*speeds, *angles)
+        self.robot.interface_values.commands[self._command_indices] = (*speeds, *angles)
 
     def stop(self, time_ns: int) -> None:
         """Brake and steer straight."""
         self._active = False
         self._input.close()
-        self.robot.interface_values.commands[self._command_places] = 0.0
+        self.robot.interface_values.commands[self._command_indices] = 0.0
 
     def _offer(self) -> None:
         context, parameters, ports = self.context, self.context.parameters, self.context.ports
@@ -218,7 +218,7 @@ class FourWheelSteeringController(Controller):
         return self._base.from_angles(speed, order.front, order.rear)
 
     def _follow(self, time_ns: int, period_s: float) -> None:
-        values = self.robot.interface_values.states[self._state_places].tolist()
+        values = self.robot.interface_values.states[self._state_indices].tolist()
         if any(map(math.isnan, values)):
             return
         front, rear = virtual_angle(*values[4:6]), virtual_angle(*values[6:8])

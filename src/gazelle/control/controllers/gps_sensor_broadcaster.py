@@ -6,7 +6,7 @@ import numpy as np
 
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
-from gazelle.control.controllers.sensor_messages import sensor_places
+from gazelle.control.controllers.sensor_messages import sensor_indices
 from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 
@@ -63,7 +63,7 @@ class GpsSensorBroadcaster(Controller):
         if self._reads_covariance:
             words = (*_INTERFACES, *(f"{axis}_covariance" for axis in _AXES))
         self.states = tuple(f"{sensor}/{word}" for word in words)
-        self._places = sensor_places(context, sensor, words)
+        self._indices = sensor_indices(context, sensor, words)
         covariance = np.array(parameters.numbers("static_position_covariance"))
         if len(covariance) != 9:
             text = (
@@ -78,11 +78,11 @@ class GpsSensorBroadcaster(Controller):
         """Publish if somebody listens."""
         if not self._publisher.matched:
             return
-        values = self.robot.interface_values.states[self._places]
+        values = self.robot.interface_values.states[self._indices]
         message = stamped("sensor_msgs/NavSatFix", time_ns, self._frame_id)
-        status, service, *place = values[:5].tolist()
+        status, service, *index = values[:5].tolist()
         message.status.status, message.status.service = int(status), int(service)
-        message.latitude, message.longitude, message.altitude = place
+        message.latitude, message.longitude, message.altitude = index
         covariance = self._covariance.copy()
         if self._reads_covariance:
             covariance = np.diag(values[5:]).ravel()

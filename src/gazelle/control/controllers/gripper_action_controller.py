@@ -183,8 +183,8 @@ class GripperActionController(Controller):
         interface = context.type.replace("::", "/").partition("_controllers/")[0]
         self.commands = (f"{name}/{interface}",)
         self.states = (f"{name}/position", f"{name}/velocity")
-        self._command = int(context.command_places(self.commands)[0])
-        self._position, self._velocity = context.state_places(self.states).tolist()
+        self._command = int(context.command_indices(self.commands)[0])
+        self._position, self._velocity = context.state_indices(self.states).tolist()
         self._pid = _pid(context, name) if interface == "effort" else None
         self._default_effort = abs(parameters.number("max_effort"))
         self._effort = 0.0

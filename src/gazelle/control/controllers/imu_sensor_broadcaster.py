@@ -6,7 +6,7 @@ import numpy as np
 
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
-from gazelle.control.controllers.sensor_messages import IMU_INTERFACES, fill_imu, sensor_places
+from gazelle.control.controllers.sensor_messages import IMU_INTERFACES, fill_imu, sensor_indices
 from gazelle.control.interface_values import Array
 from gazelle.geometry import Pose, quat_xyzw_from_rpy
 from gazelle.interfaces.stamps import stamped
@@ -60,7 +60,7 @@ class ImuSensorBroadcaster(Controller):
         parameters.require("frame_id")
         sensor, self._frame_id = parameters.text("sensor_name"), parameters.text("frame_id")
         self.states = tuple(f"{sensor}/{word}" for word in IMU_INTERFACES)
-        self._places = sensor_places(context, sensor, IMU_INTERFACES)
+        self._indices = sensor_indices(context, sensor, IMU_INTERFACES)
         roll, pitch, yaw = (parameters.number(f"rotation_offset.{axis}") for axis in _AXES)
         self._offset: Pose | None = None
         if roll or pitch or yaw:
@@ -75,7 +75,7 @@ class ImuSensorBroadcaster(Controller):
         message = stamped("sensor_msgs/Imu", time_ns, self._frame_id)
         for part, covariance in zip(_PARTS, self._covariances, strict=True):
             setattr(message, f"{part}_covariance", covariance.copy())
-        values = self.robot.interface_values.states[self._places]
+        values = self.robot.interface_values.states[self._indices]
         fill_imu(message, values if self._offset is None else _turned(values, self._offset))
         self._publisher.publish(message)
 

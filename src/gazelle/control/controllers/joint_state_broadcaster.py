@@ -112,12 +112,12 @@ class JointStateBroadcaster(Controller):
         if self.takes_all_states:
             found = self.robot.lifecycle.available(found)
         self.states = found
-        places = self.context.state_places(found)
+        indices = self.context.state_indices(found)
         self._values: dict[str, dict[str, int]] = {}
-        for state, place in zip(found, places.tolist(), strict=True):
+        for state, index in zip(found, indices.tolist(), strict=True):
             owner, _, interface = state.rpartition("/")
             name = self._interface_names.get(interface, interface)
-            self._values.setdefault(owner, {})[name] = place
+            self._values.setdefault(owner, {})[name] = index
         extra = self.context.parameters.texts("extra_joints")
         self._extra = [name for name in extra if name not in self._values]
         self._names = [*self._joint_names(), *self._extra]
@@ -166,16 +166,16 @@ class JointStateBroadcaster(Controller):
 
     def _column(self, field: str) -> tuple[Indices, Indices]:
         rows = [k for k, name in enumerate(self._names) if field in self._values.get(name, {})]
-        places = [self._values[self._names[k]][field] for k in rows]
-        return np.array(rows, dtype=np.intp), np.array(places, dtype=np.intp)
+        indices = [self._values[self._names[k]][field] for k in rows]
+        return np.array(rows, dtype=np.intp), np.array(indices, dtype=np.intp)
 
     def _joint_states(self, time_ns: int) -> Any:
         states = self.robot.interface_values.states
         values = np.full((len(_FIELDS), len(self._names)), math.nan)
         if self._extra:
             values[:, -len(self._extra) :] = 0.0
-        for row, (joints, places) in zip(values, self._columns, strict=True):
-            row[joints] = states[places]
+        for row, (joints, indices) in zip(values, self._columns, strict=True):
+            row[joints] = states[indices]
         message = stamped("sensor_msgs/JointState", time_ns, self._frame_id)
         message.name = list(self._names)
         message.position, message.velocity, message.effort = values
@@ -187,8 +187,8 @@ class JointStateBroadcaster(Controller):
         message = stamped("control_msgs/DynamicJointState", time_ns, self._frame_id)
         message.joint_names = [*self._values, *self._extra]
         message.interface_values = [
-            value(interface_names=list(places), values=states[list(places.values())])
-            for places in self._values.values()
+            value(interface_names=list(indices), values=states[list(indices.values())])
+            for indices in self._values.values()
         ]
         zero = np.zeros(len(_FIELDS))
         message.interface_values += [

@@ -62,7 +62,7 @@ class JointStateController(Controller):
             rows = [k for k, joint in enumerate(resources) if interface in joint.state_interfaces]
             known = tuple(f"{names[k]}/{interface}" for k in rows)
             self.states += known
-            self._columns.append((np.array(rows, dtype=np.intp), context.state_places(known)))
+            self._columns.append((np.array(rows, dtype=np.intp), context.state_indices(known)))
         extra = self._extra_joints(names)
         self._names = [*names, *extra]
         fixed = np.zeros((len(_INTERFACES), len(names)))
@@ -81,8 +81,8 @@ class JointStateController(Controller):
         if not self._rate.due(time_ns) or not self._publisher.matched:
             return
         values = self._template.copy()
-        for row, (joints, places) in zip(values, self._columns, strict=True):
-            row[joints] = self.robot.interface_values.states[places]
+        for row, (joints, indices) in zip(values, self._columns, strict=True):
+            row[joints] = self.robot.interface_values.states[indices]
         message = stamped("sensor_msgs/JointState", time_ns)
         message.name = list(self._names)
         message.position, message.velocity, message.effort = values

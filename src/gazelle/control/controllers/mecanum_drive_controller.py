@@ -121,8 +121,8 @@ class MecanumDriveController(Controller):
             read.append(parameters.text(f"{wheel}_wheel_state_joint_name") or joints[-1])
         self.commands = tuple(f"{name}/velocity" for name in joints)
         self.states = tuple(f"{name}/velocity" for name in read)
-        self._command_places = context.command_places(self.commands)
-        self._state_places = context.state_places(self.states)
+        self._command_indices = context.command_indices(self.commands)
+        self._state_indices = context.state_indices(self.states)
         self._drive = MecanumDrive(
             positive(context, "kinematics.wheels_radius"),
             positive(context, "kinematics.sum_of_robot_center_projection_on_X_Y_axis"),
@@ -144,7 +144,7 @@ class MecanumDriveController(Controller):
     def update(self, time_ns: int, period_ns: int) -> None:
         """Follow the wheels, then command them."""
         period_s = period_ns * 1e-9
-        speeds = MecanumSpeeds(*self.robot.interface_values.states[self._state_places].tolist())
+        speeds = MecanumSpeeds(*self.robot.interface_values.states[self._state_indices].tolist())
         if not any(map(math.isnan, speeds)):
             self._odometry.drive(*self._drive.twist(speeds), period_s)
         twist = self._input.current(time_ns)
@@ -156,7 +156,7 @@ class MecanumDriveController(Controller):
             pairs = zip(self._limiters, twist, strict=True)
             twist = PlanarTwist(*(limiter.limit(value, period_s) for limiter, value in pairs))
             values = self._drive.wheel_speeds(twist)
-        self.robot.interface_values.commands[self._command_places] = values
+        self.robot.interface_values.commands[self._command_indices] = values
         self._output.publish(time_ns, self._odometry)
         if self._state.matched:
             self._publish_state(time_ns, speeds, twist)
@@ -165,7 +165,7 @@ class MecanumDriveController(Controller):
         """Stop the wheels."""
         self._active = False
         self._input.close()
-        self.robot.interface_values.commands[self._command_places] = 0.0
+        self.robot.interface_values.commands[self._command_indices] = 0.0
 
     def changed(self, values: dict[str, Any]) -> str:
         """Take over the timeout and whether to send tf."""

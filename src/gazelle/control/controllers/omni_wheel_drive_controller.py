@@ -77,8 +77,8 @@ class OmniWheelDriveController(Controller):
         self._feedback = "position" if parameters.flag("position_feedback") else "velocity"
         self.commands = tuple(f"{name}/velocity" for name in wheels)
         self.states = tuple(f"{name}/{self._feedback}" for name in wheels)
-        self._command_places = context.command_places(self.commands)
-        self._state_places = context.state_places(self.states)
+        self._command_indices = context.command_indices(self.commands)
+        self._state_indices = context.state_indices(self.states)
         self._drive = OmniDrive(
             len(wheels),
             positive(context, "robot_radius"),
@@ -95,7 +95,7 @@ class OmniWheelDriveController(Controller):
         self._input.open(time_ns)
         self._output.start(time_ns, self._odometry)
         self._travel.clear()
-        self.robot.interface_values.commands[self._command_places] = 0.0
+        self.robot.interface_values.commands[self._command_indices] = 0.0
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Follow the wheels, then command them."""
@@ -106,13 +106,15 @@ class OmniWheelDriveController(Controller):
         else:
             self._follow(period_s)
         self._output.publish(time_ns, self._odometry)
-        self.robot.interface_values.commands[self._command_places] = self._drive.wheel_speeds(twist)
+        self.robot.interface_values.commands[self._command_indices] = self._drive.wheel_speeds(
+            twist
+        )
 
     def stop(self, time_ns: int) -> None:
         """Stop the wheels."""
         self._active = False
         self._input.close()
-        self.robot.interface_values.commands[self._command_places] = 0.0
+        self.robot.interface_values.commands[self._command_indices] = 0.0
 
     def changed(self, values: dict[str, Any]) -> str:
         """Take over whether to send tf."""
@@ -137,7 +139,7 @@ class OmniWheelDriveController(Controller):
         offer_set_odometry(ports, self._odometry, lambda: self._active)
 
     def _follow(self, period_s: float) -> None:
-        values = tuple(self.robot.interface_values.states[self._state_places].tolist())
+        values = tuple(self.robot.interface_values.states[self._state_indices].tolist())
         if any(map(math.isnan, values)):
             return
         if self._feedback == "position":

@@ -72,10 +72,10 @@ class ParallelGripperActionController(Controller):
         given = [parameters.text(key) for key in keys]
         self.commands = (f"{name}/position", *(interface for interface in given if interface))
         self.states = (f"{name}/position", f"{name}/velocity")
-        places = iter(context.command_places(self.commands).tolist())
-        self._command = next(places)
-        self._limits = [next(places) if interface else None for interface in given]
-        self._position, self._velocity = context.state_places(self.states).tolist()
+        indices = iter(context.command_indices(self.commands).tolist())
+        self._command = next(indices)
+        self._limits = [next(indices) if interface else None for interface in given]
+        self._position, self._velocity = context.state_indices(self.states).tolist()
         self._defaults = (parameters.number("max_velocity"), parameters.number("max_effort"))
         self._bounds = self._defaults
         self._target = 0.0
@@ -102,9 +102,9 @@ class ParallelGripperActionController(Controller):
         velocity = interface_values.states.item(self._velocity)
         self._goal.watch(time_ns, self._target - position, position, velocity)
         interface_values.commands[self._command] = self._target
-        for place, value in zip(self._limits, self._bounds, strict=True):
-            if place is not None:
-                interface_values.commands[place] = value
+        for index, value in zip(self._limits, self._bounds, strict=True):
+            if index is not None:
+                interface_values.commands[index] = value
 
     def stop(self, time_ns: int) -> None:
         """End a goal."""

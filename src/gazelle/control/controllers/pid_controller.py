@@ -126,11 +126,11 @@ class PidController(Controller):
         self._is_external = parameters.flag("use_external_measured_states")
         command = parameters.text("command_interface")
         self.commands = tuple(f"{dof}/{command}" for dof in self._dofs)
-        self._places = context.command_places(self.commands).tolist()
-        self._state_places: Indices | None = None
+        self._indices = context.command_indices(self.commands).tolist()
+        self._state_indices: Indices | None = None
         if not self._is_external:
             self.states = tuple(f"{dof}/{word}" for word in interfaces for dof in self._owners)
-            self._state_places = context.state_places(self.states)
+            self._state_indices = context.state_indices(self.states)
         count = len(self._dofs) * len(interfaces)
         self._reference: Array = np.full(count, math.nan)
         self._measured: Array = np.full(count, math.nan)
@@ -165,11 +165,11 @@ class PidController(Controller):
             dof, _, word = rest.rpartition(".")
             if group != "gains" or dof not in self._dofs:
                 continue
-            place = self._dofs.index(dof)
+            index = self._dofs.index(dof)
             if word == "feedforward_gain":
-                self._feedforward[place] = float(value)
+                self._feedforward[index] = float(value)
             elif word == "angle_wraparound":
-                self._wraps[place] = bool(value)
+                self._wraps[index] = bool(value)
         if "enable_feedforward" in values:
             self._is_fed_forward = bool(values["enable_feedforward"])
         return ""
@@ -212,8 +212,8 @@ class PidController(Controller):
         self._publisher = ports.publisher("~/controller_state", "control_msgs/MultiDOFStateStamped")
 
     def _measure(self) -> None:
-        if self._state_places is not None:
-            self._measured = self.robot.interface_values.states[self._state_places]
+        if self._state_indices is not None:
+            self._measured = self.robot.interface_values.states[self._state_indices]
 
     def _update_one(self, k: int, time_ns: int, period_ns: int, period_s: float) -> None:
         reference, measured = self._reference.item(k), self._measured.item(k)
@@ -228,9 +228,9 @@ class PidController(Controller):
             lead = self._reference.item(len(self.pids) + k) if self._has_rates else reference
             command += lead * self._feedforward[k] if math.isfinite(lead) else 0.0
         interface_values = self.robot.interface_values
-        interface_values.commands[self._places[k]] = command
+        interface_values.commands[self._indices[k]] = command
         if not self._is_external:
-            interface_values.answer(int(self._places[k]), *self._answers(pid.gains))
+            interface_values.answer(int(self._indices[k]), *self._answers(pid.gains))
         if k in self._pid_states:
             self._pid_states[k].publish(pid, time_ns, period_ns)
 
@@ -249,8 +249,8 @@ class PidController(Controller):
     def _rate_error(self, k: int) -> float:
         if not self._has_rates:
             return math.nan
-        place = len(self.pids) + k
-        return self._reference.item(place) - self._measured.item(place)
+        index = len(self.pids) + k
+        return self._reference.item(index) - self._measured.item(index)
 
     def _state(self, time_ns: int, period_s: float) -> Any:
         message = stamped("control_msgs/MultiDOFStateStamped", time_ns)
@@ -263,7 +263,7 @@ class PidController(Controller):
                 state.feedback_dot = self._measured.item(count + k)
                 state.error_dot = self._rate_error(k)
             state.time_step = period_s
-            state.output = self.robot.interface_values.commands.item(self._places[k])
+            state.output = self.robot.interface_values.commands.item(self._indices[k])
             message.dof_states.append(state)
         return message
 

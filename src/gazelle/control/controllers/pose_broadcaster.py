@@ -10,7 +10,7 @@ from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.sensor_messages import (
     POSE_INTERFACES,
-    sensor_places,
+    sensor_indices,
 )
 from gazelle.control.interface_values import Array
 from gazelle.geometry import Pose
@@ -60,7 +60,7 @@ class PoseBroadcaster(Controller):
         parameters.require("frame_id")
         name, self._frame_id = parameters.text("pose_name"), parameters.text("frame_id")
         self.states = tuple(f"{name}/{word}" for word in POSE_INTERFACES)
-        self._places = sensor_places(context, name, POSE_INTERFACES)
+        self._indices = sensor_indices(context, name, POSE_INTERFACES)
         self._child_frame_id = parameters.text("tf.child_frame_id") or name
         rate_hz = parameters.number("tf.publish_rate")
         self._tf_period_ns = round(1e9 / rate_hz) if rate_hz > 0.0 else 0
@@ -76,7 +76,7 @@ class PoseBroadcaster(Controller):
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Publish what somebody listens to."""
-        values = self.robot.interface_values.states[self._places]
+        values = self.robot.interface_values.states[self._indices]
         if self._publisher.matched:
             message = stamped("geometry_msgs/PoseStamped", time_ns, self._frame_id)
             set_pose(message.pose, _pose(values))

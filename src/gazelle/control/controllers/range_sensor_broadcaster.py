@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
-from gazelle.control.controllers.sensor_messages import sensor_places
+from gazelle.control.controllers.sensor_messages import sensor_indices
 from gazelle.interfaces.stamps import stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 
@@ -41,7 +41,7 @@ class RangeSensorBroadcaster(Controller):
         parameters.require("frame_id")
         sensor, self._frame_id = parameters.text("sensor_name"), parameters.text("frame_id")
         self.states = (f"{sensor}/range",)
-        self._place = int(sensor_places(context, sensor, ("range",))[0])
+        self._index = int(sensor_indices(context, sensor, ("range",))[0])
         words = ("field_of_view", "min_range", "max_range", "variance")
         self._facts = {word: parameters.number(word) for word in words}
         self._radiation_type = parameters.integer("radiation_type")
@@ -55,5 +55,5 @@ class RangeSensorBroadcaster(Controller):
         message.radiation_type = self._radiation_type
         for word, value in self._facts.items():
             setattr(message, word, value)
-        message.range = self.robot.interface_values.states.item(self._place)
+        message.range = self.robot.interface_values.states.item(self._index)
         self._publisher.publish(message)

@@ -77,8 +77,8 @@ class PidJointController(Controller):
         context.joint(joint)
         self.commands = (f"{joint}/{interface}",)
         self.states = (f"{joint}/position", f"{joint}/velocity")
-        self._place = int(context.command_places(self.commands)[0])
-        self._position_place, self._velocity_place = context.state_places(self.states).tolist()
+        self._index = int(context.command_indices(self.commands)[0])
+        self._position_index, self._velocity_index = context.state_indices(self.states).tolist()
         self.pid = Pid(required_gains(parameters, "pid"))
         self._count = 0
         self._publisher = context.ports.publisher("~/state", "control_msgs/JointControllerState")
@@ -102,7 +102,7 @@ class PidJointController(Controller):
         message = stamped("control_msgs/JointControllerState", time_ns)
         message.set_point, message.process_value = command, process_value
         message.error, message.time_step = error, period_ns * 1e-9
-        message.command = self.robot.interface_values.commands.item(self._place)
+        message.command = self.robot.interface_values.commands.item(self._index)
         gains = self.pid.gains
         message.p, message.i, message.d = gains.p, gains.i, gains.d
         message.i_clamp, message.antiwindup = gains.i_max, gains.antiwindup
@@ -151,10 +151,10 @@ class JointVelocityController(PidJointController):
     def update(self, time_ns: int, period_ns: int) -> None:
         """Command what the PID wants."""
         interface_values = self.robot.interface_values
-        velocity = interface_values.states.item(self._velocity_place)
+        velocity = interface_values.states.item(self._velocity_index)
         error = self.command - velocity
-        interface_values.commands[self._place] = self.pid.compute(error, period_ns * 1e-9)
-        interface_values.answer(self._place, 0.0, self.pid.gains.p)
+        interface_values.commands[self._index] = self.pid.compute(error, period_ns * 1e-9)
+        interface_values.answer(self._index, 0.0, self.pid.gains.p)
         self._tell(time_ns, period_ns, process_value=velocity, error=error, command=self.command)
 
 
@@ -212,31 +212,31 @@ class JointGroupPositionController(Controller):
         self._turning = [k for k, row in enumerate(self._ranges) if row.type in turning]
         self.commands = tuple(f"{joint}/effort" for joint in joints)
         self.states = tuple(f"{joint}/position" for joint in joints)
-        self._places = context.command_places(self.commands)
-        self._state_places = context.state_places(self.states)
+        self._indices = context.command_indices(self.commands)
+        self._state_indices = context.state_indices(self.states)
         self.pids = PidArray([required_gains(parameters, f"{joint}.pid") for joint in joints])
-        for place, joint in enumerate(joints):
-            offer_live_gains(context, f"{joint}/pid", (self.pids, place))
+        for index, joint in enumerate(joints):
+            offer_live_gains(context, f"{joint}/pid", (self.pids, index))
         self._command: Array = np.zeros(len(joints))
         context.ports.subscription("~/command", "std_msgs/Float64MultiArray", self._take)
 
     def start(self, time_ns: int) -> None:
         """Hold the joints where they are."""
-        self._command = self.robot.interface_values.states[self._state_places]
+        self._command = self.robot.interface_values.states[self._state_indices]
         self._command = np.clip(self._command, self._lower, self._upper)
         self.pids.reset()
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Command what the PIDs want."""
         interface_values = self.robot.interface_values
-        positions = interface_values.states[self._state_places]
+        positions = interface_values.states[self._state_indices]
         errors = self._command - positions
         # Angles nearer than half a turn are their own shortest way.
         for k in self._turning:
             if abs(errors.item(k)) >= np.pi:
                 errors[k] = self._ranges[k].error(positions.item(k), self._command.item(k))
-        interface_values.commands[self._places] = self.pids.compute(errors, period_ns * 1e-9)
-        interface_values.answer(self._places, *self.pids.stiffness_and_damping)
+        interface_values.commands[self._indices] = self.pids.compute(errors, period_ns * 1e-9)
+        interface_values.answer(self._indices, *self.pids.stiffness_and_damping)
 
     def _take(self, message: Any) -> None:
         values = np.array(message.data, dtype=np.float64)
@@ -287,20 +287,20 @@ class JointPositionController(PidJointController):
     def start(self, time_ns: int) -> None:
         """Hold the joint where it is."""
         self.command = self._range.clip(
-            self.robot.interface_values.states.item(self._position_place)
+            self.robot.interface_values.states.item(self._position_index)
         )
         self.pid.reset()
 
     def update(self, time_ns: int, period_ns: int) -> None:
         """Command what the PID wants."""
         interface_values = self.robot.interface_values
-        position = interface_values.states.item(self._position_place)
+        position = interface_values.states.item(self._position_index)
         command = self._range.clip(self.command)
         error = self._range.error(position, command)
-        interface_values.commands[self._place] = self.pid.compute(error, period_ns * 1e-9)
+        interface_values.commands[self._index] = self.pid.compute(error, period_ns * 1e-9)
         gains = self.pid.gains
-        interface_values.answer(self._place, gains.p, gains.d)
+        interface_values.answer(self._index, gains.p, gains.d)
         self._tell(time_ns, period_ns, process_value=position, error=error, command=command)
 
     def _fill(self, message: Any) -> None:
-        message.process_value_dot = self.robot.interface_values.states.item(self._velocity_place)
+        message.process_value_dot = self.robot.interface_values.states.item(self._velocity_index)

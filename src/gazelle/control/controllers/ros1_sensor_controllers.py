@@ -13,7 +13,7 @@ from gazelle.control.controllers.sensor_messages import (
     WRENCH_INTERFACES,
     fill_imu,
     fill_wrench,
-    sensor_places,
+    sensor_indices,
 )
 from gazelle.control.interface_values import Array
 from gazelle.interfaces.stamps import stamped
@@ -54,7 +54,7 @@ class _SensorController(Controller):
         self._streams = [
             (
                 context.ports.publisher(name, self.KIND.message),
-                sensor_places(context, name, self.KIND.interfaces),
+                sensor_indices(context, name, self.KIND.interfaces),
                 self.robot.sensor_frames.get(name, name),
             )
             for name in sensors
@@ -72,10 +72,10 @@ class _SensorController(Controller):
         """Publish what is due and listened to."""
         if not self._rate.due(time_ns):
             return
-        for publisher, places, frame_id in self._streams:
+        for publisher, indices, frame_id in self._streams:
             if publisher.matched:
                 message = stamped(self.KIND.message, time_ns, frame_id)
-                self.KIND.fill(message, self.robot.interface_values.states[places])
+                self.KIND.fill(message, self.robot.interface_values.states[indices])
                 publisher.publish(message)
 
     def _is_mine(self, sensor: str) -> bool:

@@ -16,7 +16,7 @@ __all__ = [
     "WRENCH_INTERFACES",
     "fill_imu",
     "fill_wrench",
-    "sensor_places",
+    "sensor_indices",
 ]
 
 IMU_INTERFACES = (
@@ -32,13 +32,13 @@ POSE_INTERFACES = (
 _SHARES = (slice(0, 4), slice(4, 7), slice(7, 10))
 
 
-def sensor_places(context: ControllerContext, sensor: str, interfaces: tuple[str, ...]) -> Indices:
-    """Return the places, (n,), of a sensor's n interfaces.
+def sensor_indices(context: ControllerContext, sensor: str, interfaces: tuple[str, ...]) -> Indices:
+    """Return the indices, (n,), of a sensor's n interfaces.
 
     Raises:
         ControllerError: the hardware has no such sensor, or it lacks one of them.
     """
-    return context.state_places([f"{sensor}/{interface}" for interface in interfaces])
+    return context.state_indices([f"{sensor}/{interface}" for interface in interfaces])
 
 
 def fill_wrench(message: Any, values: Array) -> None:

@@ -152,8 +152,8 @@ class SteeringDrive:
             *(f"{name}/{self._feedback}" for name in names.traction_states),
             *(f"{name}/position" for name in names.steering_states),
         )
-        self._command_places = context.command_places(self.commands)
-        self._state_places = context.state_places(self.states)
+        self._command_indices = context.command_indices(self.commands)
+        self._state_indices = context.state_indices(self.states)
         self._geometry = _geometry(context, kind)
         self._measured_angle = 0.0
         self._active = False
@@ -173,9 +173,9 @@ class SteeringDrive:
         self._follow(linear, angular, period_ns * 1e-9)
         commands = self._interface_values.commands
         if twist is None:
-            commands[self._command_places[: self._driven]] = 0.0
+            commands[self._command_indices[: self._driven]] = 0.0
         else:
-            commands[self._command_places] = self._values(linear, angular)
+            commands[self._command_indices] = self._values(linear, angular)
         self._output.publish(time_ns, self._odometry)
         if self._state.matched:
             self._publish_state(time_ns)
@@ -184,7 +184,7 @@ class SteeringDrive:
         """Let go of the joints: the driven ones stand, the steered ones stay where they are."""
         self._active = False
         self._input.close()
-        self._interface_values.commands[self._command_places[: self._driven]] = 0.0
+        self._interface_values.commands[self._command_indices[: self._driven]] = 0.0
 
     def changed(self, values: dict[str, Any]) -> str:
         """Take over live parameters."""
@@ -219,7 +219,7 @@ class SteeringDrive:
         offer_set_odometry(ports, self._odometry, lambda: self._active)
 
     def _follow(self, linear: float, angular: float, period_s: float) -> None:
-        values = self._interface_values.states[self._state_places].tolist()
+        values = self._interface_values.states[self._state_indices].tolist()
         known = all(map(math.isfinite, values))
         speeds, angles = tuple(values[: self._driven]), values[self._driven :]
         if known:
@@ -253,8 +253,8 @@ class SteeringDrive:
         return driven + steered
 
     def _publish_state(self, time_ns: int) -> None:
-        states = self._interface_values.states[self._state_places]
-        commands = self._interface_values.commands[self._command_places]
+        states = self._interface_values.states[self._state_indices]
+        commands = self._interface_values.commands[self._command_indices]
         message = message_type("control_msgs/SteeringControllerStatus")(
             header=header(time_ns, self._output.frames.odom),
             steer_positions=states[self._driven :],

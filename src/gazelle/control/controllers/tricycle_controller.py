@@ -165,8 +165,8 @@ class TricycleController(Controller):
         steering = parameters.text("steering_joint_name")
         self.commands = (f"{traction}/velocity", f"{steering}/position")
         self.states = self.commands
-        self._command_places = context.command_places(self.commands)
-        self._state_places = context.state_places(self.states)
+        self._command_indices = context.command_indices(self.commands)
+        self._state_indices = context.state_indices(self.states)
         self._wheelbase_m = positive(context, "wheelbase")
         self._radius_m = positive(context, "wheel_radius")
         self._open_loop = parameters.flag("open_loop")
@@ -185,7 +185,7 @@ class TricycleController(Controller):
         """Follow the wheel, then command it."""
         period_s = period_ns * 1e-9
         twist = self._input.current(time_ns) or REST
-        wheel_rad_s, angle = self.robot.interface_values.states[self._state_places].tolist()
+        wheel_rad_s, angle = self.robot.interface_values.states[self._state_indices].tolist()
         if self._open_loop:
             self._odometry.drive_open_loop(twist.linear_x, 0.0, twist.angular_z, period_s)
         elif math.isfinite(wheel_rad_s) and math.isfinite(angle):
@@ -196,7 +196,7 @@ class TricycleController(Controller):
         target, speed = self._wheel(twist)
         speed = self._traction.limit(speed * _eagerness(abs(target - angle)), period_s)
         target = self._steering.limit(target, period_s)
-        self.robot.interface_values.commands[self._command_places] = (speed, target)
+        self.robot.interface_values.commands[self._command_indices] = (speed, target)
         if self._ackermann is not None and self._ackermann.matched:
             # The original puts the wheel's rad/s where the message has m/s.
             message = message_type("ackermann_msgs/AckermannDrive")
@@ -205,7 +205,7 @@ class TricycleController(Controller):
     def stop(self, time_ns: int) -> None:
         """Brake and steer straight."""
         self._input.close()
-        self.robot.interface_values.commands[self._command_places] = 0.0
+        self.robot.interface_values.commands[self._command_indices] = 0.0
 
     def changed(self, values: dict[str, Any]) -> str:
         """Take over whether to send tf."""

@@ -126,12 +126,12 @@ def _sections(
 ) -> list[Ros1Section]:
     made = []
     for interface in ("effort", "position", "velocity"):
-        mine = [place for place, joint in enumerate(joints) if joint.interface == interface]
-        with_pids = [place for place in mine if joints[place].name in gains]
-        without = [place for place in mine if place not in with_pids]
+        mine = [index for index, joint in enumerate(joints) if joint.interface == interface]
+        with_pids = [index for index in mine if joints[index].name in gains]
+        without = [index for index in mine if index not in with_pids]
         if without:
             made.append(Ros1Section(engine, interface_values, model, joints, without, None))
         if with_pids:
-            pids = PidArray(tuple(gains[joints[place].name] for place in with_pids))
+            pids = PidArray(tuple(gains[joints[index].name] for index in with_pids))
             made.append(Ros1Section(engine, interface_values, model, joints, with_pids, pids))
     return made

@@ -86,17 +86,17 @@ class _Block:
         kind: str,
         joints: Sequence[tuple[str, Sequence[str]]],
     ) -> None:
-        chosen = [place for place, (_, kinds) in enumerate(joints) if kind in kinds]
-        places = [interface_values.add_state(f"{joints[place][0]}/{kind}") for place in chosen]
-        first = places[0] if places else 0
-        self._target = slice(first, first + len(places))
+        chosen = [index for index, (_, kinds) in enumerate(joints) if kind in kinds]
+        indices = [interface_values.add_state(f"{joints[index][0]}/{kind}") for index in chosen]
+        first = indices[0] if indices else 0
+        self._target = slice(first, first + len(indices))
         self._source = None if len(chosen) == len(joints) else np.array(chosen, dtype=np.intp)
 
     def write(self, states: Array, values: Array) -> None:
         states[self._target] = values if self._source is None else values[self._source]
 
-    def is_among(self, places: set[int]) -> bool:
-        return not places.isdisjoint(range(self._target.start, self._target.stop))
+    def is_among(self, indices: set[int]) -> bool:
+        return not indices.isdisjoint(range(self._target.start, self._target.stop))
 
 
 class JointWriter:
@@ -136,22 +136,22 @@ class JointWriter:
             self._last = raw
             self._send(values, steps)
 
-    def hold(self, places: Sequence[int], positions: Array) -> None:
+    def hold(self, indices: Sequence[int], positions: Array) -> None:
         """Lock joints until `free` where they are: positions (n,), rad or m, one for each place."""
-        self.held[list(places)] = True
+        self.held[list(indices)] = True
         values = np.full(len(self.held), math.nan)
-        values[list(places)] = positions
+        values[list(indices)] = positions
         self.group.lock_position(values)
         self._last = b""
 
-    def free(self, places: Sequence[int]) -> None:
+    def free(self, indices: Sequence[int]) -> None:
         """Let go of held joints when the next command comes."""
-        self._leaving = [*self._leaving, *places]
+        self._leaving = [*self._leaving, *indices]
 
-    def release(self, places: Sequence[int]) -> None:
+    def release(self, indices: Sequence[int]) -> None:
         """Let joints go at once: no lock, no motor, no effort."""
-        self.held[list(places)] = False
-        self.group.release(places)
+        self.held[list(indices)] = False
+        self.group.release(indices)
         self._last = b""
 
     def forget(self) -> None:
@@ -226,15 +226,15 @@ class EffortWriter(JointWriter):
             law.high[light],
         )
 
-    def hold(self, places: Sequence[int], positions: Array) -> None:
+    def hold(self, indices: Sequence[int], positions: Array) -> None:
         """Lock joints until `free` where they are: positions (n,), rad or m, one for each place."""
-        self._fed_back[list(places)] = False
-        super().hold(places, positions)
+        self._fed_back[list(indices)] = False
+        super().hold(indices, positions)
 
-    def release(self, places: Sequence[int]) -> None:
+    def release(self, indices: Sequence[int]) -> None:
         """Let joints go at once."""
-        self._fed_back[list(places)] = False
-        super().release(places)
+        self._fed_back[list(indices)] = False
+        super().release(indices)
 
     def forget(self) -> None:
         """Start over: the engine was reset."""

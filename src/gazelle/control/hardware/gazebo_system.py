@@ -81,7 +81,7 @@ class GazeboSystem:
         self.options = options
         self._engine, self._interface_values, self._model = engine, interface_values, model
         self._own = tuple(joints)
-        self._index = {joint.name: place for place, joint in enumerate(joints)}
+        self._index = {joint.name: index for index, joint in enumerate(joints)}
         self._states = JointStates(
             engine, interface_values, model, [(joint.name, tuple(joint.states)) for joint in joints]
         )
@@ -116,11 +116,11 @@ class GazeboSystem:
             if velocity is not None and velocity.initial is not None:
                 handle.set_state(velocity=velocity.initial)
         for row in self._mimics:
-            self._place(row)
+            self._follow_mimic(row)
         self._states.read()
         # Claimed joints too: they hold until a command comes.
         self._methods = [self._idle_method(joint) for joint in self._own]
-        self._stand([place for place, word in enumerate(self._methods) if word == "hold"])
+        self._stand([index for index, word in enumerate(self._methods) if word == "hold"])
         self._arrange()
 
     def read(self, time_ns: int, period_ns: int) -> None:
@@ -153,9 +153,9 @@ class GazeboSystem:
                 joint, _, interface = item.rpartition("/")
                 if joint in self._claimed:
                     change(self._claimed[joint], interface)
-                    place = self._interface_values.command_index.get(item)
-                    if place is not None:
-                        self._interface_values.commands[place] = math.nan
+                    index = self._interface_values.command_index.get(item)
+                    if index is not None:
+                        self._interface_values.commands[index] = math.nan
         self._states.read()
         self._arrange()
 
@@ -165,8 +165,8 @@ class GazeboSystem:
         self._states.group.release()
         for joint in self._own:
             for interface in joint.commands:
-                place = self._interface_values.command_index[f"{joint.name}/{interface}"]
-                self._interface_values.commands[place] = math.nan
+                index = self._interface_values.command_index[f"{joint.name}/{interface}"]
+                self._interface_values.commands[index] = math.nan
         for section in self._sections:
             section.forget()
         self.start()
@@ -196,9 +196,9 @@ class GazeboSystem:
     def _arrange(self) -> None:
         """Group the joints by method; those whose method stays keep their section."""
         methods = [self._method(joint) for joint in self._own]
-        changed = [place for place, word in enumerate(methods) if word != self._methods[place]]
-        self._stand([place for place in changed if methods[place] == "hold"])
-        leaving = [place for place in changed if methods[place] == "free" and self._methods[place]]
+        changed = [index for index, word in enumerate(methods) if word != self._methods[index]]
+        self._stand([index for index in changed if methods[index] == "hold"])
+        leaving = [index for index in changed if methods[index] == "free" and self._methods[index]]
         if leaving:
             self._states.group.release(leaving)
         if not changed:
@@ -209,45 +209,45 @@ class GazeboSystem:
         for method in dict.fromkeys(methods):
             if method in {"hold", "free", "mimic"}:
                 continue
-            places = [place for place, word in enumerate(methods) if word == method]
-            names = tuple(self._own[place].name for place in places)
+            indices = [index for index, word in enumerate(methods) if word == method]
+            names = tuple(self._own[index].name for index in indices)
             old = kept.get(names)
-            same = old is not None and old.method == method and not set(places) & set(changed)
-            self._sections.append(old if same and old is not None else self._made(places, method))
+            same = old is not None and old.method == method and not set(indices) & set(changed)
+            self._sections.append(old if same and old is not None else self._made(indices, method))
 
-    def _made(self, places: Sequence[int], method: str) -> Ros2Section:
+    def _made(self, indices: Sequence[int], method: str) -> Ros2Section:
         options = self.options
         return Ros2Section(
             self._engine,
             self._interface_values,
             self._model,
             self._own,
-            places,
+            indices,
             method,
             servo_gain_1_s=options.position_proportional_gain * options.update_rate_hz,
-            max_effort=self._motor_limits(places),
+            max_effort=self._motor_limits(indices),
         )
 
-    def _motor_limits(self, places: Sequence[int]) -> Array:
+    def _motor_limits(self, indices: Sequence[int]) -> Array:
         if not self.options.is_gz:
-            return np.full(len(places), math.inf)
-        limits = [self._own[place].limits.max_effort for place in places]
+            return np.full(len(indices), math.inf)
+        limits = [self._own[index].limits.max_effort for index in indices]
         return np.array([math.inf if limit is None else limit for limit in limits])
 
-    def _stand(self, places: Sequence[int]) -> None:
+    def _stand(self, indices: Sequence[int]) -> None:
         """Make joints stand still where they are."""
-        if not places:
+        if not indices:
             return
         values = np.full(len(self._own), math.nan)
         if self.options.is_gz:
-            values[list(places)] = 0.0
+            values[list(indices)] = 0.0
             limits = self._motor_limits(range(len(self._own)))
             self._states.group.set_velocity(values, limits)
         else:
-            values[list(places)] = self._states.position[list(places)]
+            values[list(indices)] = self._states.position[list(indices)]
             self._states.group.lock_position(values)
 
-    def _place(self, row: Ros2Mimic) -> None:
+    def _follow_mimic(self, row: Ros2Mimic) -> None:
         """Put a following joint where its leader wants it."""
         leader = self._engine.joint(f"{self._model}::{row.leader}").position
         follower = self._engine.joint(f"{self._model}::{row.joint}")

@@ -82,8 +82,8 @@ class GenericSystem:
     def start(self) -> None:
         """Put initial values into the states; called once the interfaces are frozen."""
         states = self._interface_values.states
-        for place, value in self._initial.items():
-            states[place] = value
+        for index, value in self._initial.items():
+            states[index] = value
         if not self._custom:
             for axis in self._axes.values():
                 if axis.states[0] >= 0:
@@ -148,8 +148,8 @@ class GenericSystem:
         interface_values = self._interface_values
         standing = 0.0 if part.kind == "joint" else math.nan
         for item in part.states:
-            place = interface_values.add_state(f"{part.name}/{item.name}")
-            self._initial[place] = standing if item.initial is None else item.initial
+            index = interface_values.add_state(f"{part.name}/{item.name}")
+            self._initial[index] = standing if item.initial is None else item.initial
         commands: dict[str, InterfaceTag] = {item.name: item for item in part.commands}
         if with_commands:
             commands = {item.name: InterfaceTag(item.name) for item in part.states} | commands
@@ -178,8 +178,8 @@ class GenericSystem:
             if is_joint and interface in integrated:
                 continue
             offset = self._offset if is_joint and interface == "position" else 0.0
-            place = self._interface_values.state_index[name]
-            found.append((place, command, 0.0 if self._custom else offset))
+            index = self._interface_values.state_index[name]
+            found.append((index, command, 0.0 if self._custom else offset))
         return found
 
     def _custom_places(self, tag: HardwareTag) -> list[tuple[int, int]]:

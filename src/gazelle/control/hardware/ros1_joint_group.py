@@ -43,7 +43,7 @@ class Ros1Section:
         interface_values: takes the command interfaces.
         model: name of the model in the world.
         joints: all joints of the hardware, in the order of its states.
-        places: those of this section, which have the same interface.
+        indices: those of this section, which have the same interface.
         pids: turn position or velocity errors into efforts; None to command directly.
 
     Attributes:
@@ -57,15 +57,15 @@ class Ros1Section:
         interface_values: InterfaceValues,
         model: str,
         joints: Sequence[Ros1Joint],
-        places: Sequence[int],
+        indices: Sequence[int],
         pids: PidArray | None,
     ) -> None:
-        mine = [joints[place] for place in places]
+        mine = [joints[index] for index in indices]
         self.names = tuple(joint.name for joint in mine)
         self.pids = pids
         self._interface_values = interface_values
         self._interface = mine[0].interface
-        self._places = np.array(places, dtype=np.intp)
+        self._indices = np.array(indices, dtype=np.intp)
         taken = [
             interface_values.add_command(f"{name}/{self._interface}", 0.0) for name in self.names
         ]
@@ -100,7 +100,7 @@ class Ros1Section:
         if before == self._settled:
             return
         wanted = commands.copy()
-        position, velocity = states.position[self._places], states.velocity[self._places]
+        position, velocity = states.position[self._indices], states.velocity[self._indices]
         commands[:] = self._limits.enforce(commands, position, velocity, step_s)
         settles = self._can_settle and commands.tobytes() == before
         self._settled = before if settles else b""
@@ -137,24 +137,24 @@ class Ros1Section:
 
     def hold(self, names: Collection[str], position: Array) -> None:
         """Keep joints where they are, of all positions (N,) of the hardware, until `free`."""
-        places = [place for place, name in enumerate(self.names) if name in names]
+        indices = [index for index, name in enumerate(self.names) if name in names]
         self._settled = b""
-        if places:
-            self.writer.hold(places, position[self._places[places]])
+        if indices:
+            self.writer.hold(indices, position[self._indices[indices]])
 
     def free(self, names: Collection[str]) -> None:
         """Let go of those of the joints that are held."""
         held = self.writer.held
-        places = [place for place, name in enumerate(self.names) if name in names and held[place]]
+        indices = [index for index, name in enumerate(self.names) if name in names and held[index]]
         self._settled = b""
-        if places:
-            self.writer.free(places)
+        if indices:
+            self.writer.free(indices)
             self._limits.reset()
 
     def stop(self, active: bool, position: Array) -> None:
         """Begin or end an emergency stop; positions (N,) are those of the hardware."""
         if active and not self._stopped and self._interface == "position":
-            self._stand = position[self._places]
+            self._stand = position[self._indices]
         if not active:
             self._stand = None
         self._stopped = active
@@ -194,14 +194,14 @@ class Ros1Section:
 
     def _position_errors(self, commands: Array, position: Array) -> Array:
         errors = commands - position
-        for place, joint in enumerate(self._mine):
-            start, end = float(position[place]), float(commands[place])
+        for index, joint in enumerate(self._mine):
+            start, end = float(position[index]), float(commands[index])
             if math.isnan(end):
                 continue
             if joint.type is JointType.CONTINUOUS:
-                errors[place] = shortest_angular_distance(start, end)
+                errors[index] = shortest_angular_distance(start, end)
             elif joint.type is JointType.REVOLUTE and joint.limits.has_position_limits:
-                errors[place] = shortest_angular_distance_with_limits(
+                errors[index] = shortest_angular_distance_with_limits(
                     start, end, joint.limits.lower, joint.limits.upper
                 )
         return errors

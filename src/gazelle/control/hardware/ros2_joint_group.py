@@ -41,7 +41,7 @@ class Ros2Section:
         interface_values: has the commands.
         model: name of the model in the world.
         joints: all joints of the hardware, in the order of its states.
-        places: those of this section.
+        indices: those of this section.
         method: how they are commanded.
         servo_gain_1_s: of ``servo``: speed over position error, 1/s.
         max_effort: of ``velocity`` and ``servo`` motors (N,); infinite for ``SetVelocity``.
@@ -53,21 +53,21 @@ class Ros2Section:
         interface_values: InterfaceValues,
         model: str,
         joints: Sequence[Ros2Joint],
-        places: Sequence[int],
+        indices: Sequence[int],
         method: Method,
         *,
         servo_gain_1_s: float,
         max_effort: Array,
     ) -> None:
-        mine = [joints[place] for place in places]
+        mine = [joints[index] for index in indices]
         self.method = method
         self.names = tuple(joint.name for joint in mine)
         interface = {"servo": "position"}.get(method, method.removesuffix("_pid"))
         self._interface_values = interface_values
-        self._commands = interface_values.command_places(
+        self._commands = interface_values.command_indices(
             [f"{name}/{interface}" for name in self.names]
         )
-        self._places: Indices = np.array(places, dtype=np.intp)
+        self._indices: Indices = np.array(indices, dtype=np.intp)
         self._lower = np.array([joint.commands[interface].lower for joint in mine])
         self._upper = np.array([joint.commands[interface].upper for joint in mine])
         self._is_bounded = bool(np.isfinite(self._lower).any() or np.isfinite(self._upper).any())
@@ -97,7 +97,7 @@ class Ros2Section:
         if self._must_release and self._waiting.any():
             self._let_go(~np.isnan(commands))
         if self.method == "servo":
-            error = commands - states.position[self._places]
+            error = commands - states.position[self._indices]
             self._writer.write(self._servo_gain_1_s * error, steps)
         elif self.pids is None and isinstance(self._writer, EffortWriter):
             self._write_efforts(self._writer, commands, states, step_s, steps)
@@ -118,7 +118,7 @@ class Ros2Section:
         if raw == self._given:
             return
         self._given = raw
-        velocity = states.velocity[self._places]
+        velocity = states.velocity[self._indices]
         law = FeedbackLaw(commands, velocity, stiffness, damping, -self._unlimited, self._unlimited)
         writer.write_law(commands, law, step_s * steps, steps)
 
@@ -140,13 +140,13 @@ class Ros2Section:
         self, pids: PidArray, commands: Array, states: JointStates, step_s: float
     ) -> None:
         is_position = self.method == "position_pid"
-        measured = (states.position if is_position else states.velocity)[self._places]
+        measured = (states.position if is_position else states.velocity)[self._indices]
         errors = commands - measured
         idle = np.isnan(errors)
         efforts = pids.compute(np.where(idle, 0.0, errors), step_s)
         values = np.where(idle, math.nan, efforts)
         if isinstance(self._writer, EffortWriter):
-            velocity = states.velocity[self._places]
+            velocity = states.velocity[self._indices]
             law = pid_law(pids, efforts, velocity, self._unlimited, is_position=is_position)
             self._writer.write_law(values, law, step_s)
 

@@ -110,15 +110,15 @@ class SensorStates:
     def read(self) -> None:
         """Measure what is read."""
         looked_up = self._interface_values.looked_up
-        for places, read in self._rows:
-            if looked_up.isdisjoint(places):
+        for indices, read in self._rows:
+            if looked_up.isdisjoint(indices):
                 continue
             values = read()
-            for place, number in places.items():
-                self._interface_values.states[place] = values[number]
+            for index, number in indices.items():
+                self._interface_values.states[index] = values[number]
 
     def _add(self, part: PartTag, readout: SensorReadout, diagnostics: Diagnostics) -> None:
-        places: dict[int, int] = {}
+        indices: dict[int, int] = {}
         names = []
         for item in part.states:
             if item.name not in readout.interfaces:
@@ -128,8 +128,8 @@ class SensorStates:
                 diagnostics.report("control.ros2-control-interface", text, part.span, fix=hint)
                 continue
             name = f"{part.name}/{item.name}"
-            places[self._interface_values.add_state(name)] = readout.interfaces.index(item.name)
+            indices[self._interface_values.add_state(name)] = readout.interfaces.index(item.name)
             names.append(name)
         self.interfaces[part.name] = tuple(names)
         self.frames[part.name] = part.parameters.get("frame_id", readout.frame_id)
-        self._rows.append((places, readout.read))
+        self._rows.append((indices, readout.read))

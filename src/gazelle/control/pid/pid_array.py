@@ -44,16 +44,16 @@ class PidArray:
     def errors(self) -> tuple[Array, Array, Array]:
         """Errors, their integrals and their rates, (N,) each; see `Pid.errors`."""
         integral = self._integral.copy()
-        for place, pid in self._single.items():
-            integral[place] = pid.errors[1]
+        for index, pid in self._single.items():
+            integral[index] = pid.errors[1]
         return self._errors, integral, self._rates
 
     @property
     def terms(self) -> tuple[Array, Array, Array]:
         """What errors, integrals and rates add to the commands, (N,) each."""
         added = np.clip(self._i * self._integral, self._low, self._high)
-        for place, pid in self._single.items():
-            added[place] = pid.terms[1]
+        for index, pid in self._single.items():
+            added[index] = pid.terms[1]
         return self._p * self._errors, added, self._d * self._rates
 
     @property
@@ -61,14 +61,14 @@ class PidArray:
         """The gains p and d, (N,) each."""
         return self._p, self._d
 
-    def set_gains(self, place: int, gains: PidGains) -> None:
+    def set_gains(self, index: int, gains: PidGains) -> None:
         """Change the gains of one; errors and integral are kept."""
-        self.gains = (*self.gains[:place], gains, *self.gains[place + 1 :])
+        self.gains = (*self.gains[:index], gains, *self.gains[index + 1 :])
         self._arrange()
 
-    def reset(self, places: Iterable[int] | None = None, *, keeps_integral: bool = False) -> None:
+    def reset(self, indices: Iterable[int] | None = None, *, keeps_integral: bool = False) -> None:
         """Forget errors and commands of all or some, integrals unless `keeps_integral`."""
-        chosen = list(range(len(self)) if places is None else places)
+        chosen = list(range(len(self)) if indices is None else indices)
         # Others may hold these arrays: they are replaced, not written.
         kept = (self._last, self._errors, self._rates, self._command)
         self._last, self._errors, self._rates, self._command = (array.copy() for array in kept)
@@ -76,9 +76,9 @@ class PidArray:
             values[chosen] = 0.0
         if not keeps_integral:
             self._integral[chosen] = 0.0
-        for place in chosen:
-            if place in self._single:
-                self._single[place].reset(keeps_integral=keeps_integral)
+        for index in chosen:
+            if index in self._single:
+                self._single[index].reset(keeps_integral=keeps_integral)
 
     def compute(self, errors: Array, period_s: float, rates: Array | None = None) -> Array:
         """Return the commands (N,); the next call makes another array.
@@ -144,13 +144,13 @@ class PidArray:
     def _with_singles(
         self, command: Array, errors: Array, period_s: float, rates: Array | None
     ) -> Array:
-        for place, pid in self._single.items():
-            error = float(errors[place])
+        for index, pid in self._single.items():
+            error = float(errors[index])
             if rates is None:
-                command[place] = pid.compute(error, period_s)
+                command[index] = pid.compute(error, period_s)
             else:
-                command[place] = pid.compute_with_rate(error, float(rates[place]), period_s)
-            self._command[place] = command[place]
+                command[index] = pid.compute_with_rate(error, float(rates[index]), period_s)
+            self._command[index] = command[index]
         return command
 
     def _arrange(self) -> None:
@@ -170,10 +170,10 @@ class PidArray:
         self._u_min = np.array([row.u_min for row in rows])
         self._u_max = np.array([row.u_max for row in rows])
         self._is_bounded = bool(np.isfinite(self._u_min).any() or np.isfinite(self._u_max).any())
-        for place, row in enumerate(rows):
+        for index, row in enumerate(rows):
             if row.strategy is AntiWindup.LEGACY:
-                self._single.pop(place, None)
-            elif place in self._single:
-                self._single[place].gains = row
+                self._single.pop(index, None)
+            elif index in self._single:
+                self._single[index].gains = row
             else:
-                self._single[place] = Pid(row)
+                self._single[index] = Pid(row)

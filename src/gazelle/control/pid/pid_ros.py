@@ -93,8 +93,8 @@ def _access(
             single.gains = gains
 
         return (lambda: single.gains), put
-    pids, place = pid
-    return (lambda: pids.gains[place]), (lambda gains: pids.set_gains(place, gains))
+    pids, index = pid
+    return (lambda: pids.gains[index]), (lambda gains: pids.set_gains(index, gains))
 
 
 def _values(gains: PidGains, ros_version: int) -> dict[str, Any]:

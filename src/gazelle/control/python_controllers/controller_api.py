@@ -59,7 +59,7 @@ class UserJoint:
     Units: rad, rad/s, N·m; m, m/s, N for prismatic joints.
     """
 
-    __slots__ = ("_command", "_interface_values", "_places", "interface", "name")
+    __slots__ = ("_command", "_indices", "_interface_values", "interface", "name")
 
     def __init__(self, interface_values: InterfaceValues, name: str, interface: str) -> None:
         """Take a joint; `interface` is what it is commanded by, empty for nothing."""
@@ -67,7 +67,7 @@ class UserJoint:
         self.interface = interface
         self._interface_values = interface_values
         self._command = interface_values.command_index[f"{name}/{interface}"] if interface else -1
-        self._places: dict[str, int] = {}
+        self._indices: dict[str, int] = {}
 
     @property
     def position(self) -> float:
@@ -136,13 +136,13 @@ class UserJoint:
         self.effort = value
 
     def _state(self, interface: str) -> float:
-        place = self._places.get(interface)
-        if place is None:
+        index = self._indices.get(interface)
+        if index is None:
             name = f"{self.name}/{interface}"
             if name not in self._interface_values.state_index:
                 raise ControllerError(f"joint '{self.name}' has no state interface '{interface}'")
-            place = self._places[interface] = int(self._interface_values.state_places([name])[0])
-        return self._interface_values.states.item(place)
+            index = self._indices[interface] = int(self._interface_values.state_indices([name])[0])
+        return self._interface_values.states.item(index)
 
 
 class UserRobot:
@@ -164,7 +164,7 @@ class UserRobot:
         self._now_ns = now_ns
         self._open = True
         for wish in wishes:
-            context.command_places((wish,))
+            context.command_indices((wish,))
 
     @property
     def joint_names(self) -> tuple[str, ...]:

@@ -67,13 +67,13 @@ class Track:
     """The segments of joints that move together.
 
     Attributes:
-        places: (M,) places of the joints in the controller.
+        indices: (M,) indices of the joints in the controller.
         segments: in order of time; the last one holds for ever.
         cursor: which segment the last `sample` was in.
         state: (3, M) of the last `sample`.
     """
 
-    places: Indices
+    indices: Indices
     segments: list[Segment]
     cursor: int = 0
     state: Array = field(init=False)
@@ -83,7 +83,7 @@ class Track:
 
     def __post_init__(self) -> None:
         self._starts_ns = [segment.start_ns for segment in self.segments]
-        self._sampler = PieceSampler(len(self.places))
+        self._sampler = PieceSampler(len(self.indices))
         self.state = self._sampler.state
 
     def index_at(self, time_ns: int) -> int:
@@ -118,7 +118,7 @@ class Track:
         segment = self.segments[self.index_at(time_ns)]
         time_s = (time_ns - segment.start_ns) * _SECONDS
         inside_s = min(max(time_s, 0.0), segment.duration_s)
-        sampler = PieceSampler(len(self.places))
+        sampler = PieceSampler(len(self.indices))
         sampler.sample(segment.coefficients, inside_s)
         if inside_s != time_s:
             sampler.state[1:] = 0.0
@@ -126,7 +126,7 @@ class Track:
 
     def joints(self, columns: Indices) -> Track:
         """Return the track of m of its joints, given by column (m,)."""
-        wanted = np.concatenate([columns + k * len(self.places) for k in range(3)])
+        wanted = np.concatenate([columns + k * len(self.indices) for k in range(3)])
         segments = [
             segment._replace(
                 coefficients=segment.coefficients[:, wanted],
@@ -134,7 +134,7 @@ class Track:
             )
             for segment in self.segments
         ]
-        return Track(self.places[columns], segments)
+        return Track(self.indices[columns], segments)
 
 
 @dataclass(slots=True)
@@ -153,7 +153,7 @@ class SegmentTrajectory:
         if len(self.tracks) == 1:
             self.state = self.tracks[0].state
         else:
-            self.state = np.zeros((3, sum(len(track.places) for track in self.tracks)))
+            self.state = np.zeros((3, sum(len(track.indices) for track in self.tracks)))
 
     def sample(self, time_ns: int) -> bool:
         """Put the state at a time into `state`; False when nothing changed since the last call."""
@@ -162,7 +162,7 @@ class SegmentTrajectory:
         changed = False
         for track in self.tracks:
             if track.sample(time_ns):
-                self.state[:, track.places] = track.state
+                self.state[:, track.indices] = track.state
                 changed = True
         return changed
 
@@ -171,9 +171,9 @@ class SegmentTrajectory:
         both = np.zeros_like(self.state)
         for track in self.tracks:
             state = track.state_at(time_ns)
-            both[0, track.places] = state.position
-            both[1, track.places] = state.velocity
-            both[2, track.places] = state.acceleration
+            both[0, track.indices] = state.position
+            both[1, track.indices] = state.velocity
+            both[2, track.indices] = state.acceleration
         return JointState(*both)
 
     @property
@@ -183,11 +183,11 @@ class SegmentTrajectory:
 
     def track_of(self, joint: int) -> tuple[Track, int]:
         """Return the track of a joint and its column there."""
-        return next(found for found in self._columns() if found[0].places[found[1]] == joint)
+        return next(found for found in self._columns() if found[0].indices[found[1]] == joint)
 
     def _columns(self) -> Iterator[tuple[Track, int]]:
         for track in self.tracks:
-            for column in range(len(track.places)):
+            for column in range(len(track.indices)):
                 yield track, column
 
 
@@ -261,11 +261,11 @@ def splice(waypoints: Waypoints, how: Splice) -> tuple[SegmentTrajectory, str]:
     splice_ns = max(start_ns, how.next_ns)
     tracks = [track for old in how.current.tracks for track in _untouched(old, waypoints, how)]
     if splice_ns == how.next_ns:
-        columns = np.arange(len(waypoints.places))
+        columns = np.arange(len(waypoints.indices))
         tracks.append(_track(waypoints.joints(columns), [], how, first, start_ns))
     else:
         for old in how.current.tracks:
-            columns = np.flatnonzero(np.isin(waypoints.places, old.places))
+            columns = np.flatnonzero(np.isin(waypoints.indices, old.indices))
             if len(columns):
                 some = waypoints.joints(columns)
                 tracks.append(_track(some, _kept(old, some, how, splice_ns), how, first, start_ns))
@@ -290,7 +290,7 @@ def _first_to_come(waypoints: Waypoints, start_ns: int, next_ns: int) -> tuple[i
 
 def _untouched(old: Track, waypoints: Waypoints, how: Splice) -> list[Track]:
     """Return what joints do that the new trajectory does not speak of: as before."""
-    columns = np.flatnonzero(~np.isin(old.places, waypoints.places))
+    columns = np.flatnonzero(~np.isin(old.indices, waypoints.indices))
     if not len(columns):
         return []
     track = old.joints(columns)
@@ -298,15 +298,15 @@ def _untouched(old: Track, waypoints: Waypoints, how: Splice) -> list[Track]:
     active = track.index_at(how.next_ns) - track.index_at(how.last_ns)
     of_goal = how.tolerances is not None
     segments = [
-        segment._replace(is_of_goal=of_goal and place >= active)
-        for place, segment in enumerate(kept)
+        segment._replace(is_of_goal=of_goal and index >= active)
+        for index, segment in enumerate(kept)
     ]
-    return [Track(track.places, segments)]
+    return [Track(track.indices, segments)]
 
 
 def _kept(old: Track, waypoints: Waypoints, how: Splice, splice_ns: int) -> list[Segment]:
     """Return the segments that still run before the new trajectory begins."""
-    columns = np.flatnonzero(np.isin(old.places, waypoints.places))
+    columns = np.flatnonzero(np.isin(old.indices, waypoints.indices))
     track = old.joints(columns)
     kept = track.segments[track.index_at(how.last_ns) : track.index_at(splice_ns) + 1]
     return [segment._replace(is_of_goal=False) for segment in kept]
@@ -315,32 +315,32 @@ def _kept(old: Track, waypoints: Waypoints, how: Splice, splice_ns: int) -> list
 def _track(
     waypoints: Waypoints, kept: list[Segment], how: Splice, first: int, start_ns: int
 ) -> Track:
-    places = waypoints.places
+    indices = waypoints.indices
     splice_ns = max(start_ns, how.next_ns)
-    last = _of(how.current.state_at(splice_ns), places)
+    last = _of(how.current.state_at(splice_ns), indices)
     states = waypoints.states[first:]
-    offset = turns_to_nearest(last.position, states[0].position, how.wraps[places])
+    offset = turns_to_nearest(last.position, states[0].position, how.wraps[indices])
     moved = [
         JointState(state.position + offset, state.velocity, state.acceleration) for state in states
     ]
     times_ns = [start_ns + time_ns for time_ns in waypoints.times_ns[first:]]
-    tolerances = None if how.tolerances is None else how.tolerances.of_joints(places)
+    tolerances = None if how.tolerances is None else how.tolerances.of_joints(indices)
     segments = [Segment.between(splice_ns, last, times_ns[0], moved[0])]
-    for place in range(len(moved) - 1):
+    for index in range(len(moved) - 1):
         segment = Segment.between(
-            times_ns[place], moved[place], times_ns[place + 1], moved[place + 1]
+            times_ns[index], moved[index], times_ns[index + 1], moved[index + 1]
         )
-        from_start_s = waypoints.times_ns[first + place] * _SECONDS
+        from_start_s = waypoints.times_ns[first + index] * _SECONDS
         segments.append(segment._replace(from_start_s=from_start_s))
     new = [
         segment._replace(is_of_goal=tolerances is not None, tolerances=tolerances)
         for segment in segments
     ]
-    return Track(places, kept + new)
+    return Track(indices, kept + new)
 
 
-def _of(state: JointState, places: Indices) -> JointState:
+def _of(state: JointState, indices: Indices) -> JointState:
     def some(values: Array | None) -> Array | None:
-        return None if values is None else values[places]
+        return None if values is None else values[indices]
 
-    return JointState(state.position[places], some(state.velocity), some(state.acceleration))
+    return JointState(state.position[indices], some(state.velocity), some(state.acceleration))

@@ -25,8 +25,8 @@ _NANO = 1_000_000_000
 
 def holding(point: JointState) -> Waypoints:
     """Return the waypoint to stay at from now on."""
-    places = np.arange(len(point.position), dtype=np.intp)
-    return Waypoints(places, (0,), (point,), 0)
+    indices = np.arange(len(point.position), dtype=np.intp)
+    return Waypoints(indices, (0,), (point,), 0)
 
 
 def decelerating(
@@ -60,8 +60,8 @@ def decelerating(
             strict=True,
         )
     )
-    places = np.arange(len(position), dtype=np.intp)
-    return Waypoints(places, tuple(k * period_ns for k in range(count)), states, 0)
+    indices = np.arange(len(position), dtype=np.intp)
+    return Waypoints(indices, tuple(k * period_ns for k in range(count)), states, 0)
 
 
 _SECONDS = 1e-9
@@ -106,7 +106,7 @@ class PointTrajectory:
     _is_at_end: bool = field(init=False, default=False)
 
     def __post_init__(self) -> None:
-        n = len(self.waypoints.places)
+        n = len(self.waypoints.indices)
         self._sampler = PieceSampler(n)
         self.state = self._sampler.state
         self.effort = np.zeros(n)
@@ -165,8 +165,8 @@ class PointTrajectory:
         Returns:
             False when nothing changed since the last call, because the last waypoint is reached.
         """
-        place = self.segment_at(time_ns)
-        if place == len(self._pieces):
+        index = self.segment_at(time_ns)
+        if index == len(self._pieces):
             if self._is_at_end:
                 return False
             self._is_at_end = True
@@ -174,12 +174,12 @@ class PointTrajectory:
             return True
         self._is_at_end = False
         if self.interpolation is Interpolation.NONE:
-            self._take(self._points[0 if place == 0 else place + 1])
+            self._take(self._points[0 if index == 0 else index + 1])
             return True
-        since_s = (time_ns - self._times_ns[place]) * _SECONDS
-        self._sampler.sample(self._pieces[place], max(since_s, 0.0))
+        since_s = (time_ns - self._times_ns[index]) * _SECONDS
+        self._sampler.sample(self._pieces[index], max(since_s, 0.0))
         if self.has_effort:
-            self._take_effort(place, since_s)
+            self._take_effort(index, since_s)
         return True
 
     def state_at(self, time_ns: int) -> JointState | None:
@@ -198,9 +198,9 @@ class PointTrajectory:
         self.state[2] = 0.0 if point.acceleration is None else point.acceleration
         self.effort[:] = 0.0 if point.effort is None else point.effort
 
-    def _take_effort(self, place: int, since_s: float) -> None:
-        start, end = self._points[place], self._points[place + 1]
-        duration_s = (self._times_ns[place + 1] - self._times_ns[place]) * _SECONDS
+    def _take_effort(self, index: int, since_s: float) -> None:
+        start, end = self._points[index], self._points[index + 1]
+        duration_s = (self._times_ns[index + 1] - self._times_ns[index]) * _SECONDS
         begin = np.zeros_like(self.effort) if start.effort is None else start.effort
         finish = np.zeros_like(self.effort) if end.effort is None else end.effort
         self.effort[:] = begin + (finish - begin) * (since_s / duration_s)

@@ -63,9 +63,9 @@ class Tolerances:
         """Return tolerances that enforce nothing."""
         return cls.of([0.0] * n_joints, [0.0] * n_joints, 0.0, 0.0)
 
-    def of_joints(self, places: Indices) -> Tolerances:
-        """Return those of m of the joints, given by place (m,)."""
-        return Tolerances(self.path[:, places], self.goal[:, places], self.goal_time_s)
+    def of_joints(self, indices: Indices) -> Tolerances:
+        """Return those of m of the joints, given by index (m,)."""
+        return Tolerances(self.path[:, indices], self.goal[:, indices], self.goal_time_s)
 
 
 def violated(error: Array, limits: Array) -> NDArray[np.bool_]:
@@ -110,10 +110,10 @@ def goal_tolerances(
 
 
 def _take(row: Any, column: Array, title: str, strict: bool) -> None:
-    for place, name in enumerate(_FIELDS):
+    for index, name in enumerate(_FIELDS):
         value = _resolved(getattr(row, name), f"{title} ({name} of joint '{row.name}')", strict)
         if value is not None:
-            column[place] = value
+            column[index] = value
 
 
 def _resolved(value: float, title: str, strict: bool) -> float | None:

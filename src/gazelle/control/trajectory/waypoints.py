@@ -93,13 +93,13 @@ class Waypoints:
     """A trajectory of some of a controller's joints.
 
     Attributes:
-        places: (M,) places of the joints in the controller, rising.
+        indices: (M,) indices of the joints in the controller, rising.
         times_ns: when each waypoint is to be reached, since the start.
-        states: the waypoints, columns in the order of `places`.
+        states: the waypoints, columns in the order of `indices`.
         stamp_ns: when it starts; 0 means now.
     """
 
-    places: Indices
+    indices: Indices
     times_ns: tuple[int, ...]
     states: tuple[JointState, ...]
     stamp_ns: int
@@ -107,11 +107,11 @@ class Waypoints:
     def joints(self, columns: Indices) -> Waypoints:
         """Return the trajectory of m of its joints, given by column (m,)."""
         states = tuple(_columns(state, columns) for state in self.states)
-        return Waypoints(self.places[columns], self.times_ns, states, self.stamp_ns)
+        return Waypoints(self.indices[columns], self.times_ns, states, self.stamp_ns)
 
 
 def check_joints(names: Sequence[str], joints: Sequence[str], *, allow_partial: bool) -> Indices:
-    """Return the places, (n,), of a message's n joints in the controller.
+    """Return the indices, (n,), of a message's n joints in the controller.
 
     Raises:
         TrajectoryError: joints are missing, unknown or there twice.
@@ -133,20 +133,20 @@ def check_joints(names: Sequence[str], joints: Sequence[str], *, allow_partial: 
     return np.array([joints.index(name) for name in names], dtype=np.intp)
 
 
-def read_waypoints(trajectory: Any, places: Indices) -> Waypoints:
+def read_waypoints(trajectory: Any, indices: Indices) -> Waypoints:
     """Read a trajectory message whose joints were checked.
 
     Args:
         trajectory: trajectory_msgs/JointTrajectory with ROS 2's fields.
-        places: (n,), places of its n joints in the controller.
+        indices: (n,), those of its n joints in the controller.
 
     Raises:
         TrajectoryError: a field has not one value for each joint, a value is not finite, or the
             points do not follow each other in time.
     """
-    order = np.argsort(places)
+    order = np.argsort(indices)
     states = tuple(
-        _state(point, number, order, len(places)) for number, point in enumerate(trajectory.points)
+        _state(point, number, order, len(indices)) for number, point in enumerate(trajectory.points)
     )
     times_ns = tuple(ns_of(point.time_from_start) for point in trajectory.points)
     for number, (before, after) in enumerate(pairwise(times_ns)):
@@ -155,7 +155,7 @@ def read_waypoints(trajectory: Any, places: Indices) -> Waypoints:
             text += f" Time between points {number} and {number + 1} is not strictly increasing, it"
             text += f" is {before / _NANO:f} and {after / _NANO:f} respectively"
             raise TrajectoryError(ErrorCode.INVALID_GOAL, text)
-    return Waypoints(places[order], times_ns, states, ns_of(trajectory.header.stamp))
+    return Waypoints(indices[order], times_ns, states, ns_of(trajectory.header.stamp))
 
 
 def _state(point: Any, number: int, order: Indices, n_joints: int) -> JointState:

@@ -87,7 +87,7 @@ class Bench:
 
     def commanded(self, interface: str = "position") -> np.ndarray:
         """Return the commands (T, N) of one interface."""
-        places = self.robot.interface_values.command_places(
+        places = self.robot.interface_values.command_indices(
             [f"{name}/{interface}" for name in self.robot.joints]
         )
         return np.array(self.commands)[:, places]

@@ -58,7 +58,7 @@ class Arm:
         """Return positions and velocities (2, 6) as the controller read them last."""
         interface_values = self.sim.server.controls.manager().robot.interface_values
         names = [f"{name}/{word}" for word in ("position", "velocity") for name in JOINTS]
-        values: np.ndarray = interface_values.states[interface_values.state_places(names)].reshape(
+        values: np.ndarray = interface_values.states[interface_values.state_indices(names)].reshape(
             2, -1
         )
         return values

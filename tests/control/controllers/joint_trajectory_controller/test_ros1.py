@@ -408,7 +408,7 @@ def test_errors_of_prismatic_joints_are_not_wrapped() -> None:
     robot.read(0, 0)
     controller.update(1_000_000, 1_000_000)
     commands = robot.interface_values.commands[
-        robot.interface_values.command_places([f"{n}/effort" for n in JOINTS])
+        robot.interface_values.command_indices([f"{n}/effort" for n in JOINTS])
     ]
     assert commands.tolist() == pytest.approx([400 * (4.0 - 2 * math.pi), 1600.0])
 

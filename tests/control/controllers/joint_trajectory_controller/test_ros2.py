@@ -53,7 +53,7 @@ def test_it_holds_the_last_command_when_told_so(uses_last: bool) -> None:
     key = "set_last_command_interface_value_as_state_on_activation"
     bench = Bench(ROS2, {key: uses_last}, start=False)
     bench.robot.interface_values.commands[
-        bench.robot.interface_values.command_places(bench.controller.commands)
+        bench.robot.interface_values.command_indices(bench.controller.commands)
     ] = 0.5
     bench.start()
     bench.run(1)
@@ -445,7 +445,7 @@ def test_stopping_aborts_the_goal_and_commands_no_velocity() -> None:
     bench.controller.stop(bench.time_ns)
     assert sent.state == "aborted"
     assert sent.result["error_string"] == "Current goal cancelled during deactivate transition."
-    places = bench.robot.interface_values.command_places([f"{name}/velocity" for name in JOINTS])
+    places = bench.robot.interface_values.command_indices([f"{name}/velocity" for name in JOINTS])
     assert bench.robot.interface_values.commands[places].tolist() == [0.0, 0.0]
 
 

@@ -70,36 +70,37 @@ class Forwarding:
         """
         self._interface_values = context.robot.interface_values
         self._interfaces = tuple(interfaces)
-        self._places = _places(context, names, interfaces)
+        self._indices = _indices(context, names, interfaces)
         self._columns = columns
         self.commands = _names(names, interfaces)
 
     def start(self, position: Array) -> None:
         """Command the positions (N,), and no velocities, accelerations or efforts."""
         self.stop()
-        if "position" in self._places:
-            self._interface_values.commands[self._places["position"]] = self._some(position)
+        if "position" in self._indices:
+            self._interface_values.commands[self._indices["position"]] = self._some(position)
 
     def write(self, desired: Array, effort: Array | None, error: Array, period_ns: int) -> None:
         """Hand the desired state (3, N) and efforts (N,) on; errors (3, N) do not matter."""
         commands = self._interface_values.commands
-        for interface, places in self._places.items():
+        for interface, indices in self._indices.items():
             row = _ROWS.get(interface)
             if row is not None:
-                commands[places] = self._some(desired[row])
+                commands[indices] = self._some(desired[row])
             elif effort is not None:
-                commands[places] = self._some(effort)
+                commands[indices] = self._some(effort)
 
     def stop(self) -> None:
         """Leave positions, set the rest to 0."""
-        for interface, places in self._places.items():
+        for interface, indices in self._indices.items():
             if interface != "position":
-                self._interface_values.commands[places] = 0.0
+                self._interface_values.commands[indices] = 0.0
 
     def commanded(self) -> dict[str, Array]:
         """Return the present commands, (M,) by interface."""
         return {
-            name: self._interface_values.commands[places] for name, places in self._places.items()
+            name: self._interface_values.commands[indices]
+            for name, indices in self._indices.items()
         }
 
     def _some(self, values: Array) -> Array:
@@ -133,7 +134,7 @@ class PidOutput:
         """
         self._interface_values = context.robot.interface_values
         self._interface = interface
-        self._places = _places(context, names, (interface,))
+        self._indices = _indices(context, names, (interface,))
         self._columns = columns
         self.commands = _names(names, (interface,))
         self.set_feed_forward(feed_forward)
@@ -141,8 +142,8 @@ class PidOutput:
         self._pids = PidArray([_gains(context, name) for name in names])
         separator = "/" if context.ros_version == 1 else "."
         self._live = [
-            offer_live_gains(context, f"gains{separator}{name}", (self._pids, place))
-            for place, name in enumerate(names)
+            offer_live_gains(context, f"gains{separator}{name}", (self._pids, index))
+            for index, name in enumerate(names)
         ]
 
     def set_feed_forward(self, feed_forward: Array) -> None:
@@ -153,14 +154,14 @@ class PidOutput:
         """Change what `offer_live_gains` does not: ``i_clamp`` and the newer strategies."""
         if name not in self._names:
             return
-        place = self._names.index(name)
+        index = self._names.index(name)
         changes: dict[str, Any] = {word: value}
         if word == "i_clamp":
             changes = {"i_max": abs(value), "i_min": -abs(value)}
-            self._live[place].update({"i_clamp_max": abs(value), "i_clamp_min": -abs(value)})
+            self._live[index].update({"i_clamp_max": abs(value), "i_clamp_min": -abs(value)})
         elif word == "antiwindup_strategy":
             changes = {"strategy": AntiWindup(value)}
-        self._pids.set_gains(place, replace(self._pids.gains[place], **changes))
+        self._pids.set_gains(index, replace(self._pids.gains[index], **changes))
 
     def start(self, position: Array) -> None:
         """Forget errors and integrals, command 0; positions (N,) are not looked at."""
@@ -184,18 +185,19 @@ class PidOutput:
             command += desired[1] * self._feed_forward
         if effort is not None:
             command += effort
-        places = self._places[self._interface]
-        self._interface_values.commands[places] = command
-        self._interface_values.answer(places, *self._pids.stiffness_and_damping)
+        indices = self._indices[self._interface]
+        self._interface_values.commands[indices] = command
+        self._interface_values.answer(indices, *self._pids.stiffness_and_damping)
 
     def stop(self) -> None:
         """Command 0."""
-        self._interface_values.commands[self._places[self._interface]] = 0.0
+        self._interface_values.commands[self._indices[self._interface]] = 0.0
 
     def commanded(self) -> dict[str, Array]:
         """Return the present commands, (M,) by interface."""
         return {
-            name: self._interface_values.commands[places] for name, places in self._places.items()
+            name: self._interface_values.commands[indices]
+            for name, indices in self._indices.items()
         }
 
 
@@ -224,11 +226,11 @@ def _gains(context: ControllerContext, name: str) -> PidGains:
     raise ControllerError(f"{text}(Failed to initialize PID gains from ROS parameter server.)")
 
 
-def _places(
+def _indices(
     context: ControllerContext, names: Sequence[str], interfaces: Sequence[str]
 ) -> dict[str, Indices]:
     return {
-        interface: context.command_places([f"{name}/{interface}" for name in names])
+        interface: context.command_indices([f"{name}/{interface}" for name in names])
         for interface in interfaces
     }
 

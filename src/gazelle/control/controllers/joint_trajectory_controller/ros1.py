@@ -190,7 +190,7 @@ class Ros1JointTrajectoryController(Controller):
         self._output = _output(context, names)
         self.commands = self._output.commands
         self.states = tuple(f"{name}/{word}" for word in ("position", "velocity") for name in names)
-        self._places = context.state_places(self.states)
+        self._indices = context.state_indices(self.states)
         self._time_ns, self._period_ns = 0, 0
         self._is_running = False
         self._goal: GoalPort | None = None
@@ -248,7 +248,7 @@ class Ros1JointTrajectoryController(Controller):
         self._preempt()
 
     def _measure(self) -> None:
-        self.robot.interface_values.states.take(self._places, out=self._actual_flat, mode="clip")
+        self.robot.interface_values.states.take(self._indices, out=self._actual_flat, mode="clip")
 
     def _points(self) -> tuple[Any, Any, Any]:
         track, _ = self._following.track_of(0)
@@ -293,20 +293,20 @@ class Ros1JointTrajectoryController(Controller):
 
     def _goal_violation(self, track: Track, tolerances: Tolerances | None, late_ns: int) -> str:
         if tolerances is None:
-            self._reached[track.places] = True
+            self._reached[track.indices] = True
             return ""
         bad = violated(self._errors_of(track), tolerances.goal)
-        self._reached[track.places] |= ~bad
+        self._reached[track.indices] |= ~bad
         if not bad.any() or late_ns < tolerances.goal_time_s * _NANO:
             return ""
         return self._violation(track, int(bad.argmax()), "goal")
 
     def _errors_of(self, track: Track) -> Array:
-        is_all = len(track.places) == len(self._joints.names)
-        return self._error if is_all else self._error[:, track.places]
+        is_all = len(track.indices) == len(self._joints.names)
+        return self._error if is_all else self._error[:, track.indices]
 
     def _violation(self, track: Track, column: int, what: str) -> str:
-        joint = int(track.places[column])
+        joint = int(track.indices[column])
         return f"{self._joints.names[joint]} {what} error {self._error[0, joint]:f}"
 
     def _hold(self, *, is_of_goal: bool = False) -> None:
@@ -336,14 +336,14 @@ class Ros1JointTrajectoryController(Controller):
         if goal is None and not len(message.points):
             self._hold()
             return
-        places = check_joints(message.joint_names, names, allow_partial=self._allow_partial)
+        indices = check_joints(message.joint_names, names, allow_partial=self._allow_partial)
         if not len(message.points):
             self._hold(is_of_goal=True)
             return
         tolerances = None
         if goal is not None:
             tolerances = goal_tolerances(self._constraints, goal, names, strict=False)
-        waypoints = read_waypoints(message, places)
+        waypoints = read_waypoints(message, indices)
         next_ns = self._time_ns + self._period_ns
         how = Splice(self._following, self._time_ns, next_ns, self._joints.wraps, tolerances)
         following, remark = splice(waypoints, how)

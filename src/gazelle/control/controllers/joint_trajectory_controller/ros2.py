@@ -63,14 +63,16 @@ def accepted(message: Any, setup: Ros2Setup, now_ns: int, position: Array) -> Wa
         TrajectoryError: it cannot be followed.
     """
     names = setup.joints.names
-    places = check_joints(message.joint_names, names, allow_partial=setup.allow_partial_joints_goal)
+    indices = check_joints(
+        message.joint_names, names, allow_partial=setup.allow_partial_joints_goal
+    )
     if not len(message.points):
         raise TrajectoryError(ErrorCode.INVALID_GOAL, "Empty trajectory received.")
-    waypoints = read_waypoints(message, places)
+    waypoints = read_waypoints(message, indices)
     _check_end(waypoints, setup, now_ns)
     for number, state in enumerate(waypoints.states):
         _check_fields(state, number, setup)
-    if len(places) == len(names):
+    if len(indices) == len(names):
         return waypoints
     return _completed(waypoints, len(names), _staying(setup, position))
 
@@ -80,7 +82,7 @@ def _check_end(waypoints: Waypoints, setup: Ros2Setup, now_ns: int) -> None:
     if last is not None and not setup.allow_nonzero_velocity_at_trajectory_end:
         moving = np.flatnonzero(np.abs(last) > _EPSILON)
         if len(moving):
-            name = setup.joints.names[int(waypoints.places[moving[0]])]
+            name = setup.joints.names[int(waypoints.indices[moving[0]])]
             text = f"Velocity of last trajectory point of joint {name} is not zero: "
             raise TrajectoryError(ErrorCode.INVALID_GOAL, f"{text}{last[moving[0]]:.15f}")
     end_ns = waypoints.stamp_ns + waypoints.times_ns[-1]
@@ -118,7 +120,7 @@ def _completed(waypoints: Waypoints, n_joints: int, staying: Array) -> Waypoints
         if values is None or not len(values):
             return values
         result = rest.copy()
-        result[waypoints.places] = values
+        result[waypoints.indices] = values
         return result
 
     zero = np.zeros(n_joints)
@@ -133,8 +135,8 @@ def _completed(waypoints: Waypoints, n_joints: int, staying: Array) -> Waypoints
                 filled(state.effort, zero),
             )
         )
-    places = np.arange(n_joints, dtype=np.intp)
-    return Waypoints(places, waypoints.times_ns, tuple(states), waypoints.stamp_ns)
+    indices = np.arange(n_joints, dtype=np.intp)
+    return Waypoints(indices, waypoints.times_ns, tuple(states), waypoints.stamp_ns)
 
 
 _PREEMPTED = "Current goal preempted by new incoming action."

@@ -403,7 +403,7 @@ class Ros2Setup:
         self.output = self._make_output(commands, closes)
         self._rows = tuple(row for row, word in enumerate(INTERFACES[:3]) if word in states)
         self.states = tuple(f"{name}/{INTERFACES[row]}" for row in self._rows for name in names)
-        self._places = context.state_places(self.states)
+        self._indices = context.state_indices(self.states)
         has_rate_error = 1 in self._rows and ("velocity" in commands or self.has_effort)
         has_bend_error = 2 in self._rows and "acceleration" in commands
         self.rows_without_error = (
@@ -419,7 +419,7 @@ class Ros2Setup:
     def read(self, actual: Array) -> None:
         """Put what is measured into rows of positions, velocities, accelerations (3, N)."""
         states = self._context.robot.interface_values.states
-        states.take(self._places, out=actual.reshape(-1)[: len(self._places)], mode="clip")
+        states.take(self._indices, out=actual.reshape(-1)[: len(self._indices)], mode="clip")
 
     def state_of(self, actual: Array) -> JointState:
         """Return what is measured, of rows (3, N), without what is not."""

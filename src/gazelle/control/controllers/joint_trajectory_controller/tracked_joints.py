@@ -47,9 +47,9 @@ class TrackedJoints:
         """Return a ROS 2 controller's joints: continuous ones and those told so wrap."""
         names = joint_names(context)
         wraps = _continuous(context, names)
-        for place, name in enumerate(names):
+        for index, name in enumerate(names):
             for word in ("angle_wraparound", "normalize_error"):
-                wraps[place] |= context.parameters.flag(f"gains.{name}.{word}")
+                wraps[index] |= context.parameters.flag(f"gains.{name}.{word}")
         return cls(names, wraps, wraps)
 
     def error(self, desired: Array, actual: Array, out: Array) -> None:
