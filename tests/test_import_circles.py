@@ -22,7 +22,7 @@ WHEN_RUN = {
 WITH_TYPES = {
     *WHEN_RUN,
     "gazelle.compat.rclpy.endpoints",
-    "gazelle.engine.core",
+    "gazelle.engine.engine",
     "gazelle.graph.actions.actionlib_wire",
     "gazelle.graph.callback_queue",
     "gazelle.launch.ros2.action",

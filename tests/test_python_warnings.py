@@ -47,7 +47,7 @@ def test_a_users_warning_is_left_to_python(
         ("/usr/lib/python3/site-packages/collada/scene.py", "collada"),
         ("/usr/lib/python3/dist-packages/six.py", "six"),
         ("/home/me/ws/src/bot/scripts/node.py", None),
-        (str(Path(engine.__file__).with_name("core.py")), "gazelle.engine.core"),
+        (str(Path(engine.__file__).with_name("engine.py")), "gazelle.engine.engine"),
         (str(Path(engine.__file__).parents[1] / "launch" / "x.py"), None),
     ],
 )

@@ -360,7 +360,7 @@ def test_efforts_of_a_moving_robot_do_not_wake_others(build, monkeypatch):
     beside.step(500)
     alone.step(500)
     assert beside.is_asleep(beside.body_id("resting::l1"))
-    monkeypatch.setattr("gazelle.engine.core.waking_copy", pytest.fail)
+    monkeypatch.setattr("gazelle.engine.engine.waking_copy", pytest.fail)
     efforts = []
     for engine in (alone, beside):
         moving = group_of(engine)

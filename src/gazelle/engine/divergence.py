@@ -13,11 +13,20 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.diagnostics import SourceSpan
 from gazelle.engine.mujoco_library import mujoco
-from gazelle.errors import EngineError
+from gazelle.errors import EngineError, SimulationDivergedError
 from gazelle.geometry import Pose
 
-__all__ = ["Culprit", "find_culprit", "finite", "place", "require_finite", "require_finite_pose"]
+__all__ = [
+    "Culprit",
+    "divergence_error",
+    "find_culprit",
+    "finite",
+    "place",
+    "require_finite",
+    "require_finite_pose",
+]
 
 
 _MAX_DISTANCE = 1e12
@@ -102,6 +111,25 @@ def find_culprit(model: Any, data: Any, before: tuple[Array, Array, Array], step
             return _name(model, speeds, last, step)
         last = speeds.copy()
     return _name(model, data.qvel, last, steps)
+
+
+def divergence_error(
+    culprit: Culprit, first_step: int, span: SourceSpan | None
+) -> SimulationDivergedError:
+    """Return the error that names the link that went wrong first.
+
+    Args:
+        culprit: its step counts from `first_step`.
+        first_step: the steps made before.
+        span: where the link is described.
+    """
+    where = f" ({span})" if span else ""
+    return SimulationDivergedError(
+        f"the simulation diverged in step {first_step + culprit.step}: link '{culprit.link}'{where}"
+        f" {culprit.what}. Usual reasons: an inertia far too small for the forces on it,"
+        " effort or gains far too large, collisions that start inside each other",
+        link=culprit.link,
+    )
 
 
 def _name(model: Any, speeds: Array, last: Array, step: int) -> Culprit:

@@ -15,7 +15,7 @@ from gazelle.engine.mujoco_library import mujoco
 from gazelle.errors import EngineError
 
 if TYPE_CHECKING:
-    from gazelle.engine.core import EngineCore
+    from gazelle.engine.engine import Engine
 
 __all__ = ["JointGroup"]
 
@@ -36,7 +36,7 @@ class JointGroup:
         names: ``model::joint`` of each.
     """
 
-    def __init__(self, engine: EngineCore, names: Sequence[str]) -> None:
+    def __init__(self, engine: Engine, names: Sequence[str]) -> None:
         self.names = tuple(names)
         self._engine = engine
         self._handles = tuple(engine.joint(name) for name in names)

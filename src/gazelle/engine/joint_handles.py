@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType
+from gazelle.engine.contacts import joint_reaction
 from gazelle.engine.divergence import finite, place
 from gazelle.engine.motors import MotorCommand
 from gazelle.engine.state import Wrench
 from gazelle.errors import EngineError
 
 if TYPE_CHECKING:
-    from gazelle.engine.core import EngineCore
+    from gazelle.engine.engine import Engine
     from gazelle.engine.joint_group import JointGroup
 
 __all__ = ["JointHandle"]
@@ -41,7 +42,7 @@ class JointHandle:
         "name",
     )
 
-    def __init__(self, engine: EngineCore, name: str, axis_index: int = 0) -> None:
+    def __init__(self, engine: Engine, name: str, axis_index: int = 0) -> None:
         self.name = name
         self.axis_index = axis_index
         self._engine = engine
@@ -204,7 +205,13 @@ class JointHandle:
 
         Force and torque are in the world frame, the torque about the joint's origin.
         """
-        return self._engine.reaction_wrench(self.name)
+        joint, engine = self.joint, self._engine
+        child = engine.link(f"{self.name.partition('::')[0]}::{joint.child}")
+        body = engine.body_id(child.name)
+        data = engine.data_with_accelerations(body)
+        T_model_link = child.link.T_model_link
+        T_world_joint = child.T_world_link() @ T_model_link.inverse() @ joint.T_model_joint
+        return joint_reaction(engine.model, data, body, np.asarray(T_world_joint.position_m))
 
     @property
     def element(self) -> str:

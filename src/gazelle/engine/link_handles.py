@@ -14,7 +14,7 @@ from gazelle.geometry import Pose, cross
 
 if TYPE_CHECKING:
     from gazelle.description.model import Link
-    from gazelle.engine.core import EngineCore
+    from gazelle.engine.engine import Engine
 
 __all__ = ["LinkHandle", "TimedWrench", "WrenchTable"]
 
@@ -46,7 +46,7 @@ class LinkHandle:
 
     __slots__ = ("_body", "_engine", "_revision", "name")
 
-    def __init__(self, engine: EngineCore, name: str) -> None:
+    def __init__(self, engine: Engine, name: str) -> None:
         self.name = name
         self._engine = engine
         self._revision = -1
