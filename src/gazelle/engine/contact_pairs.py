@@ -24,16 +24,15 @@ from gazelle.description.model import Link, Model, Plane
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.contact_parameters import (
     HARD_SOLIMP,
-    MIN_MU,
     RESOLVED,
     PairSurface,
     combine,
     contact_spring,
     hard_spring,
     is_plain,
-    least_friction,
     surface_key,
 )
+from gazelle.engine.friction import MIN_MU, least_friction, report_friction_direction
 from gazelle.engine.kinematic_tree import KinematicTree
 from gazelle.engine.scoped_names import scoped
 from gazelle.engine.spec_builder import BuiltGeom, SpecBuilder
@@ -120,6 +119,7 @@ def set_up_contacts(builder: SpecBuilder) -> tuple[ExplicitPair, ...]:
         if geom.collision.surface.collide_without_contact:
             element.margin, element.gap = -_UNREACHABLE_M, _UNREACHABLE_M
         slips = geom.link_name in builder.tyres
+        report_friction_direction(geom.collision, geom.collision_name, builder.diagnostics)
         _report_unmapped(geom, builder.diagnostics, slips=slips)
     _exclude(builder, crowded)
     return _explicit_pairs(builder, kinds)
@@ -336,14 +336,6 @@ def _add_pair(
 def _report_unmapped(geom: BuiltGeom, diagnostics: Diagnostics, *, slips: bool) -> None:
     surface = geom.collision.surface
     span = surface.span or geom.collision.span
-    if surface.fdir1 is not None and surface.mu1 != surface.mu2:
-        diagnostics.report(
-            "engine.friction-direction",
-            f"collision '{geom.collision_name}' sets fdir1; the engine cannot turn the friction"
-            " directions with the body and applies mu and mu2 along its own tangents (for level"
-            " ground: mu along the world's y, mu2 along x)",
-            span,
-        )
     if not slips and ((surface.slip1 or 0.0) > 0 or (surface.slip2 or 0.0) > 0):
         diagnostics.report(
             "engine.slip",

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from gazelle.description.model import Surface
+from gazelle.engine.friction import MIN_MU, friction_coefficients, friction_rate, torsional_length_m
 
 __all__ = [
     "DEFAULT_KD",
@@ -17,7 +18,6 @@ __all__ = [
     "contact_spring",
     "hard_spring",
     "is_plain",
-    "least_friction",
     "restitution_of",
     "surface_key",
 ]
@@ -27,12 +27,6 @@ DEFAULT_KP = 1e12
 
 DEFAULT_KD = 1.0
 """SDF's contact damping, N·s/m."""
-
-MAX_MU = 1000.0
-"""Larger friction coefficients mean 'never slides' and only spoil the solver's conditioning."""
-
-MIN_MU = 1e-5
-"""Below this a contact is frictionless (MuJoCo's own smallest coefficient)."""
 
 RESOLVED = 0.25
 """Largest h² kp / m that one step of length h resolves as a spring; harder ones saturate."""
@@ -53,10 +47,6 @@ DEFAULT_MAX_VEL_M_S = 0.01
 
 MAX_IMPEDANCE = 0.9999
 """Impedance of a slowly parting contact at most (MuJoCo's own bound)."""
-
-FRICTION_RATE = 0.05
-"""Sliding speed decays at this rate in units of 1/h: over 20 steps. A higher one lifts sliding
-bodies off the ground, for the solver's friction cone couples sliding and normal speed."""
 
 HARD_SOLIMP = (HARD_IMPEDANCE, HARD_IMPEDANCE, 0.001, 0.5, 2.0)
 _NEVER_BOUNCES_M_S = 1000.0
@@ -113,11 +103,11 @@ def combine(first: Surface, second: Surface) -> PairSurface:
     series, the dampers add (``ODEPhysics::Collide``); the contact patch is the larger one.
     """
     kp = 1.0 / (1.0 / stiffness_of(first) + 1.0 / stiffness_of(second))
-    mu1, mu2 = _friction(first), _friction(second)
+    mu1, mu2 = friction_coefficients(first), friction_coefficients(second)
     return PairSurface(
         min(mu1[0], mu2[0]),
         min(mu1[1], mu2[1]),
-        _torsional_length(first, second),
+        torsional_length_m(first, second),
         min(first.rolling_mu or 0.0, second.rolling_mu or 0.0),
         kp,
         _damping(first) + _damping(second),
@@ -156,7 +146,7 @@ def contact_spring(pair: PairSurface, inverse_mass: float, step_s: float) -> Con
     impedance = min(max(1.0 - 1.0 / c, 1e-4), 0.9999)
     return ContactSpring(
         (-pair.kp * inverse_mass / c, -drag / c),
-        _friction_rate(impedance, step_s),
+        friction_rate(impedance, step_s),
         (impedance, impedance, 0.001, 0.5, 2.0),
     )
 
@@ -169,7 +159,7 @@ def hard_spring(step_s: float) -> ContactSpring:
     gentle = DEFAULT_MAX_VEL_M_S / (step_s * OVERLAP_M)
     return ContactSpring(
         (-gentle * HARD_IMPEDANCE, -HARD_IMPEDANCE / step_s),
-        _friction_rate(HARD_IMPEDANCE, step_s),
+        friction_rate(HARD_IMPEDANCE, step_s),
         HARD_SOLIMP,
     )
 
@@ -190,7 +180,7 @@ def _pushed_apart(gentle: float, stiffness: float, step_s: float) -> ContactSpri
     impedance = min(1.0 / (1.0 + gentle / stiffness), MAX_IMPEDANCE)
     return ContactSpring(
         (-gentle * impedance, -impedance / step_s),
-        _friction_rate(impedance, step_s),
+        friction_rate(impedance, step_s),
         (impedance, impedance, 0.001, 0.5, 2.0),
     )
 
@@ -200,7 +190,7 @@ def _bouncing(restitution: float, step_s: float) -> ContactSpring:
     ratio = _damping_ratio_of(restitution)
     omega = math.pi / (BOUNCE_STEPS * step_s)
     solref = (-omega * omega, -2.0 * ratio * omega)
-    return ContactSpring(solref, _friction_rate(HARD_IMPEDANCE, step_s), HARD_SOLIMP)
+    return ContactSpring(solref, friction_rate(HARD_IMPEDANCE, step_s), HARD_SOLIMP)
 
 
 def _damping_ratio_of(restitution: float) -> float:
@@ -226,12 +216,6 @@ def _returned_speed(ratio: float) -> float:
     return math.exp(-ratio / root * phase)
 
 
-def _friction_rate(impedance: float, step_s: float) -> SolRef:
-    """Return ``solreffriction`` for the sliding rate; MuJoCo divides by the impedance."""
-    rate = -FRICTION_RATE * impedance / step_s
-    return (rate, rate)
-
-
 def restitution_of(surface: Surface) -> float:
     """Return the bounce of one surface; a threshold no speed reaches switches it off (SDF)."""
     threshold = surface.bounce_threshold_m_s
@@ -248,7 +232,7 @@ def stiffness_of(surface: Surface) -> float:
 def surface_key(surface: Surface) -> tuple[object, ...]:
     """Return what decides a contact; collisions with equal keys behave the same."""
     return (
-        *_friction(surface),
+        *friction_coefficients(surface),
         surface.torsional_mu,
         surface.torsional_patch_radius_m,
         surface.rolling_mu,
@@ -267,25 +251,5 @@ def _max_vel(surface: Surface) -> float:
     return limit if limit > 0 else math.inf
 
 
-def least_friction(surface: Surface) -> float:
-    """Return the smaller of a surface's two friction coefficients, 1 where it names none."""
-    return min(_friction(surface))
-
-
-def _friction(surface: Surface) -> tuple[float, float]:
-    mu1 = 1.0 if surface.mu1 is None else surface.mu1
-    mu2 = 1.0 if surface.mu2 is None else surface.mu2
-    return (min(max(mu1, 0.0), MAX_MU), min(max(mu2, 0.0), MAX_MU))
-
-
 def _damping(surface: Surface) -> float:
     return DEFAULT_KD if surface.kd is None else max(surface.kd, 0.0)
-
-
-def _torsional_length(first: Surface, second: Surface) -> float:
-    """Torque per normal force of a flat round patch, 3π/16 · a · μ (SDF ``patch_radius``)."""
-    radius = max(first.torsional_patch_radius_m or 0.0, second.torsional_patch_radius_m or 0.0)
-    mu = min(
-        1.0 if surface.torsional_mu is None else surface.torsional_mu for surface in (first, second)
-    )
-    return 3.0 * math.pi / 16.0 * radius * max(mu, 0.0)

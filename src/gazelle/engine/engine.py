@@ -19,7 +19,12 @@ from gazelle.description.model import Joint, JointType, Link, Model, World
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.engine.compiler import Compiled, Extras, compile_world
 from gazelle.engine.contacts import Contact, read_contacts, waking_copy
-from gazelle.engine.divergence import find_culprit, require_finite, require_finite_pose
+from gazelle.engine.divergence import (
+    divergence_error,
+    find_culprit,
+    require_finite,
+    require_finite_pose,
+)
 from gazelle.engine.joint_group import JointGroup
 from gazelle.engine.joint_handles import JointHandle
 from gazelle.engine.link_handles import LinkHandle, TimedWrench, WrenchTable

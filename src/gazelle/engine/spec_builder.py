@@ -9,6 +9,7 @@ from typing import Any
 from gazelle.description.model import Collision, JointType, Link, MeshShape, Model, World
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.collision_geoms import GeomAssets, add_geom, geom_shapes
+from gazelle.engine.friction import with_wheel_grip
 from gazelle.engine.inertia import (
     MASSLESS_LEAF_INERTIA_KG_M2,
     MASSLESS_LEAF_KG,
@@ -19,7 +20,7 @@ from gazelle.engine.joints import add_joint, add_mimic, add_root_joint, has_para
 from gazelle.engine.kinematic_tree import KinematicTree, TreeLink, kinematic_tree
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import part_of, scoped
-from gazelle.engine.wheel_slip import add_tyre, with_wheel_grip
+from gazelle.engine.wheel_slip import add_tyre
 from gazelle.geometry import IDENTITY_POSE
 
 __all__ = ["BuiltGeom", "SpecBuilder", "VelocityDecay", "mesh_collisions"]

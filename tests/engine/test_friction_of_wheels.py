@@ -13,7 +13,7 @@ from gazelle.description.sdf_reader import read_sdf
 from gazelle.description.urdf_reader.reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
-from gazelle.engine.wheel_slip import MAX_WHEEL_MU, with_wheel_grip
+from gazelle.engine.friction import MAX_WHEEL_MU, with_wheel_grip
 from gazelle.geometry import Pose
 
 INERTIA = '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>'
