@@ -113,8 +113,8 @@ def test_more_models_than_bits_still_obey_the_rules(build):
 def test_bits_say_exactly_who_touches():
     kinds = [CollisionKind("a"), CollisionKind("b", 1), CollisionKind("", 2), CollisionKind("")]
     kinds.append(CollisionKind("a", touches_itself=True))
-    groups, crowded = assign_groups(kinds)
-    assert not crowded
+    groups, sharing_bits = assign_groups(kinds)
+    assert not sharing_bits
     for one in kinds:
         for other in kinds:
             first, second = groups[one], groups[other]

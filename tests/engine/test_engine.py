@@ -81,14 +81,14 @@ def test_spawn_and_delete_keep_the_state_of_others(build):
 
 
 def test_spawned_model_does_not_disturb_the_motion_of_others(build):
-    lone, crowded = build.engine(build.arm()), build.engine(build.arm())
-    for engine in (lone, crowded):
+    lone, sharing_bits = build.engine(build.arm()), build.engine(build.arm())
+    for engine in (lone, sharing_bits):
         engine.joint("arm::joint").set_state(1.0)
         engine.step(100)
-    crowded.spawn(build.block(pose=Pose((50, 0, 5))))
-    for engine in (lone, crowded):
+    sharing_bits.spawn(build.block(pose=Pose((50, 0, 5))))
+    for engine in (lone, sharing_bits):
         engine.step(500)
-    assert crowded.joint("arm::joint").position == lone.joint("arm::joint").position
+    assert sharing_bits.joint("arm::joint").position == lone.joint("arm::joint").position
 
 
 def test_taken_name_is_refused_in_gazebos_words(build):

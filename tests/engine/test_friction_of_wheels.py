@@ -13,7 +13,7 @@ from gazelle.description.sdf_reader import read_sdf
 from gazelle.description.urdf_reader.reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
-from gazelle.engine.friction import MAX_WHEEL_MU, with_wheel_grip
+from gazelle.engine.friction import MAX_WHEEL_MU, with_wheel_friction
 from gazelle.geometry import Pose
 
 INERTIA = '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>'
@@ -60,7 +60,7 @@ def test_wheels_with_two_coefficients_of_one_size_have_the_smaller_one(mu2, coun
     surface = replace(link.collisions[0].surface, mu2=mu2)
     found = Diagnostics()
     wheel = replace(link.collisions[0], surface=surface)
-    grip = with_wheel_grip(model, link, wheel, found).surface
+    grip = with_wheel_friction(model, link, wheel, found).surface
     assert (grip.mu1, grip.mu2) == counts
     if counts[0] == counts[1]:
         (finding,) = found.by_code("engine.friction-direction")
@@ -73,7 +73,7 @@ def test_only_wheels_are_limited():
     model = robot(200.0)
     for name, most in (("left", MAX_WHEEL_MU), ("ball", 0.0)):
         link = next(item for item in model.links if item.name == name)
-        surface = with_wheel_grip(model, link, link.collisions[0], Diagnostics()).surface
+        surface = with_wheel_friction(model, link, link.collisions[0], Diagnostics()).surface
         assert (surface.mu1, surface.mu2) == (most, most)
 
 
@@ -91,7 +91,7 @@ def test_endless_revolute_joints_of_sdf_carry_wheels_too():
     ):
         context = ReadContext(None, Diagnostics(), "bot.sdf")
         (model,) = read_sdf(text.format(limit), context=context).models
-        surface = with_wheel_grip(
+        surface = with_wheel_friction(
             model, model.links[1], model.links[1].collisions[0], Diagnostics()
         ).surface
         assert (surface.mu1, surface.mu2) == (most, most)

@@ -21,7 +21,7 @@ from gazelle.description.model import (
 )
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
-from gazelle.engine.velocity_limits import SpeedLimits
+from gazelle.engine.velocity_limits import VelocityLimits
 from gazelle.errors import EngineError
 from gazelle.geometry import Pose
 
@@ -205,11 +205,11 @@ def test_joint_that_its_stops_hold_is_not_said_to_turn_by_a_quarter_turn():
 def test_step_that_holds_nothing_back_is_an_ordinary_step(build):
     """To the bit, so that what is looked at does not change what happens."""
     hashes = []
-    for looks in (False, True):
+    for visuals in (False, True):
         engine = build.engine(build.ground(), build.arm(name="arm"), build.ball("ball"))
         joint = engine.joint("arm::joint")
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(SpeedLimits, "throws", lambda *_, looks=looks: looks)
+            patch.setattr(VelocityLimits, "throws", lambda *_, visuals=visuals: visuals)
             for step in range(300):
                 joint.set_effort(0.3 * math.sin(0.1 * step))
                 engine.step()

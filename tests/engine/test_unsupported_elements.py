@@ -15,7 +15,7 @@ from gazelle.description.model import (
     World,
 )
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.unsupported_elements import report_idle_words
+from gazelle.engine.unsupported_elements import report_ignored_parameters
 
 
 def _link(name: str, surface: Surface) -> Link:
@@ -26,8 +26,8 @@ def _link(name: str, surface: Surface) -> Link:
 def _findings(*links: Link, joints: tuple[Joint, ...] = ()) -> list[tuple[str, str]]:
     diagnostics = Diagnostics()
     world = World(models=(Model("m", links=links, joints=joints),))
-    report_idle_words(world, diagnostics)
-    report_idle_words(world, diagnostics)
+    report_ignored_parameters(world, diagnostics)
+    report_ignored_parameters(world, diagnostics)
     return [(item.code, item.message) for item in diagnostics]
 
 

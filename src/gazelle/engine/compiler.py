@@ -20,9 +20,9 @@ from gazelle.engine.mujoco_library import mujoco, report_library_warnings
 from gazelle.engine.position_locks import add_lock
 from gazelle.engine.scoped_names import root_joint, rotor_joint, scoped
 from gazelle.engine.spec_builder import SpecBuilder, VelocityDecay, mesh_collisions
-from gazelle.engine.unsupported_elements import report_idle_words
+from gazelle.engine.unsupported_elements import report_ignored_parameters
 from gazelle.engine.welds import add_weld
-from gazelle.engine.wheel_slip import correct_weights
+from gazelle.engine.wheel_slip import copy_contact_weights
 from gazelle.errors import EngineError
 
 __all__ = [
@@ -137,7 +137,7 @@ def assemble_world(
             add_loop(spec, joint, model, tree, step_s, diagnostics)
     _add_world_joints(builder)
     pairs = set_up_contacts(builder)
-    report_idle_words(world, diagnostics)
+    report_ignored_parameters(world, diagnostics)
     for motor in extras.motors:
         add_motor(spec, motor, step_s)
     for name in extras.locks:
@@ -240,7 +240,7 @@ def _finish(
         model.dof_armature[model.joint(rotor_joint(motor)).dofadr[0]] = flywheel_inertia(inertia)
     if _steady_friction(model, builder.step_s) or motors or builder.decays:
         mujoco.mj_setConst(model, mujoco.MjData(model))
-    correct_weights(model, [(name, link) for link, name in builder.tyres.items()])
+    copy_contact_weights(model, [(name, link) for link, name in builder.slip_bodies.items()])
     # MuJoCo weighs turning speeds with the size of the geometry that turns; a joint that carries
     # none would count as resting at any speed.
     np.maximum(model.dof_length, 1.0, out=model.dof_length)

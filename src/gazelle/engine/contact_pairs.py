@@ -105,7 +105,7 @@ def set_up_contacts(builder: SpecBuilder) -> tuple[ExplicitPair, ...]:
     """Set bits, priorities, springs, excludes and explicit pairs of everything built."""
     geoms = builder.geoms
     kinds = [_kind(geom) for geom in geoms]
-    groups, crowded = assign_groups(kinds)
+    groups, sharing_bits = assign_groups(kinds)
     mus = [least_friction(geom.collision.surface) for geom in geoms]
     ranks = _priorities(mus)
     spring = hard_spring(builder.step_s)
@@ -118,10 +118,10 @@ def set_up_contacts(builder: SpecBuilder) -> tuple[ExplicitPair, ...]:
         element.solref, element.solimp = list(spring.solref), list(HARD_SOLIMP)
         if geom.collision.surface.collide_without_contact:
             element.margin, element.gap = -_UNREACHABLE_M, _UNREACHABLE_M
-        slips = geom.link_name in builder.tyres
+        slips = geom.link_name in builder.slip_bodies
         report_friction_direction(geom.collision, geom.collision_name, builder.diagnostics)
         _report_unmapped(geom, builder.diagnostics, slips=slips)
-    _exclude(builder, crowded)
+    _exclude(builder, sharing_bits)
     return _explicit_pairs(builder, kinds)
 
 
@@ -201,22 +201,22 @@ def _priorities(mus: Sequence[float]) -> dict[float, int]:
     return {mu: rank for rank, mu in enumerate(sorted(set(mus), reverse=True))}
 
 
-def _exclude(builder: SpecBuilder, crowded: frozenset[str]) -> None:
+def _exclude(builder: SpecBuilder, sharing_bits: frozenset[str]) -> None:
     """Exclude body pairs: joined by a loop joint, or of families that share bits."""
     for model_name, tree in builder.trees.items():
         excluded = {tuple(sorted((loop.parent, loop.child))) for loop in tree.loops}
         excluded |= _joined(tree)
-        if model_name in crowded:
-            excluded |= _strangers(builder.world.model(model_name))
+        if model_name in sharing_bits:
+            excluded |= _not_self_colliding(builder.world.model(model_name))
         known = {entry.link.name for entry in tree.links}
         for first, second in sorted(excluded):
             if first in known and second in known and first != second:
                 names = [scoped(model_name, link) for link in (first, second)]
-                bodies = [builder.tyres.get(name, name) for name in names]
+                bodies = [builder.slip_bodies.get(name, name) for name in names]
                 builder.spec.add_exclude(bodyname1=bodies[0], bodyname2=bodies[1])
 
 
-def _strangers(model: Model | None) -> set[tuple[str, ...]]:
+def _not_self_colliding(model: Model | None) -> set[tuple[str, ...]]:
     """Pairs of a model's links that do not both collide with their own model."""
     links = model.links if model is not None else ()
     return {

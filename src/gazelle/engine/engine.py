@@ -28,9 +28,9 @@ from gazelle.engine.divergence import (
 from gazelle.engine.joint_group import JointGroup
 from gazelle.engine.joint_handles import JointHandle
 from gazelle.engine.link_handles import LinkHandle, TimedWrench, WrenchTable
-from gazelle.engine.motors import POSITION_STEPS, MotorBank, MotorCommand
+from gazelle.engine.motors import POSITION_STEPS, MotorCommand, Motors
 from gazelle.engine.mujoco_library import drained_warnings, mujoco, report_library_warnings
-from gazelle.engine.position_locks import LockBank
+from gazelle.engine.position_locks import PositionLocks
 from gazelle.engine.scoped_names import joint_part, scoped
 from gazelle.engine.state import (
     Snapshot,
@@ -42,9 +42,9 @@ from gazelle.engine.state import (
     set_initial_positions,
     set_root_velocity,
 )
-from gazelle.engine.velocity_limits import SpeedLimits
-from gazelle.engine.welds import WeldBank
-from gazelle.engine.wheel_slip import CENTRING_STEPS, Slip, TyreBank
+from gazelle.engine.velocity_limits import VelocityLimits
+from gazelle.engine.welds import Welds
+from gazelle.engine.wheel_slip import CENTRING_STEPS, Slip, WheelSlips
 from gazelle.errors import EngineError, NotFoundError
 from gazelle.geometry import Pose, cross
 
@@ -68,10 +68,10 @@ class EngineState:
     time_ns: int
     iteration: int
     step_ns: int
-    motors: MotorBank
-    locks: LockBank
-    welds: WeldBank
-    tyres: TyreBank
+    motors: Motors
+    locks: PositionLocks
+    welds: Welds
+    wheel_slips: WheelSlips
     wrenches: WrenchTable
 
 
@@ -102,11 +102,11 @@ class Engine:
         self.time_ns = 0
         self._world = world
         self._step_ns = max(1, round(world.physics.max_step_size_s * _NS))
-        self.motors = MotorBank()
-        self.locks = LockBank()
-        self._welds = WeldBank()
-        self._tyres = TyreBank()
-        self._speed_limits = SpeedLimits()
+        self.motors = Motors()
+        self.locks = PositionLocks()
+        self._welds = Welds()
+        self._wheel_slips = WheelSlips()
+        self._velocity_limits = VelocityLimits()
         self._wrenches = WrenchTable()
         self._must_compile = False
         self._fresh = 0
@@ -213,12 +213,12 @@ class Engine:
             steps = self._wrenches.steps_until_change(self.iteration, left)
             if self.motors.has_positions:
                 steps = min(steps, POSITION_STEPS)
-            if self._tyres.slips:
+            if self._wheel_slips.slips:
                 steps = min(steps, CENTRING_STEPS)
-                self._tyres.prepare(model, data, step_s)
+                self._wheel_slips.prepare(model, data, step_s)
             if self._wrenches.changed:
                 self._write_wrenches()
-            if is_limited := self._speed_limits.concern(self._applied):
+            if is_limited := self._velocity_limits.concern(self._applied):
                 steps = 1
             self.motors.drive(model, data, step_s, steps)
             if self.locks.steps_left:
@@ -296,7 +296,7 @@ class Engine:
             NotFoundError: there is no such model.
         """
         self._model_named(name)
-        for bank in (self.motors, self.locks, self._welds, self._tyres):
+        for bank in (self.motors, self.locks, self._welds, self._wheel_slips):
             bank.forget(f"{name}::")
         kept = tuple(model for model in self._world.models if model.name != name)
         gone = frozenset(item for item in self.link_names if item.startswith(f"{name}::"))
@@ -350,7 +350,7 @@ class Engine:
             raise EngineError(
                 f"wheel '{joint}' cannot slip like {slip}: positive numbers are needed"
             )
-        if self._tyres.set(joint, slip):
+        if self._wheel_slips.set(joint, slip):
             self._must_compile = True
 
     def model_pose(self, name: str) -> Pose:
@@ -478,7 +478,7 @@ class Engine:
         return EngineState(
             self._world, self._compiled, copy.copy(self.model), copy.copy(self._data),
             self.time_ns, self.iteration, self._step_ns, copy.deepcopy(self.motors),
-            self.locks.copy(), self._welds.copy(), copy.deepcopy(self._tyres),
+            self.locks.copy(), self._welds.copy(), copy.deepcopy(self._wheel_slips),
             self._wrenches.copy(),
         )  # fmt: skip
 
@@ -488,12 +488,12 @@ class Engine:
         self.time_ns, self.iteration = state.time_ns, state.iteration
         self.motors, self._wrenches = copy.deepcopy(state.motors), state.wrenches.copy()
         self.locks, self._welds = state.locks.copy(), state.welds.copy()
-        self._tyres = copy.deepcopy(state.tyres)
+        self._wheel_slips = copy.deepcopy(state.wheel_slips)
         self._compiled = replace(state.compiled, model=copy.copy(state.model))
         self._hold(copy.copy(state.data))
         self.locks.hold(self.model, self._data)
         self._welds.hold(self.model, self._data)
-        self._speed_limits.bind(self.model, self._world, self._step_ns / _NS)
+        self._velocity_limits.bind(self.model, self._world, self._step_ns / _NS)
         self._must_compile = False
         self.revision += 1
         self.state_changed()
@@ -683,7 +683,7 @@ class Engine:
                 tuple(self.motors.installed),
                 tuple(self.locks.installed),
                 tuple(self._welds.pairs),
-                frozenset(self._tyres.slips_in(world)),
+                frozenset(self._wheel_slips.slips_in(world)),
             ),
             step_s=self._step_ns / _NS,
             diagnostics=self.diagnostics,
@@ -706,8 +706,8 @@ class Engine:
         self.motors.bind(compiled.model, compiled.motors)
         self.locks.bind(compiled.model, data, self._step_ns / _NS)
         self._welds.bind(compiled.model, data)
-        self._tyres.bind(compiled.model, self._world)
-        self._speed_limits.bind(compiled.model, self._world, self._step_ns / _NS)
+        self._wheel_slips.bind(compiled.model, self._world)
+        self._velocity_limits.bind(compiled.model, self._world, self._step_ns / _NS)
         self._wrenches.changed = bool(self._wrenches.items)
         self.state_changed()
 
@@ -752,7 +752,7 @@ class Engine:
         asked = self._applied.copy()
         positions, speeds, _ = self._views
         for _ in range(_TRIES):
-            dofs, less = self._speed_limits.held_back(
+            dofs, less = self._velocity_limits.held_back(
                 positions, speeds, data.qacc, self._applied, self.diagnostics
             )
             if not len(dofs):
@@ -767,10 +767,10 @@ class Engine:
 
     def _advance_within_limits(self) -> None:
         """Make one step in which efforts do not push joints beyond their limits."""
-        idle = self._speed_limits.overrun(self._views[1], self._applied, self.diagnostics)
+        idle = self._velocity_limits.overrun(self._views[1], self._applied, self.diagnostics)
         asked = self._applied[idle]
         self._applied[idle] = 0.0
-        if not self._speed_limits.throws(self._applied):
+        if not self._velocity_limits.throws(self._applied):
             self._advance(1)
         elif self.locks.steps_left:
             self.locks.advance(self._step_held_back, 1)

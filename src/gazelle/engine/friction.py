@@ -32,7 +32,7 @@ __all__ = [
     "least_friction",
     "report_friction_direction",
     "torsional_length_m",
-    "with_wheel_grip",
+    "with_wheel_friction",
 ]
 
 MAX_MU = 1000.0
@@ -91,7 +91,7 @@ def report_friction_direction(collision: Collision, name: str, diagnostics: Diag
         )
 
 
-def with_wheel_grip(
+def with_wheel_friction(
     model: Model, link: Link, collision: Collision, diagnostics: Diagnostics
 ) -> Collision:
     """Return a collision whose friction lets a wheel turn on the spot that it stands on.

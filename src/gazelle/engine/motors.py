@@ -8,7 +8,7 @@ zero with at most the wanted torque. It cannot overshoot, whatever the joint's i
 nothing while released (no friction, no constraint). A soft clutch is a damper with a limit: it
 gives the torque ``effort − slope · speed`` with the speed at the end of the step. The clutch
 pushes the joint's own coordinate, so the parent link feels the reaction; the flywheel is
-weightless in effect and touches nothing. `MotorBank` keeps what every motor was asked for and
+weightless in effect and touches nothing. `Motors` keeps what every motor was asked for and
 writes it into MuJoCo's state.
 """
 
@@ -29,8 +29,8 @@ __all__ = [
     "POSITION_STEPS",
     "TIGHT",
     "UNLIMITED_EFFORT",
-    "MotorBank",
     "MotorCommand",
+    "Motors",
     "add_motor",
     "clutch_impedance",
     "flywheel_inertia",
@@ -117,7 +117,7 @@ def clutch_impedance(slope: float, inverse_inertia: float, step_s: float) -> flo
 
 
 @dataclass(slots=True)
-class MotorBank:
+class Motors:
     """All motors: which joints have one, and what it is asked for.
 
     Attributes:

@@ -18,7 +18,7 @@ from gazelle.engine.contacts import constraint_forces
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import lock
 
-__all__ = ["LockBank", "add_lock"]
+__all__ = ["PositionLocks", "add_lock"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -43,7 +43,7 @@ def add_lock(spec: Any, joint: str, step_s: float) -> None:
     equality.solimp = [_IMPEDANCE, _IMPEDANCE, 0.001, 0.5, 2.0]
 
 
-class LockBank:
+class PositionLocks:
     """All locks: which joints have one, and where it holds them; survives recompiles.
 
     A lock has a place in every array, in the order of the first commands. Its reference is where
@@ -120,9 +120,9 @@ class LockBank:
         first = int(self._equalities[0]) if len(self._equalities) else 0
         self._column = model.eq_data[first : first + len(self._equalities), 0]
 
-    def copy(self) -> LockBank:
+    def copy(self) -> PositionLocks:
         """Return a copy for a saved state; it needs `hold` before it acts."""
-        other = LockBank()
+        other = PositionLocks()
         for name, value in vars(self).items():
             setattr(other, name, value.copy() if isinstance(value, np.ndarray) else value)
         other.installed = list(self.installed)

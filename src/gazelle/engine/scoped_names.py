@@ -11,8 +11,8 @@ __all__ = [
     "rotor_body",
     "rotor_joint",
     "scoped",
+    "slip_body",
     "tendon",
-    "tyre",
     "weld",
 ]
 
@@ -64,9 +64,9 @@ def bridge(joint: str) -> str:
     return f"{joint}{_MARK}bridge"
 
 
-def tyre(link: str) -> str:
+def slip_body(link: str) -> str:
     """Return the name of the body that carries the collisions of a wheel that slips."""
-    return f"{link}{_MARK}tyre"
+    return f"{link}{_MARK}slip-body"
 
 
 def part_of(name: str, index: int) -> str:

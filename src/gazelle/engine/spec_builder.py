@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.description.model import Collision, JointType, Link, MeshShape, Model, World
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.collision_geoms import GeomAssets, add_geom, geom_shapes
-from gazelle.engine.friction import with_wheel_grip
+from gazelle.engine.friction import with_wheel_friction
 from gazelle.engine.inertia import (
     MASSLESS_LEAF_INERTIA_KG_M2,
     MASSLESS_LEAF_KG,
@@ -20,7 +20,7 @@ from gazelle.engine.joints import add_joint, add_mimic, add_root_joint, has_para
 from gazelle.engine.kinematic_tree import KinematicTree, TreeLink, kinematic_tree
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import part_of, scoped
-from gazelle.engine.wheel_slip import add_tyre
+from gazelle.engine.wheel_slip import add_slip_body
 from gazelle.geometry import IDENTITY_POSE
 
 __all__ = ["BuiltGeom", "SpecBuilder", "VelocityDecay", "mesh_collisions"]
@@ -73,8 +73,8 @@ class SpecBuilder:
         spec: MuJoCo's spec.
         diagnostics: takes what is mapped, clipped or ignored.
         step_s: length of a step.
-        slipping: wheel joints whose links get a tyre.
-        tyres: name of the tyre's body by link.
+        slipping: wheel joints whose links get a slip body.
+        slip_bodies: name of a wheel's slip body by link.
         assets: of the geoms.
     """
 
@@ -83,7 +83,7 @@ class SpecBuilder:
     diagnostics: Diagnostics
     step_s: float
     slipping: frozenset[str] = frozenset()
-    tyres: dict[str, str] = field(default_factory=dict)
+    slip_bodies: dict[str, str] = field(default_factory=dict)
     geoms: list[BuiltGeom] = field(default_factory=list)
     decays: list[VelocityDecay] = field(default_factory=list)
     trees: dict[str, KinematicTree] = field(default_factory=dict)
@@ -117,7 +117,7 @@ class SpecBuilder:
                 is_root = entry.parent is None or entry.parent in fixed
                 self._add_motion(model, entry, body, is_root=is_root)
                 self._add_mass(model, entry, body, inertias[entry.link.name], moved)
-            carrier = body if static else self._tyre(model, entry, body)
+            carrier = body if static else self._collision_body(model, entry, body)
             for collision in entry.link.collisions:
                 kind = (static, scenery)
                 self._add_collision(model, entry.link, collision, carrier, kind, mass)
@@ -158,14 +158,14 @@ class SpecBuilder:
             body.sleep = policy.mjSLEEP_ALLOWED if allowed else policy.mjSLEEP_NEVER
         self._add_decay(entry.link, name, is_free=joint is None)
 
-    def _tyre(self, model: Model, entry: TreeLink, body: Any) -> Any:
+    def _collision_body(self, model: Model, entry: TreeLink, body: Any) -> Any:
         """Return the body that carries a link's collisions."""
         joint = "" if entry.joint is None else scoped(model.name, entry.joint.name)
         if joint not in self.slipping:
             return body
         name = scoped(model.name, entry.link.name)
-        carrier = add_tyre(body, name, joint, entry)
-        self.tyres[name] = carrier.name
+        carrier = add_slip_body(body, name, joint, entry)
+        self.slip_bodies[name] = carrier.name
         return carrier
 
     def _add_decay(self, link: Link, name: str, *, is_free: bool) -> None:
@@ -225,7 +225,7 @@ class SpecBuilder:
         mass_kg: float,
     ) -> None:
         static, scenery = kind
-        collision = with_wheel_grip(model, link, collision, self.diagnostics)
+        collision = with_wheel_friction(model, link, collision, self.diagnostics)
         link_name = scoped(model.name, link.name)
         collision_name = self._unique(scoped(link_name, collision.name))
         shapes = geom_shapes(

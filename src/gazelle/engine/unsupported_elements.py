@@ -8,7 +8,7 @@ from gazelle.description.model import Joint, Surface, World
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.engine.scoped_names import scoped
 
-__all__ = ["report_idle_words"]
+__all__ = ["report_ignored_parameters"]
 
 _SURFACE_WORDS = {
     "min_depth_m": "minDepth",
@@ -24,7 +24,7 @@ _JOINT_WORDS = {
 _Use = tuple[str, SourceSpan | None]
 
 
-def report_idle_words(world: World, diagnostics: Diagnostics) -> None:
+def report_ignored_parameters(world: World, diagnostics: Diagnostics) -> None:
     """Report contact and joint parameters that are set and change nothing."""
     collisions: dict[str, list[_Use]] = {}
     joints: dict[str, list[_Use]] = {}

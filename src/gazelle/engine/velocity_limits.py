@@ -26,7 +26,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import joint_part, scoped
 
-__all__ = ["SpeedLimits"]
+__all__ = ["VelocityLimits"]
 
 Array = NDArray[np.float64]
 _INTO_STOP, _WITH_STOPS = 0.005, 0.1
@@ -38,7 +38,7 @@ _HINGE = int(mujoco.mjtJoint.mjJNT_HINGE)
 _SLIDE = int(mujoco.mjtJoint.mjJNT_SLIDE)
 
 
-class SpeedLimits:
+class VelocityLimits:
     """The speeds at which efforts end, by MuJoCo's degrees of freedom."""
 
     def __init__(self) -> None:

@@ -10,7 +10,7 @@ from gazelle.engine.scoped_names import weld
 from gazelle.engine.state import wake_tree
 from gazelle.geometry import Pose
 
-__all__ = ["WeldBank", "add_weld"]
+__all__ = ["Welds", "add_weld"]
 
 Pair = tuple[str, str]
 
@@ -26,7 +26,7 @@ def add_weld(spec: Any, pair: Pair, step_s: float) -> None:
     equality_solver(equality, step_s)
 
 
-class WeldBank:
+class Welds:
     """All pairs of links that can be held together, and at which pose they are held."""
 
     def __init__(self) -> None:
@@ -74,9 +74,9 @@ class WeldBank:
         """Act on these from now on: the world as it was bound, or a copy of it."""
         self._model, self._data = model, data
 
-    def copy(self) -> WeldBank:
+    def copy(self) -> Welds:
         """Return a copy for a saved state; it needs `hold` before it acts."""
-        other = WeldBank()
+        other = Welds()
         other.pairs, other._held = list(self.pairs), dict(self._held)
         return other
 

@@ -1,10 +1,10 @@
 """Wheels that slip in proportion to the force on them, as ODE's ``slip1`` and ``slip2``.
 
 ODE lets a contact slide at the speed slip · F under the friction force F. MuJoCo's contacts have no
-such law. So a wheel that slips carries its collisions on a tyre, a body of next to no mass that
-turns about the wheel's axle and slides along it with dampers of r²/slip and 1/slip: the tyre
+such law. So a wheel that slips carries its collisions on a slip body of next to no mass that
+turns about the wheel's axle and slides along it with dampers of r²/slip and 1/slip: it
 sticks to the ground by the contact's own friction, up to μN, and the wheel moves against it with
-slip · F. The tyre is put back to the middle of the wheel every few steps, which a contact without
+slip · F. The slip body is put back to the middle of the wheel every few steps, which a contact without
 memory does not feel.
 """
 
@@ -29,14 +29,14 @@ from gazelle.description.model import (
 from gazelle.engine.joints import implicit_damping
 from gazelle.engine.kinematic_tree import TreeLink
 from gazelle.engine.mujoco_library import mujoco
-from gazelle.engine.scoped_names import joint_part, scoped, tyre
+from gazelle.engine.scoped_names import joint_part, scoped, slip_body
 
 __all__ = [
     "CENTRING_STEPS",
     "Slip",
-    "TyreBank",
-    "add_tyre",
-    "correct_weights",
+    "WheelSlips",
+    "add_slip_body",
+    "copy_contact_weights",
     "described_slips",
 ]
 
@@ -50,7 +50,7 @@ _MIN_SLIP = 1e-8
 _TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 _ALONG = 0.99
 _MASS_KG = 1e-6
-_SPIN, _SLIDE = "tyre-spin", "tyre-slide"
+_SPIN, _SLIDE = "slip-spin", "slip-slide"
 
 
 class Slip(NamedTuple):
@@ -67,12 +67,12 @@ class Slip(NamedTuple):
     radius_m: float
 
 
-def add_tyre(body: Any, link: str, joint: str, entry: TreeLink) -> Any:
+def add_slip_body(body: Any, link: str, joint: str, entry: TreeLink) -> Any:
     """Add the body that carries a wheel's collisions, and return it."""
     assert entry.joint is not None
     T_link_joint = entry.link.T_model_link.inverse() @ entry.joint.T_model_joint
     axis = list(T_link_joint.rotate((entry.joint.axis or JointAxis()).xyz))
-    added = body.add_body(name=tyre(link))
+    added = body.add_body(name=slip_body(link))
     added.explicitinertial = True
     added.mass, added.inertia = _MASS_KG, [_MASS_KG] * 3
     added.ipos = list(T_link_joint.position_m)
@@ -86,9 +86,9 @@ def add_tyre(body: Any, link: str, joint: str, entry: TreeLink) -> Any:
     return added
 
 
-def correct_weights(model: Any, link_of_tyre: Sequence[tuple[str, str]]) -> None:
-    """Make contacts of a tyre as hard as those of the wheel: its own lightness is a device."""
-    for name, link in link_of_tyre:
+def copy_contact_weights(model: Any, link_of_slip_body: Sequence[tuple[str, str]]) -> None:
+    """Make contacts of a slip body as hard as those of the wheel: its own lightness is a device."""
+    for name, link in link_of_slip_body:
         model.body_invweight0[model.body(name).id] = model.body_invweight0[model.body(link).id]
 
 
@@ -124,7 +124,7 @@ def _described(link: Link, joint: Joint, collision: Collision) -> Slip | None:
     return Slip(first, first, shape.radius_m) if first == second else None
 
 
-class TyreBank:
+class WheelSlips:
     """Slip of all wheels; survives recompiles."""
 
     def __init__(self) -> None:
@@ -135,7 +135,7 @@ class TyreBank:
         self._changed = False
 
     def set(self, joint: str, slip: Slip) -> bool:
-        """Set a wheel's slip; returns whether its tyre must be built first."""
+        """Set a wheel's slip; returns whether its slip body must be built first."""
         new = joint not in self.slips
         self._changed = self._changed or self.slips.get(joint) != slip
         self.slips[joint] = slip
@@ -150,7 +150,7 @@ class TyreBank:
         self.slips = {k: v for k, v in self.slips.items() if not k.startswith(prefix)}
 
     def bind(self, model: Any, world: World) -> None:
-        """Find the tyres in a newly compiled world."""
+        """Find the slip bodies in a newly compiled world."""
         self.slips = self.slips_in(world)
         spins = [model.joint(joint_part(joint, _SPIN)).id for joint in self.slips]
         slides = [model.joint(joint_part(joint, _SLIDE)).id for joint in self.slips]
@@ -160,7 +160,7 @@ class TyreBank:
         self._changed = bool(self.slips)
 
     def prepare(self, model: Any, data: Any, step_s: float) -> None:
-        """Centre the tyres, and write dampers that have changed."""
+        """Centre the slip bodies, and write dampers that have changed."""
         data.qpos[self._offsets] = 0.0
         if not self._changed:
             return

@@ -19,10 +19,10 @@ from gazelle.simulator.description_sources import Source, loaded_from, models_fr
 from gazelle.simulator.local_node import LocalNode
 from gazelle.simulator.node_interfaces import NodePort, SubscriptionPort
 from gazelle.simulator.simulation_handles import (
-    JointOfSimulation,
-    LinkOfSimulation,
-    ModelOfSimulation,
-    SensorOfSimulation,
+    SimJoint,
+    SimLink,
+    SimModel,
+    SimSensor,
 )
 from gazelle.simulator.simulation_parameters import Parameters, give_parameters
 from gazelle.simulator.world_server import ServerSettings, WorldServer
@@ -30,7 +30,7 @@ from gazelle.workspace import Workspace
 
 if TYPE_CHECKING:
     from gazelle.graph.actions import LocalGoal
-    from gazelle.simulator.simulation_handles import ControllersOfSimulation
+    from gazelle.simulator.simulation_handles import SimControllers
 
 __all__ = ["Simulation", "full_name"]
 
@@ -207,7 +207,7 @@ class Simulation:
         name: str | None = None,
         pose: Pose | None = None,
         mappings: Mapping[str, str] | None = None,
-    ) -> ModelOfSimulation:
+    ) -> SimModel:
         """Bring a model into the running world; see `load` for the arguments.
 
         Raises:
@@ -222,7 +222,7 @@ class Simulation:
         if not models:
             raise NotFoundError("model", str(source), hint="the file holds no model")
         placed = [self.server.spawn(_placed(model, name, pose)) for model in models]
-        return ModelOfSimulation(self.server, placed[0].name)
+        return SimModel(self.server, placed[0].name)
 
     def delete(self, name: str) -> None:
         """Remove a model.
@@ -232,34 +232,34 @@ class Simulation:
         """
         self.server.delete(self.model(name).name)
 
-    def joint(self, name: str) -> JointOfSimulation:
+    def joint(self, name: str) -> SimJoint:
         """Return a joint by ``joint`` (if only one model has it) or ``model::joint``.
 
         Raises:
             NotFoundError: there is none; the message names the nearest.
         """
         engine = self.server.engine
-        return JointOfSimulation(engine.joint(full_name("joint", name, engine.joint_names)))
+        return SimJoint(engine.joint(full_name("joint", name, engine.joint_names)))
 
-    def link(self, name: str) -> LinkOfSimulation:
+    def link(self, name: str) -> SimLink:
         """Return a link by ``link`` (if only one model has it) or ``model::link``.
 
         Raises:
             NotFoundError: there is none; the message names the nearest.
         """
         engine = self.server.engine
-        return LinkOfSimulation(engine.link(full_name("link", name, engine.link_names)))
+        return SimLink(engine.link(full_name("link", name, engine.link_names)))
 
-    def sensor(self, name: str) -> SensorOfSimulation:
+    def sensor(self, name: str) -> SimSensor:
         """Return a sensor by ``sensor``, ``link::sensor`` or ``model::link::sensor``.
 
         Raises:
             NotFoundError: there is none; the message names the nearest.
         """
         places = self.server.sensor_places()
-        return SensorOfSimulation(self.server, places[full_name("sensor", name, places)])
+        return SimSensor(self.server, places[full_name("sensor", name, places)])
 
-    def model(self, name: str) -> ModelOfSimulation:
+    def model(self, name: str) -> SimModel:
         """Return a model.
 
         Raises:
@@ -268,9 +268,9 @@ class Simulation:
         names = [model.name for model in self.world.models]
         if name not in names:
             raise NotFoundError("model", name, nearest=nearest_names(name, names))
-        return ModelOfSimulation(self.server, name)
+        return SimModel(self.server, name)
 
-    def controller_manager(self, namespace: str = "") -> ControllersOfSimulation:
+    def controller_manager(self, namespace: str = "") -> SimControllers:
         """Return a robot's controllers.
 
         Args:
@@ -279,9 +279,9 @@ class Simulation:
         Raises:
             NotFoundError: no robot has one, or several have.
         """
-        from gazelle.simulator.simulation_handles import ControllersOfSimulation
+        from gazelle.simulator.simulation_handles import SimControllers
 
-        return ControllersOfSimulation(self.server, self.server.controls.manager(namespace))
+        return SimControllers(self.server, self.server.controls.manager(namespace))
 
     def send_goal(
         self, action: str, goal: Any, *, on_feedback: Callable[[Any], None] | None = None

@@ -18,15 +18,15 @@ if TYPE_CHECKING:
     from gazelle.simulator.world_server import WorldServer
 
 __all__ = [
-    "ControllersOfSimulation",
-    "JointOfSimulation",
-    "LinkOfSimulation",
-    "ModelOfSimulation",
-    "SensorOfSimulation",
+    "SimControllers",
+    "SimJoint",
+    "SimLink",
+    "SimModel",
+    "SimSensor",
 ]
 
 
-class JointOfSimulation:
+class SimJoint:
     """A joint: rad, rad/s and N·m for turning joints, m, m/s and N for sliding ones."""
 
     def __init__(self, handle: JointHandle) -> None:
@@ -70,7 +70,7 @@ class JointOfSimulation:
         self.handle.release()
 
 
-class LinkOfSimulation:
+class SimLink:
     """A link."""
 
     def __init__(self, handle: LinkHandle) -> None:
@@ -109,7 +109,7 @@ class LinkOfSimulation:
         self.handle.apply_wrench(force_n, torque_nm, duration_ns=duration_ns)
 
 
-class ModelOfSimulation:
+class SimModel:
     """A model."""
 
     def __init__(self, server: Host, name: str) -> None:
@@ -143,30 +143,30 @@ class ModelOfSimulation:
         """Names of its joints."""
         return tuple(joint.name for joint in self.description.joints)
 
-    def link(self, name: str) -> LinkOfSimulation:
+    def link(self, name: str) -> SimLink:
         """Return one of its links.
 
         Raises:
             NotFoundError: it has no such link; the message names the nearest.
         """
         self._require("link", name, self.links)
-        return LinkOfSimulation(self._server.engine.link(f"{self.name}::{name}"))
+        return SimLink(self._server.engine.link(f"{self.name}::{name}"))
 
-    def joint(self, name: str) -> JointOfSimulation:
+    def joint(self, name: str) -> SimJoint:
         """Return one of its joints.
 
         Raises:
             NotFoundError: it has no such joint; the message names the nearest.
         """
         self._require("joint", name, self.joints)
-        return JointOfSimulation(self._server.engine.joint(f"{self.name}::{name}"))
+        return SimJoint(self._server.engine.joint(f"{self.name}::{name}"))
 
     def _require(self, kind: str, name: str, names: tuple[str, ...]) -> None:
         if name not in names:
             raise NotFoundError(kind, name, nearest=nearest_names(name, names))
 
 
-class SensorOfSimulation:
+class SimSensor:
     """A sensor that is read on demand, with or without topics."""
 
     def __init__(self, server: Host, place: SensorPlace) -> None:
@@ -199,7 +199,7 @@ class SensorOfSimulation:
         return self._server.sensors.read(self._place)
 
 
-class ControllersOfSimulation:
+class SimControllers:
     """Loads, starts and stops controllers; no time passes for it.
 
     Attributes:

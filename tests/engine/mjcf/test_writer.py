@@ -163,9 +163,9 @@ def test_textures_are_written_as_png(tmp_path) -> None:
     from PIL import Image
 
     Image.new("RGB", (4, 2), (10, 200, 30)).save(tmp_path / "grass.jpg", quality=95)
-    look = Material("g", diffuse=(1, 1, 1, 1), texture=tmp_path / "grass.jpg")
+    appearance = Material("g", diffuse=(1, 1, 1, 1), texture=tmp_path / "grass.jpg")
     base = block()
-    visual = Visual("v", Plane(size_m=(1, 1)), material=look)
+    visual = Visual("v", Plane(size_m=(1, 1)), material=appearance)
     world = World(models=(replace(base, links=(replace(base.links[0], visuals=(visual,)),)),))
     model, _, _ = written(world, tmp_path)
     assert model.ntex == 1

@@ -14,7 +14,7 @@ from gazelle.description.model import JointType, Model
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.report import Section
 from gazelle.simulator.simulation import Simulation
-from gazelle.simulator.simulation_handles import ControllersOfSimulation
+from gazelle.simulator.simulation_handles import SimControllers
 
 __all__ = ["probe_controllers"]
 
@@ -84,7 +84,7 @@ def _start_all(
     robots: Sequence[Model],
     diagnostics: Diagnostics,
 ) -> list[_Started]:
-    controllers = ControllersOfSimulation(simulation.server, manager)
+    controllers = SimControllers(simulation.server, manager)
     found = []
     for item in configured_controllers(manager.source):
         name = f"{namespace.rstrip('/')}/{item.name}"
@@ -103,7 +103,7 @@ def _start_all(
     return found
 
 
-def _start(controllers: ControllersOfSimulation, name: str) -> str:
+def _start(controllers: SimControllers, name: str) -> str:
     """Start a controller; return what became of it, in words."""
     known = controllers.controllers.get(name)
     if known is not None and known.is_active:

@@ -128,8 +128,8 @@ class GeomReader:
             texture = self._texture(material)
             if rgba == _PLAIN_RGBA:
                 rgba = tuple(round(float(value), 7) for value in model.mat_rgba[material])
-        look: Rgba = (rgba[0], rgba[1], rgba[2], rgba[3])
-        return Material(name, ambient=look, diffuse=look, texture=texture)
+        appearance: Rgba = (rgba[0], rgba[1], rgba[2], rgba[3])
+        return Material(name, ambient=appearance, diffuse=appearance, texture=texture)
 
     def _texture(self, material: int) -> Path | None:
         role = int(mujoco.mjtTextureRole.mjTEXROLE_RGB)

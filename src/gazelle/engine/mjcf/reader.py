@@ -23,7 +23,7 @@ from gazelle.engine.mjcf.mjcf_file import CompiledMjcf, compiled_mjcf, is_mjcf
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.geometry import IDENTITY_POSE, Pose
 
-__all__ = ["add_constraints", "is_mjcf", "read_mjcf", "report_unsaid"]
+__all__ = ["add_constraints", "is_mjcf", "read_mjcf", "report_left_out"]
 
 
 _ELEMENTS = {
@@ -74,7 +74,7 @@ def read_mjcf(
         if int(mjcf.model.body_parentid[body]) == 0
     ]
     models = add_constraints(_with_robot_named(models, mjcf), mjcf, diagnostics)
-    report_unsaid(mjcf, diagnostics)
+    report_left_out(mjcf, diagnostics)
     scenery = _scenery(mjcf, geoms, {model.name for model in models})
     everything = tuple(models) if scenery is None else (scenery, *models)
     x, y, z = (float(value) for value in mjcf.model.opt.gravity)
@@ -110,7 +110,7 @@ def add_constraints(
     return result
 
 
-def report_unsaid(mjcf: CompiledMjcf, diagnostics: Diagnostics) -> None:
+def report_left_out(mjcf: CompiledMjcf, diagnostics: Diagnostics) -> None:
     """Report what has no place in a `World`, each kind once, with the place of the first."""
     model: Any = mjcf.model
     for word, (counter, note) in _ELEMENTS.items():

@@ -42,7 +42,7 @@ from gazelle.geometry import (
     polyline_mesh,
 )
 
-__all__ = ["COLLISION_GROUP", "Looks", "obj_bytes"]
+__all__ = ["COLLISION_GROUP", "VisualWriter", "obj_bytes"]
 
 
 Array = NDArray[Any]
@@ -54,10 +54,10 @@ COLLISION_GROUP = 3
 
 _VISUAL_GROUP = 2
 _MIN_CORNERS = 4
-_Look = tuple[Rgba, float, float, str]
+_Appearance = tuple[Rgba, float, float, str]
 
 
-class Looks:
+class VisualWriter:
     """Adds visuals to a spec and gathers the files they need.
 
     Attributes:
@@ -71,7 +71,7 @@ class Looks:
         self._beside = beside
         self._diagnostics = diagnostics
         self._parts: dict[Any, tuple[tuple[str, str], ...]] = {}
-        self._materials: dict[_Look, str] = {}
+        self._materials: dict[_Appearance, str] = {}
         self._textures: dict[bytes, str] = {}
         self._assets: dict[str, bytes] = {}
 
@@ -152,12 +152,12 @@ class Looks:
         return chosen
 
     def _material(self, visual: Visual, own: MeshMaterial | None) -> str:
-        look = visual.material or own or Material()
-        *rgb, alpha = look.diffuse
-        texture = self._texture(look.texture)
-        glow = max(look.emissive[:3])
+        appearance = visual.material or own or Material()
+        *rgb, alpha = appearance.diffuse
+        texture = self._texture(appearance.texture)
+        glow = max(appearance.emissive[:3])
         rgba: Rgba = (rgb[0], rgb[1], rgb[2], alpha * (1.0 - visual.transparency))
-        key = (rgba, max(look.specular[:3]), glow, texture)
+        key = (rgba, max(appearance.specular[:3]), glow, texture)
         if key not in self._materials:
             name = f"material {len(self._materials) + 1}"
             item = self._spec.add_material(name=name)

@@ -16,7 +16,7 @@ from gazelle.description.writers.xml_markup import Markup, head_comments, number
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.compiler import Assembly, Compiled, assemble_world, compile_assembly
-from gazelle.engine.mjcf.visual_writer import Looks, obj_bytes
+from gazelle.engine.mjcf.visual_writer import VisualWriter, obj_bytes
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import root_joint
 from gazelle.engine.state import initial_data
@@ -63,12 +63,12 @@ def to_mjcf(world: World, *, diagnostics: Diagnostics, beside: Beside | None = N
         EngineError: MuJoCo refuses the world.
     """
     found = Diagnostics()
-    company = beside or Beside(relative=True)
+    output = beside or Beside(relative=True)
     assembly = assemble_world(world, step_s=world.physics.max_step_size_s, diagnostics=diagnostics)
     if len(world.models) == 1:
         assembly.builder.spec.modelname = world.models[0].name
-    looks = Looks(assembly.builder, company, found)
-    looks.add()
+    visuals = VisualWriter(assembly.builder, output, found)
+    visuals.add()
     _forbid_sleep(assembly)
     compiled = compile_assembly(assembly)
     _forget_decays(assembly, compiled, found)
@@ -79,14 +79,14 @@ def to_mjcf(world: World, *, diagnostics: Diagnostics, beside: Beside | None = N
         raise EngineError(f"MuJoCo cannot write the world: {error}") from error
     root = parse_xml(exact_xml(spec), "<mjcf>", found)
     assert root is not None, "MuJoCo writes well-formed XML"
-    files = _FileMaker(compiled, looks, company)
+    files = _FileMaker(compiled, visuals, output)
     document = _rewritten(root, files.mesh)
     _add_start(document, compiled, world)
     _report_outside(world, found)
     for item in found:
         diagnostics.add(item)
     source = world.file.name if world.file else f"'{world.name}'"
-    return Converted(document.to_text(head_comments(source, found)), company.files)
+    return Converted(document.to_text(head_comments(source, found)), output.files)
 
 
 def exact_xml(spec: Any) -> str:
@@ -151,9 +151,9 @@ def _forget_decays(assembly: Assembly, compiled: Compiled, found: Diagnostics) -
 class _FileMaker:
     """Turns meshes that stand in the text into files beside it."""
 
-    def __init__(self, compiled: Compiled, looks: Looks, beside: Beside) -> None:
+    def __init__(self, compiled: Compiled, visuals: VisualWriter, beside: Beside) -> None:
         self._model = compiled.model
-        self._looks = looks
+        self._looks = visuals
         self._beside = beside
 
     def mesh(self, markup: Markup) -> None:

@@ -29,7 +29,7 @@ from gazelle.simulator.plugins.user.plugin_api import (
     WorldPlugin,
 )
 from gazelle.simulator.scheduler import ORDER_CONTROL, period_in_steps
-from gazelle.simulator.simulation_handles import ModelOfSimulation, SensorOfSimulation
+from gazelle.simulator.simulation_handles import SimModel, SimSensor
 from gazelle.workspace.python_files import import_python_file
 
 __all__ = ["load_user_plugin", "report_compiled"]
@@ -178,9 +178,9 @@ def _subject(context: PluginContext) -> Any:
     match _role(context):
         case "Sensor":
             assert context.place is not None
-            return SensorOfSimulation(context.host, context.place)
+            return SimSensor(context.host, context.place)
         case "Model":
-            return ModelOfSimulation(context.host, context.model.name)
+            return SimModel(context.host, context.model.name)
         case _:
             return WorldOfPlugin(context.host)
 

@@ -15,10 +15,10 @@ from gazelle.parameters import Parameter, ParameterTable
 from gazelle.simulator.node_interfaces import PublisherPort
 from gazelle.simulator.plugins.context import Host, PluginContext, Resources
 from gazelle.simulator.plugins.plugin_parameters import PluginTable
-from gazelle.simulator.simulation_handles import ModelOfSimulation
+from gazelle.simulator.simulation_handles import SimModel
 
 if TYPE_CHECKING:
-    from gazelle.simulator.simulation_handles import ModelOfSimulation, SensorOfSimulation
+    from gazelle.simulator.simulation_handles import SimModel, SimSensor
 
 __all__ = [
     "ModelPlugin",
@@ -61,18 +61,14 @@ class WorldPlugin(Plugin):
 class ModelPlugin(Plugin):
     """A ``<plugin>`` that stands in a ``<model>``, or in a ``<gazebo>`` of a URDF."""
 
-    def load(
-        self, model: ModelOfSimulation, parameters: PluginParameters, node: PluginNode
-    ) -> None:
+    def load(self, model: SimModel, parameters: PluginParameters, node: PluginNode) -> None:
         """Called once, when the model enters the world."""
 
 
 class SensorPlugin(Plugin):
     """A ``<plugin>`` that stands in a ``<sensor>``."""
 
-    def load(
-        self, sensor: SensorOfSimulation, parameters: PluginParameters, node: PluginNode
-    ) -> None:
+    def load(self, sensor: SimSensor, parameters: PluginParameters, node: PluginNode) -> None:
         """Called once, when the sensor's model enters the world."""
 
 
@@ -163,7 +159,7 @@ class WorldOfPlugin:
         """Names of the models."""
         return tuple(model.name for model in self.description.models)
 
-    def model(self, name: str) -> ModelOfSimulation:
+    def model(self, name: str) -> SimModel:
         """Return a model.
 
         Raises:
@@ -171,7 +167,7 @@ class WorldOfPlugin:
         """
         if name not in self.models:
             raise NotFoundError("model", name, nearest=nearest_names(name, self.models))
-        return ModelOfSimulation(self._host, name)
+        return SimModel(self._host, name)
 
 
 class PluginNode:
