@@ -10,7 +10,7 @@ from gazelle.ros_arguments import (
     PARAMS_FILE,
     REMAP,
     RosArgumentError,
-    RosWord,
+    RosToken,
     Rule,
     rule_of,
     split_arguments,
@@ -25,9 +25,9 @@ def test_ros_has_the_words_between_ros_args_and_two_dashes() -> None:
     split = split_arguments(words.split())
     assert split.own == ["prog", "-r", "--own"]
     assert split.ros == [
-        RosWord(REMAP, "a:=b", "-r"),
-        RosWord(PARAM, "c:=1", "-p"),
-        RosWord(PARAMS_FILE, "f", "--params-file"),
+        RosToken(REMAP, "a:=b", "-r"),
+        RosToken(PARAM, "c:=1", "-p"),
+        RosToken(PARAMS_FILE, "f", "--params-file"),
     ]
     assert split.is_ros2
     assert not split_arguments(["a", "--"]).is_ros2
@@ -38,7 +38,7 @@ def test_ros_has_the_words_between_ros_args_and_two_dashes() -> None:
 )
 def test_an_option_takes_the_next_word(option: str) -> None:
     (word, rest) = split_arguments(["--ros-args", option, "x", "y"]).ros
-    assert (word.value, rest) == ("x", RosWord("", None, "y"))
+    assert (word.value, rest) == ("x", RosToken("", None, "y"))
     assert (word.option == LOG_LEVEL) is (option == LOG_LEVEL)
 
 
@@ -60,7 +60,7 @@ def test_switches_have_no_value() -> None:
     ],
 )
 def test_a_rule_may_be_one_nodes(text: str, rule: Rule) -> None:
-    assert rule_of(RosWord(REMAP, text, "-r")) == rule
+    assert rule_of(RosToken(REMAP, text, "-r")) == rule
 
 
 @pytest.mark.parametrize("text", ["ab", ":=b", "n::=b", ""])
@@ -70,7 +70,7 @@ def test_what_is_no_rule_is_told_in_the_words_of_ros(text: str) -> None:
         f"  ROS says: Couldn't parse --remap rule: '--remap {text}'"
     )
     with pytest.raises(RosArgumentError, match=f"^{re.escape(wanted)}$"):
-        rule_of(RosWord(REMAP, text, "--remap"))
+        rule_of(RosToken(REMAP, text, "--remap"))
 
 
 def test_an_option_at_the_end_lacks_its_value() -> None:
@@ -80,8 +80,8 @@ def test_an_option_at_the_end_lacks_its_value() -> None:
 
 
 def test_an_unknown_word_is_told_with_the_nearest() -> None:
-    assert "did you mean '--param'" in str(unknown_word(RosWord("", None, "--parm")))
-    assert "put -- before arguments of your own" in str(unknown_word(RosWord("", None, "mine")))
+    assert "did you mean '--param'" in str(unknown_word(RosToken("", None, "--parm")))
+    assert "put -- before arguments of your own" in str(unknown_word(RosToken("", None, "mine")))
 
 
 @pytest.mark.parametrize(

@@ -19,10 +19,10 @@ __all__ = [
     "PARAMS_FILE",
     "REMAP",
     "RosArgumentError",
-    "RosWord",
+    "RosToken",
     "Rule",
     "SplitArguments",
-    "read_words",
+    "read_tokens",
     "rule_of",
     "split_arguments",
     "unknown_word",
@@ -51,7 +51,7 @@ class RosArgumentError(GazelleError):
     """One of ROS's arguments is not understood."""
 
 
-class RosWord(NamedTuple):
+class RosToken(NamedTuple):
     """An option of ROS's with its value.
 
     Attributes:
@@ -89,61 +89,62 @@ class SplitArguments(NamedTuple):
     """
 
     own: list[str]
-    ros: list[RosWord]
+    ros: list[RosToken]
     is_ros2: bool
 
 
 def split_arguments(arguments: Sequence[str]) -> SplitArguments:
     """Split a program's arguments into its own and ROS's."""
     own: list[str] = []
-    ros: list[RosWord] = []
-    words = iter(arguments)
+    ros: list[RosToken] = []
+    tokens = iter(arguments)
     is_ros2 = False
-    for word in words:
-        if word == _BEGIN:
+    for token in tokens:
+        if token == _BEGIN:
             is_ros2 = True
-            ros += read_words(words)
+            ros += read_tokens(tokens)
         else:
-            own.append(word)
+            own.append(token)
     return SplitArguments(own, ros, is_ros2)
 
 
-def read_words(words: Iterable[str]) -> Iterator[RosWord]:
+def read_tokens(tokens: Iterable[str]) -> Iterator[RosToken]:
     """Yield the options of a section until its ``--``, which is taken, or the end."""
-    words = iter(words)
-    for word in words:
-        if word == _END:
+    tokens = iter(tokens)
+    for token in tokens:
+        if token == _END:
             return
-        if word == _BEGIN:
+        if token == _BEGIN:
             # Launch files begin a section in the one that they were given.
             continue
-        option = _SHORT.get(word, word)
+        option = _SHORT.get(token, token)
         if option in _WITH_VALUE:
-            yield RosWord(option, next(words, None), word)
+            yield RosToken(option, next(tokens, None), token)
         else:
-            yield RosWord(word if word.startswith(_SWITCHES) else "", None, word)
+            yield RosToken(token if token.startswith(_SWITCHES) else "", None, token)
 
 
-def value_of(word: RosWord) -> str:
+def value_of(token: RosToken) -> str:
     """Return the value of an option that must have one.
 
     Raises:
         RosArgumentError: nothing stands after it.
     """
-    if word.value is None:
+    if token.value is None:
         raise RosArgumentError(
-            f"{word.written} has no value after it\n  ROS says: Failed to parse {word.written} rule"
+            f"{token.written} has no value after it\n"
+            f"  ROS says: Failed to parse {token.written} rule"
         )
-    return word.value
+    return token.value
 
 
-def rule_of(word: RosWord) -> Rule:
+def rule_of(token: RosToken) -> Rule:
     """Return the rule after `REMAP` or `PARAM`.
 
     Raises:
         RosArgumentError: there is none.
     """
-    text = value_of(word)
+    text = value_of(token)
     left, separator, value = text.partition(":=")
     node, colon, name = left.partition(":")
     if left.startswith(_SCHEMES):
@@ -152,20 +153,20 @@ def rule_of(word: RosWord) -> Rule:
         node, name = "", left
     if not separator or not name:
         raise RosArgumentError(
-            f"'{text}' after {word.written} is no rule\n  fix: write name:=value\n"
-            f"  ROS says: Couldn't parse {word.written} rule: '{word.written} {text}'"
+            f"'{text}' after {token.written} is no rule\n  fix: write name:=value\n"
+            f"  ROS says: Couldn't parse {token.written} rule: '{token.written} {text}'"
         )
     return Rule(node, name, value)
 
 
-def unknown_word(word: RosWord) -> RosArgumentError:
+def unknown_word(token: RosToken) -> RosArgumentError:
     """Return the error that says of a word that it is no option of ROS's."""
     from gazelle.diagnostics import did_you_mean
 
-    hint = did_you_mean(word.written, _KNOWN) or "put -- before arguments of your own"
+    hint = did_you_mean(token.written, _KNOWN) or "put -- before arguments of your own"
     return RosArgumentError(
-        f"'{word.written}' after --ros-args is not known; {hint}\n"
-        f"  ROS says: Found unknown ROS arguments: ['{word.written}']"
+        f"'{token.written}' after --ros-args is not known; {hint}\n"
+        f"  ROS says: Found unknown ROS arguments: ['{token.written}']"
     )
 
 

@@ -114,14 +114,14 @@ def report_library_warnings(
         compiled_model: what was stepped; says which joint a number in MuJoCo's words means.
     """
     for warning in drained_warnings():
-        words = " ".join(warning.split())
-        what, span = _subject(words, world, compiled_model)
-        diagnostics.report(_CODE, f"MuJoCo warns{what}: {words}", span)
+        text = " ".join(warning.split())
+        what, span = _subject(text, world, compiled_model)
+        diagnostics.report(_CODE, f"MuJoCo warns{what}: {text}", span)
 
 
-def _subject(words: str, world: World, compiled_model: Any) -> tuple[str, SourceSpan | None]:
+def _subject(text: str, world: World, compiled_model: Any) -> tuple[str, SourceSpan | None]:
     """Return " of …" and the place of the part that some words are about, as far as they say."""
-    for name in _names(words, compiled_model):
+    for name in _names(text, compiled_model):
         model_name, _, rest = name.partition("::")
         model = world.model(model_name)
         if model is None or not rest:
@@ -137,9 +137,9 @@ def _subject(words: str, world: World, compiled_model: Any) -> tuple[str, Source
     return "", None
 
 
-def _names(words: str, compiled_model: Any) -> Iterator[str]:
-    yield from _QUOTED.findall(words)
-    found = _DOF.search(words)
+def _names(text: str, compiled_model: Any) -> Iterator[str]:
+    yield from _QUOTED.findall(text)
+    found = _DOF.search(text)
     if found is None or compiled_model is None or int(found[1]) >= compiled_model.nv:
         return
     dof = int(found[1])

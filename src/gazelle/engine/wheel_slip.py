@@ -4,7 +4,7 @@ ODE lets a contact slide at the speed slip · F under the friction force F. MuJo
 such law. So a wheel that slips carries its collisions on a slip body of next to no mass that
 turns about the wheel's axle and slides along it with dampers of r²/slip and 1/slip: it
 sticks to the ground by the contact's own friction, up to μN, and the wheel moves against it with
-slip · F. The slip body is put back to the middle of the wheel every few steps, which a contact without
+slip · F. It is put back to the middle of the wheel every few steps, which a contact without
 memory does not feel.
 """
 

@@ -20,7 +20,7 @@ from gazelle.ros_arguments import (
     PARAMS_FILE,
     REMAP,
     RosArgumentError,
-    RosWord,
+    RosToken,
     rule_of,
     split_arguments,
     unknown_word,
@@ -97,7 +97,7 @@ def file_params(files: Sequence[Path], full_name: str) -> dict[str, Any]:
     return {_slashed(name): value for name, value in found.items()}
 
 
-def _take(word: RosWord, result: RosArgs) -> None:
+def _take(word: RosToken, result: RosArgs) -> None:
     """Add what a word comes to; a node's name before a rule is for nodes of other names too."""
     if word.option == REMAP:
         _, name, value = rule_of(word)

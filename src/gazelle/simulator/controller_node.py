@@ -299,5 +299,5 @@ class _LiveGroup:
 
 
 def _full_type(name: str) -> str:
-    words = name.split("/")
-    return "/".join((words[0], "msg", words[-1]))
+    parts = name.split("/")
+    return "/".join((parts[0], "msg", parts[-1]))

@@ -186,8 +186,8 @@ def _divergence(node: Any, declared: NodeParameters | None) -> Callable[[], OnDi
 
 
 def _divergence_problem(value: Any) -> str:
-    words = [one.value for one in OnDivergence]
-    return "" if value in words else f"parameter '{DIVERGENCE}' is {value!r}, none of {words}"
+    choices = [one.value for one in OnDivergence]
+    return "" if value in choices else f"parameter '{DIVERGENCE}' is {value!r}, none of {choices}"
 
 
 def _offer_parameters(

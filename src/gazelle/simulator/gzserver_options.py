@@ -76,9 +76,9 @@ class ServerOptions:
     shows_version: bool = False
 
 
-def read_server_options(words: Sequence[str], diagnostics: Diagnostics) -> ServerOptions:
+def read_server_options(argv: Sequence[str], diagnostics: Diagnostics) -> ServerOptions:
     """Read the words left after ROS's own; unknown ones are reported and dropped."""
-    options, rest = ServerOptions(), list(words)
+    options, rest = ServerOptions(), list(argv)
     while rest:
         word = rest.pop(0)
         name, equals, value = word.partition("=")

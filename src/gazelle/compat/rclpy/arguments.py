@@ -15,7 +15,7 @@ from gazelle.ros_arguments import (
     PARAMS_FILE,
     REMAP,
     RosArgumentError,
-    RosWord,
+    RosToken,
     Rule,
     rule_of,
     split_arguments,
@@ -119,7 +119,7 @@ def parse_ros_arguments(arguments: Sequence[str]) -> RosArguments:
     return found
 
 
-def _take(word: RosWord, found: RosArguments) -> None:
+def _take(word: RosToken, found: RosArguments) -> None:
     if word.option == REMAP:
         found.remaps.append(rule_of(word))
     elif word.option == PARAM:

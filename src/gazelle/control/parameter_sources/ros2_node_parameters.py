@@ -15,8 +15,8 @@ from gazelle.ros_arguments import (
     PARAMS_FILE,
     REMAP,
     RosArgumentError,
-    RosWord,
-    read_words,
+    RosToken,
+    read_tokens,
     rule_of,
     yaml_value,
 )
@@ -54,8 +54,8 @@ def read_ros_arguments(words: Iterable[str]) -> RosArguments:
     values: dict[str, Any] = {}
     strange: list[str] = []
     parts = (part for text in words for part in text.split() if part != _END)
-    for word in read_words(parts):
-        found = word if word.option else RosWord(REMAP, word.written, "")
+    for word in read_tokens(parts):
+        found = word if word.option else RosToken(REMAP, word.written, "")
         if found.option == PARAMS_FILE and found.value is not None:
             files.append(found.value)
             continue

@@ -46,8 +46,8 @@ def compiled_mjcf(path: Path, diagnostics: Diagnostics) -> CompiledMjcf | None:
         spec.compiler.discardvisual = False
         model = compiled(spec)
     except (ValueError, mujoco.FatalError, mujoco.UnexpectedError) as error:
-        words = " ".join(str(error).split())
-        message = f"MuJoCo refuses the file: {words}"
+        text = " ".join(str(error).split())
+        message = f"MuJoCo refuses the file: {text}"
         diagnostics.report("convert.mjcf", message, source.root.span)
         return None
     for warning in drained_warnings():

@@ -162,8 +162,8 @@ class _FileMaker:
         file, data = self._looks.meshes.get(name) or self._hull(name, markup)
         address = self._beside.add(file, data)
         if address is not None:
-            for word in _TRIANGLES:
-                markup.attributes.pop(word, None)
+            for attribute in _TRIANGLES:
+                markup.attributes.pop(attribute, None)
             markup.attributes["file"] = address
 
     def _hull(self, name: str, markup: Markup) -> tuple[str, bytes]:
@@ -189,19 +189,19 @@ def _rewritten(tag: Tag, make_mesh: Callable[[Markup], None]) -> Markup:
 
 
 def _shortest(text: str, *, is_single: bool = False) -> str:
-    words = text.split()
-    if len(max(words, key=len, default="")) < 4:
+    tokens = text.split()
+    if len(max(tokens, key=len, default="")) < 4:
         return text
     try:
         if is_single:
-            words = [str(np.float32(word)) for word in words]
-        return numbers(float(word) if not _is_whole(word) else int(word) for word in words)
+            tokens = [str(np.float32(token)) for token in tokens]
+        return numbers(float(token) if not _is_whole(token) else int(token) for token in tokens)
     except ValueError:
         return text
 
 
-def _is_whole(word: str) -> bool:
-    return word.lstrip("+-").isdigit()
+def _is_whole(token: str) -> bool:
+    return token.lstrip("+-").isdigit()
 
 
 def _add_start(document: Markup, compiled: Compiled, world: World) -> None:

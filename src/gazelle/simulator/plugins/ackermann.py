@@ -323,11 +323,11 @@ class _Car:
 
 def _pid(context: PluginContext, parameters: PluginReader, name: str) -> GazeboPid:
     p, i, d = parameters.vector(f"{name}_pid_gain")
-    words = parameters.text(f"{name}_i_range").split()
+    tokens = parameters.text(f"{name}_i_range").split()
     try:
-        low, high = (float(word) for word in words)
+        low, high = (float(token) for token in tokens)
     except ValueError:
-        text = f"<{name}_i_range> is '{' '.join(words)}', not two numbers; 0 0 is used"
+        text = f"<{name}_i_range> is '{' '.join(tokens)}', not two numbers; 0 0 is used"
         context.report("parameter.bad-value", text)
         low = high = 0.0
     return GazeboPid(p, i, d, i_max=high, i_min=low)

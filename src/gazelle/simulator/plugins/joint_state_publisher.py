@@ -67,9 +67,11 @@ GZ_TABLE = PluginTable(
 def load(context: PluginContext) -> None:
     """Start the publisher of ROS 1 or ROS 2."""
     parameters = context.reader(TABLE)
-    words = [word for text in parameters.texts("jointName") for word in re.split(r"[,\s]+", text)]
+    joint_names = [
+        word for text in parameters.texts("jointName") for word in re.split(r"[,\s]+", text)
+    ]
     topic = join_names(context.namespace(parameters), parameters.ros.remapped("joint_states"))
-    _start(context, topic, [word for word in words if word], parameters.number("updateRate"))
+    _start(context, topic, [word for word in joint_names if word], parameters.number("updateRate"))
     parameters.report_unread()
 
 
@@ -78,8 +80,8 @@ def load_gz(context: PluginContext) -> None:
     parameters = context.reader(GZ_TABLE)
     topic = parameters.text("topic").replace("{world}", context.host.engine.world.name)
     topic = join_names("/", topic.replace("{model}", context.model.name))
-    words = list(parameters.texts("joint_name"))
-    _start(context, topic, words, parameters.number("update_rate"))
+    joint_names = list(parameters.texts("joint_name"))
+    _start(context, topic, joint_names, parameters.number("update_rate"))
     parameters.report_unread()
 
 

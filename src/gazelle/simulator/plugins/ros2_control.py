@@ -200,8 +200,8 @@ def _described(context: PluginContext, parameters: PluginReader, namespace: str)
     name, node = parameters.text("robot_param"), parameters.text("robot_param_node")
     if model.ros2_controls:
         return model
-    words = [word for word in namespace.split("/") if word]
-    spaces = [join_names("/", *words[:count]) for count in range(len(words), -1, -1)]
+    parts = [part for part in namespace.split("/") if part]
+    spaces = [join_names("/", *parts[:count]) for count in range(len(parts), -1, -1)]
     places = [join_names(space, *own, name) for own in ((node,), ()) for space in spaces]
     names = {joint.name for joint in model.joints}
     for place in places:

@@ -232,8 +232,8 @@ def _description(
     from gazelle.control.hardware.robot_description import read_description
 
     name = parameters.text("robotParam")
-    words = [word for word in namespace.split("/") if word]
-    places = [join_names("/", *words[:count], name) for count in range(len(words), -1, -1)]
+    parts = [part for part in namespace.split("/") if part]
+    places = [join_names("/", *parts[:count], name) for count in range(len(parts), -1, -1)]
     store = context.host.node.parameters
     for place in places:
         text = store.get(place, None)

@@ -33,11 +33,11 @@ def gaussian(context: PluginContext, sigma: float) -> Callable[[int], NDArray[np
     from gazelle.sensors import noise_stream
 
     noise = Noise("gaussian", stddev=sigma) if sigma > 0 else NO_NOISE
-    words = (context.host.seed, f"{context.model.name}::{context.plugin.name}")
-    streams = [noise_stream(noise, *words)]
+    key = (context.host.seed, f"{context.model.name}::{context.plugin.name}")
+    streams = [noise_stream(noise, *key)]
 
     def restart() -> None:
-        streams[0] = noise_stream(noise, *words)
+        streams[0] = noise_stream(noise, *key)
 
     context.resources.on_reset(restart)
     return lambda count: streams[0].apply(np.zeros(count))

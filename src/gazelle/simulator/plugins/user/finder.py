@@ -139,9 +139,9 @@ def _files(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
         yield from (Path(root) / name for name in sorted(names) if name.endswith(endings))
 
 
-def _first_source(folder: Path, words: str) -> Path | None:
-    for word in words.split():
-        path = folder / word.strip('"').replace("${CMAKE_CURRENT_SOURCE_DIR}/", "")
+def _first_source(folder: Path, sources: str) -> Path | None:
+    for source in sources.split():
+        path = folder / source.strip('"').replace("${CMAKE_CURRENT_SOURCE_DIR}/", "")
         if path.suffix in _SOURCE_ENDINGS and path.is_file():
             return path
     return None
