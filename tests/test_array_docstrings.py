@@ -25,6 +25,7 @@ DONE = (
     "nodes",
     "noise",
     "sensors",
+    "simulator",
 )
 _ARRAYS = {"Array", "BoolArray", "FloatArray", "Indices", "IntArray", "NDArray", "Poses", "ndarray"}
 _SHAPE = re.compile(

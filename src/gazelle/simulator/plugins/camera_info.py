@@ -84,7 +84,14 @@ def image_message(
     pixels: NDArray[np.uint8] | NDArray[np.float32] | NDArray[np.uint16],
     encoding: str,
 ) -> Any:
-    """Return a ``sensor_msgs/Image`` that shares the pixels' memory."""
+    """Return a ``sensor_msgs/Image`` that shares the pixels' memory.
+
+    Args:
+        time_ns: of the header.
+        frame: of the header.
+        pixels: (rows, columns) or (rows, columns, channels), of the encoding's numbers.
+        encoding: ROS's name.
+    """
     height, width = pixels.shape[:2]
     flat = np.ascontiguousarray(pixels).reshape(-1).view(np.uint8)
     return message_type("sensor_msgs/Image")(

@@ -141,7 +141,14 @@ def load_f3d(context: PluginContext) -> None:
 
 
 def wrench_message(time_ns: int, frame: str, force: Array, torque: Array) -> Any:
-    """Return a ``geometry_msgs/WrenchStamped``."""
+    """Return a ``geometry_msgs/WrenchStamped``.
+
+    Args:
+        time_ns: of the header.
+        frame: in whose axes both are.
+        force: (3,), N.
+        torque: (3,), N·m.
+    """
     wrench = message_type("geometry_msgs/Wrench")(
         force=vector_message(force), torque=vector_message(torque)
     )

@@ -155,7 +155,16 @@ def fix_message(
     status: int = 0,
     service: int = 0,
 ) -> Any:
-    """Return a ``sensor_msgs/NavSatFix``; variances in m², None for an unknown covariance."""
+    """Return a ``sensor_msgs/NavSatFix``.
+
+    Args:
+        time_ns: of the header.
+        frame: of the header.
+        place: on Earth.
+        variances: (3,), m², the diagonal of the covariance; None for an unknown one.
+        status: of ``NavSatStatus``.
+        service: of ``NavSatStatus``.
+    """
     covariance = np.zeros((3, 3)) if variances is None else np.diag(variances)
     navigation = message_type("sensor_msgs/NavSatStatus")(status=status, service=service)
     return message_type("sensor_msgs/NavSatFix")(

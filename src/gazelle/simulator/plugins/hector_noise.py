@@ -79,7 +79,7 @@ class ErrorSource:
 
     @property
     def drift(self) -> Array:
-        """The slowly moving error as it is now; assign to set it."""
+        """The slowly moving error as it is now, (axes,), in the quantity's unit; can be set."""
         return self._noise.drift
 
     @drift.setter
@@ -88,7 +88,7 @@ class ErrorSource:
 
     @property
     def bias(self) -> Array:
-        """Drift and offset together."""
+        """Drift and offset together, (axes,), in the quantity's unit."""
         return np.add(self._noise.drift, self._model.offset)
 
     def apply(self, values: Array, velocity_error: Array | None = None) -> Array:

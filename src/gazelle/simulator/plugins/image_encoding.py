@@ -57,14 +57,23 @@ def encode_pixels(rgb: NDArray[np.uint8], encoding: str) -> NDArray[np.uint8] | 
 
 
 def depth_millimetres(depth_m: NDArray[np.float32]) -> NDArray[np.uint16]:
-    """Return depth as 16UC1: millimetres, 0 for what is not seen."""
+    """Return (rows, columns) of depth, m, as 16UC1: millimetres, 0 for what is not seen."""
     return np.asarray(np.nan_to_num(depth_m * 1000.0, nan=0.0, posinf=0.0), np.uint16)
 
 
 def compressed_message(
     time_ns: int, frame: str, rgb: NDArray[np.uint8], *, kind: str, quality: int, png_level: int
 ) -> Any:
-    """Return a ``sensor_msgs/CompressedImage`` as compressed_image_transport makes it."""
+    """Return a ``sensor_msgs/CompressedImage`` as compressed_image_transport makes it.
+
+    Args:
+        time_ns: of the header.
+        frame: of the header.
+        rgb: (rows, columns, 3).
+        kind: ``png``, else JPEG.
+        quality: JPEG's, in percent.
+        png_level: zlib's.
+    """
     from PIL import Image
 
     buffer = io.BytesIO()
@@ -92,7 +101,8 @@ def compressed_depth_message(
 ) -> Any:
     """Return depth as compressed_depth_image_transport encodes 32FC1.
 
-    A 12-byte header (format, quantisation A and B), then a 16-bit PNG of A / depth + B.
+    A 12-byte header (format, quantisation A and B), then a 16-bit PNG of A / depth + B. Depth is
+    (rows, columns), m.
     """
     from PIL import Image
 

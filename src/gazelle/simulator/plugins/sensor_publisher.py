@@ -26,7 +26,7 @@ __all__ = [
 
 
 def gaussian(context: PluginContext, sigma: float) -> Callable[[int], NDArray[np.float64]]:
-    """Return a source of `count` normal values; seeded from the world's seed and the names.
+    """Return a source of (count,) normal values; seeded from the world's seed and the names.
 
     A reset of the world starts it over, so that two runs are alike.
     """
