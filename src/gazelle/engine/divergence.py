@@ -23,9 +23,9 @@ __all__ = [
     "divergence_error",
     "find_culprit",
     "finite",
-    "place",
     "require_finite",
     "require_finite_pose",
+    "within_bounds",
 ]
 
 
@@ -43,7 +43,7 @@ def finite(value: float, what: str) -> float:
     return float(value)
 
 
-def place(value: float, what: str) -> float:
+def within_bounds(value: float, what: str) -> float:
     """Return a coordinate, or the position of a joint, as it is.
 
     Raises:
@@ -73,7 +73,7 @@ def require_finite_pose(pose: Pose, what: str) -> None:
         EngineError: a number is not.
     """
     for value in pose.position_m:
-        place(value, f"the pose of {what}")
+        within_bounds(value, f"the pose of {what}")
     require_finite(pose.quat_xyzw, f"the pose of {what}")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType
 from gazelle.engine.contacts import joint_reaction
-from gazelle.engine.divergence import finite, place
+from gazelle.engine.divergence import finite, within_bounds
 from gazelle.engine.motors import MotorCommand
 from gazelle.engine.state import Wrench
 from gazelle.errors import EngineError
@@ -193,7 +193,7 @@ class JointHandle:
         """Put the joint to a position and velocity at once; a lock holds it there from now on."""
         dof = self._driven()
         if position is not None:
-            wanted = place(position, f"joint '{self.name}'")
+            wanted = within_bounds(position, f"joint '{self.name}'")
             self._engine.data.qpos[self._qpos] = wanted
             self._engine.locks.move(self._element, position)
         if velocity is not None:

@@ -73,12 +73,12 @@ def kinematic_tree(model: Model) -> KinematicTree:
 def _check_links(joint: Joint, names: set[str]) -> None:
     for role, name in (("parent", joint.parent), ("child", joint.child)):
         if name not in names and name not in (WORLD, ""):
-            place = f" ({joint.span})" if joint.span else ""
+            where = f" ({joint.span})" if joint.span else ""
             raise NotFoundError(
                 "link",
                 name,
                 nearest=nearest_names(name, names),
-                hint=f"joint '{joint.name}' names it as its {role}{place}",
+                hint=f"joint '{joint.name}' names it as its {role}{where}",
             )
 
 
@@ -106,10 +106,10 @@ def _check_depth(model: Model, links: tuple[TreeLink, ...]) -> None:
         what, fix = f"{most} moving joints", f"\n  fix: {HOW_TO_RAISE}"
         if moving <= most:
             what, fix = f"{_MAX_DEPTH} links", "; MuJoCo builds none deeper"
-        place = f" ({joint.span})" if joint.span else ""
+        where = f" ({joint.span})" if joint.span else ""
         raise LimitError(
             f"model '{model.name}' has a chain of more than {what}, up to joint '{joint.name}'"
-            f"{place}{fix}"
+            f"{where}{fix}"
         )
 
 

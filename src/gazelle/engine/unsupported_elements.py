@@ -32,8 +32,8 @@ def report_ignored_parameters(world: World, diagnostics: Diagnostics) -> None:
         for link in model.links:
             for collision in link.collisions:
                 name = f"{scoped(model.name, link.name)}::{collision.name}"
-                place = collision.surface.span or collision.span
-                _note(collision.surface, _SURFACE_WORDS, (name, place), collisions)
+                span = collision.surface.span or collision.span
+                _note(collision.surface, _SURFACE_WORDS, (name, span), collisions)
         for joint in model.joints:
             _note(joint, _JOINT_WORDS, (scoped(model.name, joint.name), joint.span), joints)
     _report("engine.idle-contact-word", "collision", collisions, diagnostics)

@@ -221,11 +221,11 @@ class TextureAtlas:
                 return np.asarray(_power_of_two(image.convert("RGB")))
         except (OSError, PictureError) as error:
             name = "embedded in a mesh" if isinstance(source, bytes) else f"'{source}'"
-            place = None if isinstance(source, bytes) else SourceSpan(str(source))
+            span = None if isinstance(source, bytes) else SourceSpan(str(source))
             self.diagnostics.report(
                 "sensors.unreadable-texture",
                 f"texture {name} cannot be read ({error}); the plain colour is shown",
-                place,
+                span,
             )
             return None
 
