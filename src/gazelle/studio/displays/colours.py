@@ -67,7 +67,7 @@ def colormap(name: str) -> Table:
 
 @lru_cache(maxsize=1)
 def rainbow() -> NDArray[np.uint32]:
-    """Return RViz's rainbow as 256 packed RGBA colours; high values are red there at 0."""
+    """Return RViz's rainbow from magenta to red: (256,) opaque RGBA colours, R the lowest byte."""
     table = np.full((256, 4), 255, np.uint8)
     table[:, :3] = colormap("rainbow")
     return table.view("<u4").reshape(-1)

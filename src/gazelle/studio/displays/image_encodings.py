@@ -98,7 +98,16 @@ def pixels_rgb(message: Any) -> NDArray[np.uint8]:
 def gray_levels(
     values: NDArray[Any], low: float | None = None, high: float | None = None
 ) -> NDArray[np.uint8]:
-    """Return depth as 0…255, 0 also where nothing was measured."""
+    """Return depth as 0…255, 0 also where nothing was measured.
+
+    Args:
+        values: (H, W) depths, all in one unit.
+        low: what becomes 0, in that unit; the least that was measured if None.
+        high: what becomes 255; the greatest that was measured if None.
+
+    Returns:
+        (H, W) levels.
+    """
     depth = np.asarray(values, np.float32)
     measured = np.isfinite(depth) & (depth > 0) if low is None else np.isfinite(depth)
     if not measured.any():

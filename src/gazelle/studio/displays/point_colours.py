@@ -73,7 +73,17 @@ class Colouring(NamedTuple):
 
 
 def ramp(values: NDArray[Any], bounds: tuple[float, float] | None, colours: Packed) -> Packed:
-    """Return the colour of each value between its bounds, which are the values' own if None."""
+    """Return the colour of each value between its bounds.
+
+    Args:
+        values: (N,) numbers, in the unit of `bounds`.
+        bounds: values of the first and the last colour; the least and greatest finite value if
+            None.
+        colours: (256,) packed colours from least to greatest.
+
+    Returns:
+        (N,) packed colours.
+    """
     numbers = np.ascontiguousarray(values, np.float32)
     if not len(numbers):
         return np.zeros(0, np.uint32)
