@@ -58,7 +58,7 @@ def late_messages(request: pytest.FixtureRequest) -> Iterator[None]:
 
     def late(self: Subscription, item: Any) -> None:
         # What waits behind it is late enough: a stream must not fall back further and further.
-        is_alone = self._take == self._mailbox.put and self._mailbox._items.empty()
+        is_alone = self._take == self._callback_queue.put and self._callback_queue._items.empty()
         if is_alone and draw.random() < _SHARE:
             time.sleep(draw.uniform(0.0, _LATEST_S))
         take(self, item)

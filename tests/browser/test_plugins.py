@@ -98,7 +98,7 @@ def files(tmp_path: Path) -> Path:
 def site(bench: Any, files: Path) -> Any:
     """The bench, with a Studio of its own that knows the panel."""
     with Server(Studio(bench.graph), port=0) as server:
-        server.studio.desk.name_file(str(files / "speed.py"))
+        server.studio.shown_panels.name_file(str(files / "speed.py"))
         bench.url = server.url
         yield bench
 

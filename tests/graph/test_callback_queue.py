@@ -10,7 +10,7 @@ from tests.patience import eventually, stretched
 
 from gazelle.errors import GraphError
 from gazelle.graph import Graph
-from gazelle.graph.callback_queue import Bound, Mailbox
+from gazelle.graph.callback_queue import Bound, CallbackQueue
 from gazelle.interfaces import message_type
 
 
@@ -26,7 +26,7 @@ def test_mailbox_goes_on_after_an_item_that_cannot_be_handled_and_tells_once_a_k
             raise ZeroDivisionError
         handled.append(item)
 
-    mailbox = Mailbox(handle, size=0, name="post")
+    mailbox = CallbackQueue(handle, size=0, name="post")
     for item in range(6):
         mailbox.put(item)
     eventually(lambda: handled == [4, 5])
@@ -47,7 +47,7 @@ def test_what_waits_without_a_limit_of_items_has_one_of_bytes() -> None:
         handled.append(item)
 
     bound = Bound(1000, len, lambda item: item[:100], lambda: told.append("full"))
-    mailbox = Mailbox(handle, size=0, name="post", bound=bound)
+    mailbox = CallbackQueue(handle, size=0, name="post", bound=bound)
     mailbox.put(b"first")
     eventually(mailbox._items.empty)
     for number in range(100):

@@ -10,7 +10,7 @@ import zenoh
 from tests.patience import stretched
 
 from gazelle.graph import hub
-from gazelle.graph.hub import Relinker
+from gazelle.graph.hub import Reconnection
 
 
 @pytest.fixture
@@ -18,12 +18,12 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> tuple[threading.Event, threading.E
     """Let the question about a lost process begin and end at the test's word."""
     begun, answered = threading.Event(), threading.Event()
 
-    def lives(_self: Relinker, _zid: str) -> bool:
+    def lives(_self: Reconnection, _zid: str) -> bool:
         begun.set()
         assert answered.wait(stretched(30))
         return False
 
-    monkeypatch.setattr(Relinker, "_lives", lives)
+    monkeypatch.setattr(Reconnection, "_lives", lives)
     monkeypatch.setattr(hub, "_RECONNECT_PAUSE_S", (0.0, 0.0))
     return begun, answered
 
@@ -32,7 +32,7 @@ def test_close_waits_for_a_question_that_is_under_way(
     asked: tuple[threading.Event, threading.Event],
 ) -> None:
     begun, answered = asked
-    relinker = Relinker(port=1)
+    relinker = Reconnection(port=1)
     relinker.lost("abc")
     assert begun.wait(stretched(30))
     closing = threading.Thread(target=relinker.close)
@@ -49,7 +49,7 @@ def test_nothing_is_asked_after_the_close(
 ) -> None:
     begun, answered = asked
     answered.set()
-    relinker = Relinker(port=1)
+    relinker = Reconnection(port=1)
     relinker.close()
     before = set(threading.enumerate())
     relinker.lost("abc")

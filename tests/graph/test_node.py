@@ -78,7 +78,7 @@ def test_older_node_that_is_heard_of_late_ends_too(
         late.setattr(other.discovery, "known", lambda: ())
         newer = other.create_node("n")
     # Where the true word has not come meanwhile.
-    other._namesakes._on_entity(older.entity, True)
+    other._duplicate_nodes._on_entity(older.entity, True)
     assert inbox.wait_for(1) == ["new node registered with same name"]
     assert not newer.closed
 
@@ -97,7 +97,7 @@ def test_nobody_is_asked_to_make_way_any_more_once_the_graph_is_left(
 
 def test_younger_node_does_not_make_way(graph: Graph, other: Graph) -> None:
     graph.create_node("n")
-    since_ns = graph._namesakes._claims["/n"].since_ns
+    since_ns = graph._duplicate_nodes._claims["/n"].since_ns
     newer = other.create_node("n")
     assert not other._shut_node_down("/n", "asked by the older one", since_ns)
     assert not newer.closed

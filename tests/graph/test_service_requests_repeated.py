@@ -8,7 +8,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.graph import service_requests
-from gazelle.graph.service_requests import Answer, Repeats
+from gazelle.graph.service_requests import Answer, AnsweredRequests
 
 _CLIENT, _OTHER = b"a" * 16, b"b" * 16
 
@@ -26,7 +26,7 @@ class _Handler:
 
 
 def test_request_that_comes_twice_is_handled_once() -> None:
-    known, handler = Repeats(), _Handler()
+    known, handler = AnsweredRequests(), _Handler()
     answers = [known.answer(_CLIENT, 1, handler) for _ in range(3)]
     assert (answers, handler.count) == ([(b"yes", "")] * 3, 1)
     known.answer(_CLIENT, 2, handler)
@@ -35,14 +35,14 @@ def test_request_that_comes_twice_is_handled_once() -> None:
 
 
 def test_request_of_a_client_that_does_not_count_is_always_handled() -> None:
-    known, handler = Repeats(), _Handler()
+    known, handler = AnsweredRequests(), _Handler()
     for _ in range(3):
         known.answer(bytes(16), 0, handler)
     assert handler.count == 3
 
 
 def test_repeat_waits_for_what_is_under_way() -> None:
-    known, second = Repeats(), _Handler()
+    known, second = AnsweredRequests(), _Handler()
     begun, go_on = threading.Event(), threading.Event()
     got: list[Answer] = []
 
@@ -64,7 +64,7 @@ def test_repeat_waits_for_what_is_under_way() -> None:
 
 def test_old_answers_make_room(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(service_requests, "_KEPT_BYTES", 25)
-    known, handler = Repeats(), _Handler(b"x" * 10)
+    known, handler = AnsweredRequests(), _Handler(b"x" * 10)
     for number in (1, 2, 3):
         known.answer(_CLIENT, number, handler)
     known.answer(_CLIENT, 3, handler)

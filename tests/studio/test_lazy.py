@@ -7,7 +7,7 @@ from threading import Barrier, Thread
 
 import pytest
 
-from gazelle.studio.lazy import Once, closed_with
+from gazelle.studio.lazy import Lazy, closed_with
 
 
 class _Part:
@@ -27,7 +27,7 @@ def test_a_part_is_made_once_also_for_many_threads() -> None:
         made.append(object())
         return made[-1]
 
-    part = Once(make)
+    part = Lazy(make)
     assert not made
 
     def ask() -> None:
@@ -50,7 +50,7 @@ def test_a_part_that_could_not_be_made_is_tried_again() -> None:
             raise errors.pop()
         return "made"
 
-    part = Once(make)
+    part = Lazy(make)
     with pytest.raises(ValueError, match="not yet"):
         part()
     assert part() == "made"

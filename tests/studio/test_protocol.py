@@ -200,7 +200,7 @@ def test_pages_come_and_go(connected: Callable[..., Page], server: Server, talk:
         page.open("topic.echo", topic="/passing")
         page.close()
     eventually(lambda: not server.studio.pages)
-    eventually(lambda: "/passing" not in server.studio.taps.topics)
+    eventually(lambda: "/passing" not in server.studio.subscriptions.topics)
     stream = connected().open("topic.echo", topic="/passing")
     talk("/passing", "std_msgs/String", data="back")
     assert stream.next()["message"]["data"] == "back"

@@ -18,7 +18,7 @@ class Workers:
         work()
 
 
-class Outlet:
+class FrameSink:
     """A page that takes frames.
 
     Attributes:
@@ -38,19 +38,19 @@ class Outlet:
 
 
 @pytest.fixture
-def outlet() -> Outlet:
-    return Outlet()
+def frame_sink() -> FrameSink:
+    return FrameSink()
 
 
 @pytest.fixture
-def channel(outlet: Outlet) -> Channel:
-    made = Channel(1, latest=True, outlet=outlet, workers=Workers())  # type: ignore[arg-type]
+def channel(frame_sink: FrameSink) -> Channel:
+    made = Channel(1, latest=True, frame_sink=frame_sink, workers=Workers())  # type: ignore[arg-type]
     made.begin(None)
     return made
 
 
 def test_a_page_that_draws_at_once_gets_every_frame_and_keeps_its_room(
-    outlet: Outlet, channel: Channel, monkeypatch: pytest.MonkeyPatch
+    frame_sink: FrameSink, channel: Channel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It answers before the worker that sent goes on."""
     send = channel._send_frames
@@ -62,21 +62,21 @@ def test_a_page_that_draws_at_once_gets_every_frame_and_keeps_its_room(
     monkeypatch.undo()
     for number in (20, 21, 22):
         channel.offer(lambda number=number: number)
-    assert outlet.frames == list(range(22))
+    assert frame_sink.frames == list(range(22))
 
 
 def test_a_page_that_draws_nothing_gets_what_it_has_room_for_and_then_the_newest(
-    outlet: Outlet, channel: Channel
+    frame_sink: FrameSink, channel: Channel
 ) -> None:
     for number in range(20):
         channel.offer(lambda number=number: number)
-    assert outlet.frames == [0, 1]
+    assert frame_sink.frames == [0, 1]
     channel.acknowledge()
-    assert outlet.frames == [0, 1, 19]
+    assert frame_sink.frames == [0, 1, 19]
 
 
 def test_the_newest_frame_goes_out_last(
-    outlet: Outlet, channel: Channel, monkeypatch: pytest.MonkeyPatch
+    frame_sink: FrameSink, channel: Channel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """One that is offered while another is on its way out does not overtake it."""
     send = channel._send_frames
@@ -88,4 +88,4 @@ def test_the_newest_frame_goes_out_last(
 
     monkeypatch.setattr(channel, "_send_frames", late)
     channel.offer(lambda: 1)
-    assert outlet.frames == [1, 2]
+    assert frame_sink.frames == [1, 2]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.bag.storage import Connection, Encoding
 from gazelle.bag.types import learn_definitions
 from gazelle.errors import GazelleError
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.interfaces import RosVersion, TypeStore, default_types, keep_text
 
 if TYPE_CHECKING:
@@ -41,16 +41,16 @@ class TextShare:
         import zenoh
 
         self._stores = stores or (default_types(),)
-        self._mailbox = Mailbox(self._answer, size=0, name="definition texts")
+        self._callback_queue = CallbackQueue(self._answer, size=0, name="definition texts")
         # Direct: zenoh's own callback threads would keep a process from ending.
-        callback = zenoh.handlers.Callback(self._mailbox.put, None, indirect=False)
+        callback = zenoh.handlers.Callback(self._callback_queue.put, None, indirect=False)
         key = _KEY.format(graph.domain, "**")
         self._queryable: Any = graph.session.declare_queryable(key, callback)
 
     def close(self) -> None:
         """Answer no more."""
         self._queryable.undeclare()
-        self._mailbox.close()
+        self._callback_queue.close()
 
     def _answer(self, query: Any) -> None:
         start, _, rest = str(query.key_expr).rpartition("/definition/")

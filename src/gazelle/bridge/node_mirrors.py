@@ -14,7 +14,7 @@ from gazelle.graph.type_support import hash_of
 if TYPE_CHECKING:
     from gazelle.graph import Graph, Node, Publisher, ServiceServer
 
-__all__ = ["M", "Mirror", "Mirrors", "OfMessage", "OfService", "S", "Traits"]
+__all__ = ["M", "NodeMirror", "NodeMirrors", "OfMessage", "OfService", "RosNodeEntities", "S"]
 
 
 class OfMessage(Protocol):
@@ -43,7 +43,7 @@ M = TypeVar("M", bound=OfMessage)
 S = TypeVar("S", bound=OfService)
 
 
-class Traits(NamedTuple, Generic[M, S]):
+class RosNodeEntities(NamedTuple, Generic[M, S]):
     """What a node of real ROS offers and wants.
 
     Attributes:
@@ -57,13 +57,13 @@ class Traits(NamedTuple, Generic[M, S]):
     services: dict[str, S]
 
 
-class _Voice(NamedTuple, Generic[M]):
+class _Publication(NamedTuple, Generic[M]):
     kind: M
     latched: bool
     publisher: Publisher
 
 
-class Mirror(Generic[M, S]):
+class NodeMirror(Generic[M, S]):
     """Stands for one node.
 
     Attributes:
@@ -96,25 +96,25 @@ class Mirror(Generic[M, S]):
         self.shares = shares
         self._lock = threading.RLock()
         self._closed = False
-        self._voices: dict[str, _Voice[M]] = {}
+        self._publications: dict[str, _Publication[M]] = {}
         self._tokens: dict[tuple[str, str], Any] = {}
         self._services: dict[str, tuple[S, ServiceServer]] = {}
 
-    def settle(self, traits: Traits[M, S]) -> None:
+    def settle(self, ros_entities: RosNodeEntities[M, S]) -> None:
         """Announce these topics and services and no others."""
         with self._lock:
             if self._closed or self._node.closed:
                 # The node's own things end with it, what was only announced does not.
                 self._settle_subscribers({})
                 return
-            for topic in set(self._voices) - set(traits.publishers):
-                self._voices.pop(topic).publisher.unregister()
-            for topic, kind in traits.publishers.items():
-                self.voice(topic, kind, None)
-            self._settle_subscribers(dict(traits.subscribers))
-            self._settle_services(traits.services)
+            for topic in set(self._publications) - set(ros_entities.publishers):
+                self._publications.pop(topic).publisher.unregister()
+            for topic, kind in ros_entities.publishers.items():
+                self.publisher(topic, kind, None)
+            self._settle_subscribers(dict(ros_entities.subscribers))
+            self._settle_services(ros_entities.services)
 
-    def voice(self, topic: str, kind: M, latched: bool | None) -> Publisher | None:
+    def publisher(self, topic: str, kind: M, latched: bool | None) -> Publisher | None:
         """Return what publishes on a topic for the node; None after `close`.
 
         Args:
@@ -125,7 +125,7 @@ class Mirror(Generic[M, S]):
         with self._lock:
             if self._closed or self._node.closed:
                 return None
-            known = self._voices.get(topic)
+            known = self._publications.get(topic)
             keep = known is not None and latched is None
             wanted = known.latched if known is not None and keep else bool(latched)
             if known is not None and known.kind == kind and known.latched == wanted:
@@ -135,7 +135,7 @@ class Mirror(Generic[M, S]):
             made = self._node.create_publisher(
                 topic, kind.message_class, latch=wanted, reliable=kind.reliable
             )
-            self._voices[topic] = _Voice(kind, wanted, made)
+            self._publications[topic] = _Publication(kind, wanted, made)
             return made
 
     def speaks_through(self, node: Node) -> bool:
@@ -145,16 +145,16 @@ class Mirror(Generic[M, S]):
     def forget_latched(self, topic: str) -> None:
         """Drop what the topic has latched: nobody renews it while nobody listens."""
         with self._lock:
-            known = self._voices.get(topic)
+            known = self._publications.get(topic)
             if known is not None and known.latched:
-                self.voice(topic, known.kind, False)
+                self.publisher(topic, known.kind, False)
 
     def close(self) -> None:
         """Take the node off the graph."""
         with self._lock:
             if self._closed:
                 return
-            self.settle(Traits({}, {}, {}))
+            self.settle(RosNodeEntities({}, {}, {}))
             self._closed = True
         if not self.shares:
             self._node.shutdown()
@@ -195,7 +195,7 @@ class Mirror(Generic[M, S]):
         return lambda request: self._answer(name, kind, request)
 
 
-class Mirrors(Generic[M, S]):
+class NodeMirrors(Generic[M, S]):
     """Makes and ends mirrors; safe to use from many threads."""
 
     def __init__(
@@ -218,7 +218,7 @@ class Mirrors(Generic[M, S]):
         self._answer = answer
         self._on_kill = on_kill
         self._lock = threading.RLock()
-        self._mirrors: dict[str, Mirror[M, S]] = {}
+        self._mirrors: dict[str, NodeMirror[M, S]] = {}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -226,21 +226,21 @@ class Mirrors(Generic[M, S]):
         with self._lock:
             return tuple(sorted(self._mirrors))
 
-    def settle(self, traits: dict[str, Traits[M, S]]) -> None:
+    def settle(self, ros_entities: dict[str, RosNodeEntities[M, S]]) -> None:
         """Show these nodes, with what they offer and want, and no others."""
         with self._lock:
-            gone = [self._mirrors.pop(name) for name in set(self._mirrors) - set(traits)]
+            gone = [self._mirrors.pop(name) for name in set(self._mirrors) - set(ros_entities)]
             for name, mirror in list(self._mirrors.items()):
                 if mirror.shares and not self._must_share(name):
                     gone.append(self._mirrors.pop(name))
         for mirror in gone:
             mirror.close()
-        for name, one in traits.items():
+        for name, one in ros_entities.items():
             self._mirror(name).settle(one)
 
-    def voice(self, name: str, topic: str, kind: M, latched: bool) -> Publisher | None:
-        """Return what publishes on a topic for a node of ROS, see `Mirror.voice`."""
-        return self._mirror(name).voice(topic, kind, latched)
+    def publisher(self, name: str, topic: str, kind: M, latched: bool) -> Publisher | None:
+        """Return what publishes on a topic for a node of ROS, see `NodeMirror.publisher`."""
+        return self._mirror(name).publisher(topic, kind, latched)
 
     def forget_latched(self, topic: str) -> None:
         """Drop what nodes have latched on a topic that nobody takes over the bridge any more."""
@@ -253,14 +253,16 @@ class Mirrors(Generic[M, S]):
         """Show none."""
         self.settle({})
 
-    def _mirror(self, name: str) -> Mirror[M, S]:
+    def _mirror(self, name: str) -> NodeMirror[M, S]:
         with self._lock:
             known = self._mirrors.get(name)
             if known is not None:
                 return known
             shares = self._must_share(name)
             node = self._node if shares else self._make_node(name)
-            made: Mirror[M, S] = Mirror(self._graph, name, node, self._answer, shares=shares)
+            made: NodeMirror[M, S] = NodeMirror(
+                self._graph, name, node, self._answer, shares=shares
+            )
             self._mirrors[name] = made
             return made
 

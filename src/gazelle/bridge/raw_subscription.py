@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.graph.key_expressions import Attachment, topic_selector, type_in_key
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph
 
-__all__ = ["Sample", "Tap"]
+__all__ = ["RawSubscription", "Sample"]
 
 _WAITING = 100
 
@@ -37,7 +37,7 @@ class Sample(NamedTuple):
     sequence: int
 
 
-class Tap:
+class RawSubscription:
     """Calls back with every message that another process publishes on a topic."""
 
     def __init__(self, graph: Graph, topic: str, on_sample: Callable[[Sample], None]) -> None:
@@ -54,11 +54,13 @@ class Tap:
         self._graph = graph
         self._on_sample = on_sample
         self._types: dict[str, str] = {}
-        self._mailbox = Mailbox(self._handle, size=_WAITING, name=f"tap {topic}")
+        self._callback_queue = CallbackQueue(
+            self._handle, size=_WAITING, name=f"raw subscription {topic}"
+        )
         self._subscriber: Any = zenoh.ext.declare_advanced_subscriber(
             graph.session,
             topic_selector(graph.domain, topic),
-            zenoh.handlers.Callback(self._mailbox.put, None, indirect=False),
+            zenoh.handlers.Callback(self._callback_queue.put, None, indirect=False),
             allowed_origin=zenoh.Locality.REMOTE,
             history=zenoh.ext.HistoryConfig(detect_late_publishers=True, max_samples=1),
         )
@@ -66,7 +68,7 @@ class Tap:
     def close(self) -> None:
         """Listen no more."""
         self._subscriber.undeclare()
-        self._mailbox.close()
+        self._callback_queue.close()
 
     def _handle(self, sample: Any) -> None:
         attached = sample.attachment

@@ -7,13 +7,13 @@ from collections.abc import Callable
 
 from gazelle.errors import GazelleError
 
-__all__ = ["Settling"]
+__all__ = ["SyncThread"]
 
 _SETTLE_S = 0.01
 _ENDING_S = 5.0
 
 
-class Settling:
+class SyncThread:
     """Calls a bridge's ``settle`` after changes, and now and then without one."""
 
     def __init__(

@@ -15,7 +15,7 @@ from gazelle.graph.console import Level, LogRecord, print_record
 from gazelle.graph.glibc_malloc import return_large_blocks
 from gazelle.process_lifetime import called_by_library
 
-__all__ = ["Bound", "Mailbox"]
+__all__ = ["Bound", "CallbackQueue"]
 
 _STOP: Any = object()
 
@@ -36,7 +36,7 @@ class Bound(NamedTuple):
     reached: Callable[[], None]
 
 
-class Mailbox:
+class CallbackQueue:
     """A bounded queue with a thread of its own that handles one item after the other.
 
     As in ROS 1 a full queue drops its oldest item, and the callbacks of one subscription never

@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.graph.clock_page import ClockPage, PageView, machine_name
 from gazelle.graph.key_expressions import Entity, Kind, clock_key
 from gazelle.process_lifetime import called_by_library
@@ -170,7 +170,7 @@ class ClockFinder:
         self._prefers_messages = False
         self._closed = False
         # Subscriptions cannot be made and ended in the thread that receives.
-        self._changes = Mailbox(lambda _one: self._choose(), size=1, name="clock")
+        self._changes = CallbackQueue(lambda _one: self._choose(), size=1, name="clock")
         self._declared: list[Any] = []
 
     def start(self) -> None:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from gazelle.graph.discovery import Discovery
 
-__all__ = ["TAKEN_OVER", "Namesakes"]
+__all__ = ["TAKEN_OVER", "DuplicateNodes"]
 
 TAKEN_OVER = "new node registered with same name"
 """What ROS's master tells the older one."""
@@ -30,7 +30,7 @@ class _Claim(NamedTuple):
     since_s: float
 
 
-class Namesakes:
+class DuplicateNodes:
     """Asks other processes to end their nodes of the names that nodes here have claimed.
 
     Word of a node takes a moment, so that of two that start at once neither may know of the other.

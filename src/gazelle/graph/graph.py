@@ -17,7 +17,7 @@ from gazelle.graph import graph_info
 from gazelle.graph.clock import Clock
 from gazelle.graph.console import print_record
 from gazelle.graph.discovery import Announcements, Discovery
-from gazelle.graph.duplicate_nodes import TAKEN_OVER, Namesakes
+from gazelle.graph.duplicate_nodes import TAKEN_OVER, DuplicateNodes
 from gazelle.graph.errors import NoGraphError, PortTakenError, coded
 from gazelle.graph.glibc_malloc import HeapTrim
 from gazelle.graph.graph_info import NodeInfo, ServiceInfo, TopicInfo
@@ -106,7 +106,7 @@ class Graph:
         self._environ = environ
         self._keeper = keeper
         self._discovery = Discovery(session, domain)
-        self._namesakes = Namesakes(session, domain, self.zid, self._discovery)
+        self._duplicate_nodes = DuplicateNodes(session, domain, self.zid, self._discovery)
         self._nodes: list[Node] = []
         self._ids = itertools.count()
         self._lock = threading.RLock()
@@ -203,7 +203,7 @@ class Graph:
         full = join(namespace, own)
         if not anonymous and not is_ros2:
             self._shut_node_down(full, TAKEN_OVER)
-            self._namesakes.claim(full)
+            self._duplicate_nodes.claim(full)
         with self.announcements.together():
             node = Node(self, full, namespace, remappings or {}, rosout=rosout)
         with self._lock:
@@ -322,7 +322,7 @@ class Graph:
             if isinstance(one, Node):
                 if one in self._nodes:
                     self._nodes.remove(one)
-                self._namesakes.release(one.name)
+                self._duplicate_nodes.release(one.name)
                 return
             owners = [node for node in self._nodes if node.name == one.entity.node]
         for owner in owners:
@@ -382,7 +382,9 @@ class Graph:
     def _shut_node_down(self, name: str, reason: str, since_ns: int | None = None) -> bool:
         with self._lock:
             node = next((one for one in self._nodes if one.name == name), None)
-        if node is None or (since_ns is not None and not self._namesakes.yields(name, since_ns)):
+        if node is None or (
+            since_ns is not None and not self._duplicate_nodes.yields(name, since_ns)
+        ):
             return False
         node.log("warn", f"shutdown request: [{name}] Reason: {reason}")
         node.shutdown(reason)

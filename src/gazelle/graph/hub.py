@@ -26,7 +26,7 @@ from gazelle.process_lifetime import called_by_library
 if TYPE_CHECKING:
     import zenoh
 
-__all__ = ["HubKeeper", "Relinker", "hub_knows"]
+__all__ = ["HubKeeper", "Reconnection", "hub_knows"]
 
 _RECONNECT_PAUSE_S = (0.3, 0.6)
 _ASK_S = 1.0
@@ -37,7 +37,7 @@ _RETRY_S = 0.2
 _CHECK_S = 0.5
 
 
-class Relinker:
+class Reconnection:
     """Watches one session's links to other processes."""
 
     def __init__(self, port: int) -> None:
@@ -119,7 +119,7 @@ class HubKeeper:
         self._lock = threading.Lock()
         self._listener: Any = None
         self._watcher = threading.Thread(target=self._watch, name="gazelle-hub", daemon=True)
-        self._relinker = Relinker(port)
+        self._relinker = Reconnection(port)
 
     @property
     def is_hub(self) -> bool:

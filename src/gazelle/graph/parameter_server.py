@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import GraphError
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.graph.key_expressions import parameter_key
 from gazelle.graph.names import resolve
 from gazelle.graph.parameter_tree import ParameterTree, to_json
@@ -65,7 +65,7 @@ class ParameterShare:
         self._listeners: list[Listener] = []
         self._declared: list[Any] = []
         # Neither answering nor listening may hold up the thread that receives.
-        self._mailbox = Mailbox(lambda job: job[0](job[1]), size=0, name="parameters")
+        self._callback_queue = CallbackQueue(lambda job: job[0](job[1]), size=0, name="parameters")
 
     def own(self) -> None:
         """Become the owner with what the copy holds, and tell everybody the whole tree."""
@@ -151,13 +151,13 @@ class ParameterShare:
             declared, self._declared = self._declared, []
         for one in declared:
             one.undeclare()
-        self._mailbox.close()
+        self._callback_queue.close()
 
     def _later(self, handle: Callable[[Any], None]) -> Any:
         import zenoh
 
         return zenoh.handlers.Callback(
-            lambda item: self._mailbox.put((handle, item)), None, indirect=False
+            lambda item: self._callback_queue.put((handle, item)), None, indirect=False
         )
 
     def _ask_owner(self, request: dict[str, Any]) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.graph.key_expressions import control_key
 from gazelle.graph.parameter_tree import from_json, to_json
 
@@ -123,15 +123,15 @@ class Control:
 
         self._key = control_key(domain, zid)
         self._shut_down = shut_down
-        self._mailbox = Mailbox(self._answer, size=0, name="control")
+        self._callback_queue = CallbackQueue(self._answer, size=0, name="control")
         # Direct: zenoh's own callback threads would keep a process from ending.
-        callback = zenoh.handlers.Callback(self._mailbox.put, None, indirect=False)
+        callback = zenoh.handlers.Callback(self._callback_queue.put, None, indirect=False)
         self._queryable: Any = session.declare_queryable(self._key, callback)
 
     def close(self) -> None:
         """Answer no more; whoever waits for an answer is let go."""
         self._queryable.undeclare()
-        self._mailbox.close()
+        self._callback_queue.close()
 
     def _answer(self, query: Any) -> None:
         try:

@@ -32,7 +32,7 @@ from gazelle.graph.key_expressions import (
     token,
 )
 from gazelle.graph.names import is_hidden
-from gazelle.graph.service_requests import Answer, InTurn, Repeats, Turn, Turns
+from gazelle.graph.service_requests import Answer, AnsweredRequests, InTurn, Turn, Turns
 from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ class ServiceServer:
         self._with_caller = with_caller
         self._on_error = on_error
         self._closed = is_mute
-        self._repeats = Repeats()
+        self._repeats = AnsweredRequests()
         self._turns = Turns()
         text = token(graph.domain, entity)
         self._gid = entity_gid(text)

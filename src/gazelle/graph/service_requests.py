@@ -8,7 +8,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from typing import Any, Self
 
-__all__ = ["Answer", "InTurn", "Repeats", "Turn", "Turns"]
+__all__ = ["Answer", "AnsweredRequests", "InTurn", "Turn", "Turns"]
 
 _KEPT_S = 60.0
 _KEPT_BYTES = 16_000_000
@@ -24,7 +24,7 @@ class _Call:
     ended_s: float = 0.0
 
 
-class Repeats:
+class AnsweredRequests:
     """Answers of one service by call, so that no request is handled twice."""
 
     def __init__(self) -> None:

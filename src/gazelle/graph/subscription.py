@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.errors import GazelleError
 from gazelle.graph import type_support
-from gazelle.graph.callback_queue import Bound, Mailbox
+from gazelle.graph.callback_queue import Bound, CallbackQueue
 from gazelle.graph.errors import coded
 from gazelle.graph.key_expressions import Attachment, Entity, token, topic_selector, type_in_key
 from gazelle.process_lifetime import called_by_library
@@ -178,8 +178,10 @@ class Subscription:
         self._closed = is_mute
         bound = Bound(_MAX_WAITING_BYTES, _weight, _packed, self._tell_full)
         name = f"sub {self.topic}"
-        self._mailbox = Mailbox(self._handle, size=delivery.queue_size, name=name, bound=bound)
-        self._take = self._handle if delivery.inline else self._mailbox.put
+        self._callback_queue = CallbackQueue(
+            self._handle, size=delivery.queue_size, name=name, bound=bound
+        )
+        self._take = self._handle if delivery.inline else self._callback_queue.put
         self._local = graph.local.topic(self.topic)
         self._declare = _declare if delivery.latched else _declare_plain
         self._declaring = threading.Lock()
@@ -193,7 +195,7 @@ class Subscription:
     @property
     def dropped(self) -> int:
         """Number of messages dropped because the queue was full."""
-        return self._mailbox.dropped
+        return self._callback_queue.dropped
 
     @property
     def publisher_count(self) -> int:
@@ -208,7 +210,7 @@ class Subscription:
         self._local.remove_subscription(self)
         self._token.undeclare()
         self.rest()
-        self._mailbox.close()
+        self._callback_queue.close()
         self._graph.forget(self)
 
     def rest(self) -> None:

@@ -8,16 +8,16 @@ from typing import Any, TypeVar
 
 from gazelle.errors import GazelleError, InterfaceError
 from gazelle.interfaces.definition import RosVersion
-from gazelle.interfaces.message_base import Form
+from gazelle.interfaces.message_base import MessageBase
 
 __all__ = ["convert", "from_cdr", "from_ros1", "to_cdr", "to_ros1"]
 
-_T = TypeVar("_T", bound=Form)
+_T = TypeVar("_T", bound=MessageBase)
 _Writer = Callable[[Any], bytes]
 _Reader = Callable[[Any], Any]
 
 
-def to_cdr(msg: Form) -> bytes:
+def to_cdr(msg: MessageBase) -> bytes:
     """Return a message's CDR bytes: encapsulation header, little endian, XCDR1.
 
     A ROS 1 object is written in the layout of the canonical ROS 2 type where there is one
@@ -69,7 +69,7 @@ def from_cdr(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
     return found
 
 
-def to_ros1(msg: Form) -> bytes:
+def to_ros1(msg: MessageBase) -> bytes:
     """Return a message's bytes in ROS 1's own serialisation.
 
     Raises:
@@ -110,7 +110,7 @@ def from_ros1(cls: type[_T], buffer: bytes | bytearray | memoryview) -> _T:
     return found
 
 
-def convert(msg: Form, cls: type[_T]) -> _T:
+def convert(msg: MessageBase, cls: type[_T]) -> _T:
     """Return a message in another form of its type: ROS 1 ↔ ROS 2.
 
     Raises:

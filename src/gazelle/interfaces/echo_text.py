@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.interfaces.codec_runtime import is_array, is_array_item
 from gazelle.interfaces.definition import RosVersion
-from gazelle.interfaces.message_base import Form
+from gazelle.interfaces.message_base import MessageBase
 from gazelle.interfaces.ros1_time import Time, TVal
 
 __all__ = ["strify"]
@@ -53,7 +53,7 @@ class _Printer:
             return _quoted(value) if value else "''"
         if isinstance(value, TVal):
             return self._time(value, indent)
-        if isinstance(value, Form) and value.GENERATION is RosVersion.ROS1:
+        if isinstance(value, MessageBase) and value.GENERATION is RosVersion.ROS1:
             return self._message(value, indent)
         if is_array(value):
             return self._sequence(value.tolist(), indent)

@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.errors import InterfaceError
 from gazelle.interfaces.codec_runtime import is_array
 from gazelle.interfaces.definition import FORMATS, Array, Field, FieldType, attribute_name
-from gazelle.interfaces.message_base import Form
+from gazelle.interfaces.message_base import MessageBase
 
 __all__ = ["check_fields", "find_problem"]
 
@@ -18,7 +18,7 @@ _MAX_FLOAT32 = (2 - 2**-23) * 2.0**127
 _PARTS = {"time": ("secs", "nsecs"), "duration": ("secs", "nsecs")}
 
 
-def check_fields(msg: Form, *, cause: Exception | None = None) -> None:
+def check_fields(msg: MessageBase, *, cause: Exception | None = None) -> None:
     """Raise when a value of a message does not fit its field.
 
     Args:
@@ -33,7 +33,7 @@ def check_fields(msg: Form, *, cause: Exception | None = None) -> None:
         raise InterfaceError(found or str(cause))
 
 
-def find_problem(msg: Form) -> str | None:
+def find_problem(msg: MessageBase) -> str | None:
     """Return what is wrong with the first field that is wrong, None when all are right."""
     found = _message_problem(msg, "")
     return None if found is None else f"{msg.TYPE_NAME}: {found}"
@@ -75,7 +75,7 @@ def _value_problem(kind: FieldType, value: Any, name: str) -> str | None:
     if kind.base in _PARTS:
         return _time_problem(kind.base, value, name)
     if kind.is_message:
-        if isinstance(value, Form):
+        if isinstance(value, MessageBase):
             if kind.base != value.TYPE_NAME:
                 return f"field '{name}' must be a {kind.base}, is a {value.TYPE_NAME}"
             return _message_problem(value, f"{name}.")

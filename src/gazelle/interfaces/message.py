@@ -19,7 +19,7 @@ from gazelle.interfaces.definition import (
     RosVersion,
     attribute_name,
 )
-from gazelle.interfaces.message_base import Form, Types
+from gazelle.interfaces.message_base import MessageBase, Types
 
 __all__ = ["Message", "make_message_class", "recursion", "values_equal"]
 
@@ -27,7 +27,7 @@ _ZEROS: dict[str, Any] = {"": "", "?": False, "f": 0.0, "d": 0.0}
 _Nested = Callable[[str], type["Message"]]
 
 
-class Message(Form):
+class Message(MessageBase):
     """Base of all message classes in the form of ROS 2."""
 
     __slots__ = ()

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Protocol, TypeVar
 from gazelle.interfaces.definition import Definition, Field, RosVersion
 from gazelle.interfaces.definition_library import Source
 
-__all__ = ["Form", "Types"]
+__all__ = ["MessageBase", "Types"]
 
 _T = TypeVar("_T")
 
@@ -26,7 +26,7 @@ class Types(Protocol):
         """Return the text of a definition of one generation, None when there is none."""
         ...
 
-    def class_of(self, full: str, ros_version: RosVersion) -> type[Form]:
+    def class_of(self, full: str, ros_version: RosVersion) -> type[MessageBase]:
         """Return the class of a message in the form of one generation."""
         ...
 
@@ -38,12 +38,12 @@ class Types(Protocol):
         """Return what `make` gives, made once for as long as definitions stay what they are."""
         ...
 
-    def rebuilt(self, full: str, ros_version: RosVersion, values: list[Any]) -> Form:
+    def rebuilt(self, full: str, ros_version: RosVersion, values: list[Any]) -> MessageBase:
         """Return a message with these values of its fields, as `copy` and `pickle` ask for it."""
         ...
 
 
-class Form:
+class MessageBase:
     """Base of all message classes.
 
     Attributes:

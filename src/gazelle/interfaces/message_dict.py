@@ -20,7 +20,7 @@ from gazelle.interfaces.definition import (
     attribute_name,
 )
 from gazelle.interfaces.field_check import find_problem
-from gazelle.interfaces.message_base import Form, Types
+from gazelle.interfaces.message_base import MessageBase, Types
 from gazelle.interfaces.ros1_time import Duration, Time, TVal
 
 __all__ = ["fill", "time_keys", "to_plain"]
@@ -32,7 +32,7 @@ _NANO = 1_000_000_000
 
 def to_plain(value: Any) -> Any:
     """Return a message as nested dicts, its arrays as lists, its times as dicts too."""
-    if isinstance(value, Form):
+    if isinstance(value, MessageBase):
         return {
             item.name: to_plain(getattr(value, attribute_name(item.name))) for item in value.FIELDS
         }
@@ -58,7 +58,7 @@ def time_keys(types: Types, now_ns: int, ros_version: RosVersion) -> dict[str, A
     return {"now": make(secs, nsecs), "auto": header(stamp=make(secs, nsecs))}
 
 
-def fill(msg: Form, values: Any, *, keys: Mapping[str, Any] | None = None) -> None:
+def fill(msg: MessageBase, values: Any, *, keys: Mapping[str, Any] | None = None) -> None:
     """Set a message's fields from plain values.
 
     A dict sets the fields it names, a list all fields in order; a list of one dict counts as the
@@ -194,7 +194,7 @@ def _array(msg: Any, item: Field, values: list[Any]) -> Any:
         return values  # the check of the whole message names the item at fault
 
 
-def _fresh(msg: Form, base: str) -> Form:
+def _fresh(msg: MessageBase, base: str) -> MessageBase:
     return msg._types.class_of(base, msg.GENERATION)()
 
 

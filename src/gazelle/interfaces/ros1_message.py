@@ -14,7 +14,7 @@ from gazelle.interfaces.definition import (
     attribute_name,
 )
 from gazelle.interfaces.message import values_equal
-from gazelle.interfaces.message_base import Form, Types
+from gazelle.interfaces.message_base import MessageBase, Types
 from gazelle.interfaces.ros1_time import Duration, Time
 from gazelle.interfaces.type_names import ros1_name
 
@@ -43,7 +43,7 @@ class _Lazy:
         return text
 
 
-class Ros1Message(Form):
+class Ros1Message(MessageBase):
     """Base of all message classes in the form of ROS 1."""
 
     __slots__ = ("_connection_header",)

@@ -18,7 +18,7 @@ from gazelle.interfaces import definition_lookup, ros1_md5sum
 from gazelle.interfaces.definition import Definition, RosVersion
 from gazelle.interfaces.definition_library import Library, Source
 from gazelle.interfaces.message import Message, make_message_class, recursion
-from gazelle.interfaces.message_base import Form
+from gazelle.interfaces.message_base import MessageBase
 from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message, make_ros1_class
 from gazelle.interfaces.services import (
     ActionType,
@@ -206,7 +206,7 @@ class TypeStore:
         full = canonical_name("std_msgs/Header" if name == "Header" else name)
         return self._ros1_class(_RENAMED.get(full, full))
 
-    def class_of(self, full: str, ros_version: RosVersion) -> type[Form]:
+    def class_of(self, full: str, ros_version: RosVersion) -> type[MessageBase]:
         """Return the class of a message in the form of one generation.
 
         Args:
@@ -379,7 +379,7 @@ class TypeStore:
 
         return time_keys(self, now_ns, ros_version)
 
-    def rebuilt(self, full: str, ros_version: RosVersion, values: list[Any]) -> Form:
+    def rebuilt(self, full: str, ros_version: RosVersion, values: list[Any]) -> MessageBase:
         """Return a message with these values of its fields, as `copy` and `pickle` ask for it."""
         made = self.class_of(full, ros_version)()
         for name, value in zip(made._names, values, strict=True):

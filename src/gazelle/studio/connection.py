@@ -188,7 +188,7 @@ class Connection:
         if error is not None or kind is None or not isinstance(number, int):
             self._fail("failed", {"ch": _plain(number)}, error or StudioError("'ch' is a number"))
             return
-        channel = Channel(number, latest=kind.latest, outlet=self, workers=self._studio.workers)
+        channel = Channel(number, latest=kind.latest, frame_sink=self, workers=self._studio.workers)
         self._used.add(number)
         one = self._channels[number] = _Open(channel, str(name), kind)
         self._spawn(self._open(one, value.get("params")))

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from contextlib import ExitStack, closing
 from typing import Generic, Protocol, TypeVar
 
-__all__ = ["Closable", "Once", "closed_with"]
+__all__ = ["Closable", "Lazy", "closed_with"]
 
 
 class Closable(Protocol):
@@ -21,7 +21,7 @@ _T = TypeVar("_T")
 _C = TypeVar("_C", bound=Closable)
 
 
-class Once(Generic[_T]):
+class Lazy(Generic[_T]):
     """A part that is made at the first call and returned by every one; from any thread."""
 
     def __init__(self, make: Callable[[], _T]) -> None:

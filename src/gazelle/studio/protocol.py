@@ -43,7 +43,7 @@ METHODS: dict[str, Method[Studio]] = {
     **methods_of(lambda studio: studio.world, world.METHODS),
     **methods_of(lambda studio: studio.bags, bags.METHODS),
     **methods_without(_SETTINGS),
-    **methods_of(lambda studio: studio.desk, plugins.METHODS),
+    **methods_of(lambda studio: studio.shown_panels, plugins.METHODS),
     **methods_of(lambda studio: studio.robots, {**motion.METHODS, "robot.get": get_robot}),
     **displays.METHODS,
     **methods_of(lambda studio: studio.downloads, {"file.save": save_file}),
@@ -53,12 +53,12 @@ STREAMS: dict[str, StreamKind[Studio]] = {
     **streams_of(lambda studio: studio.displays, displays.STREAMS),
     **streams_of(lambda studio: studio.world, world.STREAMS),
     **streams_of(lambda studio: studio.bags, bags.STREAMS),
-    **streams_of(lambda studio: studio.desk, plugins.STREAMS),
-    **streams_of(lambda studio: studio.taps, motion.STREAMS),
+    **streams_of(lambda studio: studio.shown_panels, plugins.STREAMS),
+    **streams_of(lambda studio: studio.subscriptions, motion.STREAMS),
 }
 ROUTES: dict[str, Route[Studio]] = {
     **world.ROUTES,
-    **routes_of(lambda studio: studio.desk, plugins.ROUTES),
+    **routes_of(lambda studio: studio.shown_panels, plugins.ROUTES),
     **routes_of(lambda studio: studio.downloads, {"file": download}),
     **routes_of(lambda studio: studio.assets, {"mesh": mesh_answer, "texture": texture_answer}),
 }

@@ -25,8 +25,8 @@ __all__ = [
     "MAX_BEHIND_BYTES",
     "Channel",
     "Frame",
+    "FrameSink",
     "OpenStream",
-    "Outlet",
     "Pace",
     "StreamKind",
     "every",
@@ -83,7 +83,7 @@ class StreamKind(NamedTuple, Generic[_Part]):
     open: Callable[[_Part, Channel, Params], OpenStream]
 
 
-class Outlet(Protocol):
+class FrameSink(Protocol):
     """Where frames go; both methods may be called from any thread."""
 
     def post(self, data: str | bytes, on_sent: Callable[[], None] | None = None) -> None:
@@ -101,11 +101,13 @@ class Channel:
         latest: its delivery class.
     """
 
-    def __init__(self, number: int, *, latest: bool, outlet: Outlet, workers: Workers) -> None:
+    def __init__(
+        self, number: int, *, latest: bool, frame_sink: FrameSink, workers: Workers
+    ) -> None:
         """Open an empty channel."""
         self.number = number
         self.latest = latest
-        self._outlet = outlet
+        self._frame_sink = frame_sink
         self._workers = workers
         self._lock = threading.Lock()
         self._closed = False
@@ -152,11 +154,11 @@ class Channel:
             self._items.append(text)
             first = len(self._items) == 1
         if first:
-            self._outlet.later(_GATHER_S, self._flush)
+            self._frame_sink.later(_GATHER_S, self._flush)
 
     def later(self, delay_s: float, call: Callable[[], None]) -> None:
         """Call something short in the event loop."""
-        self._outlet.later(delay_s, call)
+        self._frame_sink.later(delay_s, call)
 
     def work(self, job: Callable[[], None]) -> None:
         """Do a job that takes its time in a worker's thread, soon; it must not raise."""
@@ -172,10 +174,10 @@ class Channel:
         """Send ``opened`` and then whatever the stream has given so far."""
         with self._lock:
             value = {"op": "opened", "ch": self.number, "info": info}
-            self._outlet.post(json_text(value))
+            self._frame_sink.post(json_text(value))
             held, self._held = self._held or [], None
             for data, on_sent in held:
-                self._outlet.post(data, on_sent)
+                self._frame_sink.post(data, on_sent)
 
     def end(self, error: BaseException | None = None) -> None:
         """Say that the stream is over; nothing is sent afterwards."""
@@ -277,7 +279,7 @@ class Channel:
             if self._held is not None:
                 self._held.append((data, on_sent))
             else:
-                self._outlet.post(data, on_sent)
+                self._frame_sink.post(data, on_sent)
 
     def _sent(self, size: int) -> None:
         with self._lock:

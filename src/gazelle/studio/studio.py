@@ -15,10 +15,10 @@ from gazelle.studio.frames import Frames
 from gazelle.studio.graph_view.methods import graph_parts
 from gazelle.studio.lazy import closed_with
 from gazelle.studio.pages import Pages
-from gazelle.studio.plugins.shown_panels import Desk
+from gazelle.studio.plugins.shown_panels import ShownPanels
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.robot import RobotContext
-from gazelle.studio.subscriptions import Taps
+from gazelle.studio.subscriptions import Subscriptions
 from gazelle.studio.workers import Workers
 from gazelle.studio.world.methods import world_parts
 
@@ -37,7 +37,7 @@ class Studio:
         node: the node that subscribes, publishes and calls for all pages.
         pages: the open connections.
         workers: threads that make frames.
-        taps: the topics listened to.
+        subscriptions: the topics listened to.
         assets: meshes and textures that pages load.
         downloads: files that pages have made.
         graph_view: the graph itself: topics, nodes, parameters, frames.
@@ -45,7 +45,7 @@ class Studio:
         robots: descriptions of robots.
         world: the running world.
         bags: recorder and player.
-        desk: the user's own panels.
+        shown_panels: the user's own panels.
     """
 
     def __init__(self, graph: Graph, folder: Path | None = None) -> None:
@@ -60,17 +60,17 @@ class Studio:
         ending.callback(self.node.shutdown, "Studio was closed")
         self.workers = closed_with(ending, Workers(_WORKERS))
         self.pages = Pages(self.node)
-        self.taps = Taps(self.node)
+        self.subscriptions = Subscriptions(self.node)
         self.assets = Assets()
         self.downloads = Downloads()
         frames = Frames(self.node)
-        self.graph_view = graph_parts(self.taps, frames, self.pages, ending)
-        self.displays = DisplayContext(self.taps, frames, self.assets)
-        self.robots = RobotContext(self.taps, self.assets)
-        self.world = world_parts(self.taps, self.workers, self.assets, ending)
+        self.graph_view = graph_parts(self.subscriptions, frames, self.pages, ending)
+        self.displays = DisplayContext(self.subscriptions, frames, self.assets)
+        self.robots = RobotContext(self.subscriptions, self.assets)
+        self.world = world_parts(self.subscriptions, self.workers, self.assets, ending)
         recording = Recording(graph, (folder or Path.cwd()).absolute())
         self.bags = Bags(closed_with(ending, recording), closed_with(ending, Playing(graph)))
-        self.desk = closed_with(ending, Desk(graph))
+        self.shown_panels = closed_with(ending, ShownPanels(graph))
 
     def close(self) -> None:
         """Leave the graph; what was made last ends first."""

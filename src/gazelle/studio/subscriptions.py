@@ -19,7 +19,7 @@ from gazelle.studio.errors import StudioError
 if TYPE_CHECKING:
     from gazelle.graph import Subscription
 
-__all__ = ["Arrival", "Listener", "Sample", "Taps", "stamp_s", "topic_name"]
+__all__ = ["Arrival", "Listener", "Sample", "Subscriptions", "stamp_s", "topic_name"]
 
 _MAX_ARRIVALS = 5000
 _HEADER = "std_msgs/msg/Header"
@@ -67,7 +67,7 @@ class Arrival(NamedTuple):
     delay_s: float | None
 
 
-class _Tap:
+class _SharedSubscription:
     def __init__(self) -> None:
         self.listeners: tuple[Listener, ...] = ()
         self.subscription: Subscription | None = None
@@ -77,7 +77,7 @@ class _Tap:
         self.has_header = False
 
 
-class Taps:
+class Subscriptions:
     """Subscriptions of the topics that somebody looks at.
 
     Listeners are called in the transport's threads: they keep the sample and go.
@@ -90,13 +90,13 @@ class Taps:
         """Subscribe as `node`."""
         self.node = node
         self._lock = threading.Lock()
-        self._taps: dict[str, _Tap] = {}
+        self._subscriptions: dict[str, _SharedSubscription] = {}
 
     @property
     def topics(self) -> tuple[str, ...]:
         """The topics that are listened to."""
         with self._lock:
-            return tuple(self._taps)
+            return tuple(self._subscriptions)
 
     def listen(self, topic: str, listener: Listener) -> Callable[[], None]:
         """Call `listener` with every message from now on; returns what ends that.
@@ -109,11 +109,11 @@ class Taps:
         """
         topic = topic_name(self.node, topic)
         with self._lock:
-            tap = self._taps.get(topic)
+            tap = self._subscriptions.get(topic)
             if tap is None:
-                tap = _Tap()
+                tap = _SharedSubscription()
                 tap.subscription = self._subscribe(topic, tap)
-                self._taps[topic] = tap
+                self._subscriptions[topic] = tap
             tap.listeners += (listener,)
             last = tap.last
         if last is not None:
@@ -123,10 +123,10 @@ class Taps:
     def arrivals(self, topic: str) -> tuple[int, tuple[Arrival, ...]]:
         """Return how many messages of a topic came, and the last of them one by one."""
         with self._lock:
-            tap = self._taps.get(topic)
+            tap = self._subscriptions.get(topic)
         return (tap.count, tuple(tap.arrivals)) if tap else (0, ())
 
-    def _subscribe(self, topic: str, tap: _Tap) -> Subscription:
+    def _subscribe(self, topic: str, tap: _SharedSubscription) -> Subscription:
         clock = self.node.clock
 
         def take(raw: RawMessage, info: MessageInfo) -> None:
@@ -153,12 +153,12 @@ class Taps:
             announced=types[0] if types else "",
         )
 
-    def _leave(self, topic: str, tap: _Tap, listener: Listener) -> None:
+    def _leave(self, topic: str, tap: _SharedSubscription, listener: Listener) -> None:
         with self._lock:
             tap.listeners = tuple(one for one in tap.listeners if one is not listener)
-            over = not tap.listeners and self._taps.get(topic) is tap
+            over = not tap.listeners and self._subscriptions.get(topic) is tap
             if over:
-                del self._taps[topic]
+                del self._subscriptions[topic]
         if over and tap.subscription is not None:
             tap.subscription.unregister()
 

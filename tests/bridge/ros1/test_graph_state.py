@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.bridge.ros1.graph_state import TypeBook, traits_of, wishes_of
+from gazelle.bridge.ros1.graph_state import TypeBook, node_entities_of, ros_node_entities_of
 from gazelle.bridge.ros1.master_registry import Registry
 from gazelle.bridge.ros1.types import message_kind, service_kind
 from gazelle.graph import ANY_TYPE, Entity, Kind, Qos
@@ -28,7 +28,7 @@ def entity(kind: Kind, node: str, name: str = "", type_name: str = STRING, **qos
 
 
 def test_nodes_wish_for_what_they_have_announced(book: TypeBook) -> None:
-    found = wishes_of(
+    found = node_entities_of(
         [
             entity(Kind.NODE, "/a"),
             entity(Kind.PUBLISHER, "/a", "/out", latched=True),
@@ -52,7 +52,7 @@ def test_hidden_and_taken_names_have_another_name_in_ros1(book: TypeBook) -> Non
         entity(Kind.SUBSCRIPTION, "/_ros2cli_7", "/in"),
         entity(Kind.PUBLISHER, "/rosout", "/agg"),
     ]
-    found = wishes_of(entities, frozenset({"/rosout"}), NONE, book)
+    found = node_entities_of(entities, frozenset({"/rosout"}), NONE, book)
     assert {name: one.node for name, one in found.items()} == {
         "/ros1_bridge": "/_ros2cli_7",
         "/rosout_gazelle": "/rosout",
@@ -68,7 +68,7 @@ def test_what_ros1_has_no_use_for_stays(book: TypeBook, told: list[str]) -> None
         entity(Kind.PUBLISHER, "/a", "/odd", "odd_msgs/msg/Odd"),
         entity(Kind.PUBLISHER, "/b", "/odd", "odd_msgs/msg/Odd"),
     ]
-    found = wishes_of(entities, NONE, frozenset({"/skipped"}), book)
+    found = node_entities_of(entities, NONE, frozenset({"/skipped"}), book)
     assert not any(one.publishers or one.services for one in found.values())
     assert told == [
         "topic /odd of /a does not cross the bridge: nothing here defines its type odd_msgs/Odd\n"
@@ -84,7 +84,9 @@ def test_nodes_of_ros1_show_without_those_that_are_ours(book: TypeBook) -> None:
     registry.add_service("/a", "/known", "rosrpc://a:1", "http://a:1/")
     registry.add_service("/a", "/unknown", "rosrpc://a:1", "http://a:1/")
     kind = service_kind("std_srvs/Empty")
-    found = traits_of(registry.state(), frozenset({"/ours"}), NONE, {"/known": kind}, book)
+    found = ros_node_entities_of(
+        registry.state(), frozenset({"/ours"}), NONE, {"/known": kind}, book
+    )
     assert set(found) == {"/a"}
     assert found["/a"].publishers == {"/out": message_kind("std_msgs/String")}
     assert found["/a"].subscribers == {"/in": ANY_TYPE}

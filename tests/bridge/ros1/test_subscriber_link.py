@@ -9,7 +9,7 @@ import pytest
 from tests.bridge.ros1.peer import read_block
 from tests.patience import at_most
 
-from gazelle.bridge.ros1.subscriber_link import FrameQueue, Link
+from gazelle.bridge.ros1.subscriber_link import FrameQueue, SubscriberLink
 from gazelle.bridge.ros1.types import Frame, is_ros2_only, message_kind
 from gazelle.errors import GazelleError
 from gazelle.interfaces import message_type, to_cdr
@@ -45,7 +45,7 @@ def test_closed_queue_lets_go() -> None:
 def test_subscriber_that_stands_still_holds_up_nobody() -> None:
     ours, theirs = socket.socketpair()
     with ours, theirs:
-        link = Link(ours, "/slow", "/image")
+        link = SubscriberLink(ours, "/slow", "/image")
         link.start(b"")
         big = frame(1 << 20)
         with at_most(5.0):

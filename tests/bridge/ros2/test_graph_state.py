@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
-from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, Spoken, Wanted, crosses, wishes_of
-from gazelle.bridge.ros2.qos import Quality
-from gazelle.bridge.ros2.ros_graph import NOTHING, End, RosState
+from gazelle.bridge.ros2.graph_state import (
+    BRIDGE_NAME,
+    TopicOfNode,
+    TopicOfType,
+    crosses,
+    graph_entities_of,
+)
+from gazelle.bridge.ros2.qos import QosProfile
+from gazelle.bridge.ros2.ros_graph import NOTHING, RosEndpoint, RosState
 from gazelle.graph import ANY_TYPE, Entity, Kind
 from gazelle.graph.key_expressions import Qos
 
@@ -25,7 +31,7 @@ def test_hidden_names_stay_but_for_actions() -> None:
 
 
 def test_publishers_of_a_node_go_with_their_quality() -> None:
-    found = wishes_of(
+    found = graph_entities_of(
         [
             entity(Kind.NODE, "", type_name=""),
             entity(Kind.PUBLISHER, "/a", qos=Qos(reliable=False, depth=3)),
@@ -36,8 +42,8 @@ def test_publishers_of_a_node_go_with_their_quality() -> None:
     )
     assert found.nodes == {"/robot": "/robot"}
     assert found.publishers == {
-        Spoken("/robot", "/a", STRING): Quality(False, False, 3),
-        Spoken("/robot", "/b", STRING): Quality(True, True, 1),
+        TopicOfNode("/robot", "/a", STRING): QosProfile(False, False, 3),
+        TopicOfNode("/robot", "/b", STRING): QosProfile(True, True, 1),
     }
     assert found.services == {("/robot", "/c"): "std_srvs/srv/Empty"}
 
@@ -47,19 +53,21 @@ def test_a_topic_is_asked_for_once() -> None:
         entity(Kind.SUBSCRIPTION, "/a", node="/two"),
         entity(Kind.SUBSCRIPTION, "/a", node="/one"),
     ]
-    assert wishes_of(both, NOTHING).subscriptions == {Wanted("/a", STRING): "/one"}
+    assert graph_entities_of(both, NOTHING).subscriptions == {TopicOfType("/a", STRING): "/one"}
 
 
 def test_any_type_is_that_of_ros() -> None:
     any_type = [entity(Kind.SUBSCRIPTION, "/a", type_name=ANY_TYPE)]
-    assert wishes_of(any_type, NOTHING).subscriptions == {}
-    state = RosState((), (End("/n", "/a", STRING, True, False, 1),), (), ())
-    assert wishes_of(any_type, state).subscriptions == {Wanted("/a", STRING): "/robot"}
+    assert graph_entities_of(any_type, NOTHING).subscriptions == {}
+    state = RosState((), (RosEndpoint("/n", "/a", STRING, True, False, 1),), (), ())
+    assert graph_entities_of(any_type, state).subscriptions == {TopicOfType("/a", STRING): "/robot"}
 
 
 def test_name_that_ros_uses_gets_an_ending() -> None:
     state = RosState(("/robot",), (), (), ())
-    found = wishes_of([entity(Kind.NODE, ""), entity(Kind.NODE, "", node="/_ros2cli_1")], state)
+    found = graph_entities_of(
+        [entity(Kind.NODE, ""), entity(Kind.NODE, "", node="/_ros2cli_1")], state
+    )
     assert found.nodes == {"/robot": "/robot_gazelle", "/_ros2cli_1": BRIDGE_NAME}
 
 
@@ -72,7 +80,7 @@ def test_state_is_read_from_a_report() -> None:
             "services": [["/a", "/s", "std_srvs/srv/Empty"]],
         }
     )
-    assert state.publishers == (End("/a", "/t", STRING, True, False, 4),)
+    assert state.publishers == (RosEndpoint("/a", "/t", STRING, True, False, 4),)
     assert state.without(frozenset({"/a"})) == RosState(
-        ("/b",), (), (End("/b", "/t", STRING, False, True),), ()
+        ("/b",), (), (RosEndpoint("/b", "/t", STRING, False, True),), ()
     )

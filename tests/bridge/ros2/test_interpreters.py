@@ -16,7 +16,7 @@ from gazelle.bridge.ros2.interpreters import (
     is_open,
     sourced_hint,
 )
-from gazelle.bridge.ros2.rclpy_process import open_side
+from gazelle.bridge.ros2.rclpy_process import start_rclpy
 from gazelle.errors import GraphError
 
 
@@ -83,7 +83,7 @@ def test_no_rclpy_is_told_with_every_python_that_was_tried(tmp_path: Path) -> No
     ]
     environ = {"PATH": os.defpath}
     with pytest.raises(GraphError) as caught:
-        open_side(tried, environ, lambda _: "source it")
+        start_rclpy(tried, environ, lambda _: "source it")
     lines = str(caught.value).splitlines()
     assert lines[0] == "no Python with ROS 2's rclpy was found [bridge.no-rclpy]"
     assert lines[1].startswith(f"  {tmp_path}/none (--python): [Errno 2] No such file")

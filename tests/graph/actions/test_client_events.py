@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from tests.patience import eventually, stretched
 
-from gazelle.graph.actions.client_events import News
+from gazelle.graph.actions.client_events import ClientEvents
 from gazelle.graph.subscription import MAX_WAITING
 
 
@@ -25,7 +25,7 @@ def node() -> Any:
 
 def test_newest_of_a_topic_wait_and_what_is_told_once_is_not_dropped(node: Any) -> None:
     seen: list[Any] = []
-    news, begun, goes_on = News(node, "/dig"), threading.Event(), threading.Event()
+    news, begun, goes_on = ClientEvents(node, "/dig"), threading.Event(), threading.Event()
 
     def slow(message: int) -> None:
         begun.set()
@@ -54,7 +54,7 @@ def test_newest_of_a_topic_wait_and_what_is_told_once_is_not_dropped(node: Any) 
 
 def test_what_a_callback_raises_is_told_and_the_next_is_handled(node: Any) -> None:
     seen: list[int] = []
-    news = News(node, "/dig")
+    news = ClientEvents(node, "/dig")
     take = news.topic("/dig/feedback", lambda message: seen.append(10 // message))
     take(0)
     take(5)

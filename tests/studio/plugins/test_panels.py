@@ -66,7 +66,7 @@ def show(server: Server, tmp_path: Path) -> Iterator[Open]:
     def make(text: str = "", name: str = "mine.Mine") -> Shown:
         if text:
             (tmp_path / "mine.py").write_text(_HEAD + text)
-            server.studio.desk.name_file(str(tmp_path / "mine.py"))
+            server.studio.shown_panels.name_file(str(tmp_path / "mine.py"))
         opened.append(Shown(server, name))
         return opened[-1]
 

@@ -56,7 +56,7 @@ class Page:
         self._number += 1
         kind = STREAMS[stream]
         channel = Channel(
-            self._number, latest=kind.latest, outlet=self, workers=self.studio.workers
+            self._number, latest=kind.latest, frame_sink=self, workers=self.studio.workers
         )
         opened = kind.open(self.studio, channel, Params(stream, params))
         channel.begin(opened.info)

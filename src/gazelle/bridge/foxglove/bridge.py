@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote
 
 from gazelle.bridge.foxglove.channels import SchemaBook, Topics
-from gazelle.bridge.foxglove.client_publishers import Speech
-from gazelle.bridge.foxglove.clock import Pulse
+from gazelle.bridge.foxglove.client_publishers import ClientPublishers
+from gazelle.bridge.foxglove.clock import ViewerClock
 from gazelle.bridge.foxglove.parameters import NodeParameters, Parameters
 from gazelle.bridge.foxglove.server_interface import Allow, Connections, Requests, Viewers
 from gazelle.bridge.foxglove.services import Services
-from gazelle.bridge.sync_thread import Settling
+from gazelle.bridge.sync_thread import SyncThread
 from gazelle.errors import GazelleError
 from gazelle.graph import Entity, Kind
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.graph.names import is_hidden
 
 if TYPE_CHECKING:
@@ -95,30 +95,30 @@ class FoxgloveBridge:
         """
         self._graph = graph
         self._workspace = workspace
-        self._settling = Settling("foxglove bridge", self._settle, self._notice)
+        self._sync_thread = SyncThread("foxglove bridge", self._settle, self._notice)
         self._connections: Connections | None = None
         # A clock of a thousand ticks a second is of no use while nobody looks.
         graph.clock.use(False)
         taken = f"/{_NAME}" in graph.node_names()
         self._node = graph.create_node(_NAME, namespace="/", anonymous=taken)
-        self._speech = Speech(self._node, self._notice)
+        self._client_publishers = ClientPublishers(self._node, self._notice)
         nodes = NodeParameters(graph, self._node, self._notice)
         self._parameters = Parameters(graph.parameters, nodes, self._notice)
-        self._looking = Mailbox(self._look, size=0, name="foxglove viewers")
+        self._looking = CallbackQueue(self._look, size=0, name="foxglove viewers")
         try:
             self._viewers = make_viewers(self)
         except GazelleError:
             self._node.shutdown()
             raise
         book = SchemaBook(self._notice)
-        self._pulse = Pulse(graph, self._viewers.show_time)
-        self._topics = Topics(self._node, self._viewers, book, self._pulse.sim_time)
+        self._clock = ViewerClock(graph, self._viewers.show_time)
+        self._topics = Topics(self._node, self._viewers, book, self._clock.sim_time)
         services = Services(self._node, self._viewers, book)
         self._services = services if Allow.SERVICES in allow else None
         if Allow.PARAMETERS in allow:
             self._parameters.follow(self._viewers.show_parameters)
-        graph.discovery.listen(lambda entity, is_there: self._settling.touch())
-        self._settling.start(_IDLE_S)
+        graph.discovery.listen(lambda entity, is_there: self._sync_thread.touch())
+        self._sync_thread.start(_IDLE_S)
 
     @property
     def port(self) -> int:
@@ -131,14 +131,14 @@ class FoxgloveBridge:
 
     def close(self) -> None:
         """Say good-bye to all viewers; calling it twice does nothing."""
-        if not self._settling.close():
+        if not self._sync_thread.close():
             return
-        self._pulse.close()
+        self._clock.close()
         self._parameters.close()
         self._viewers.close()
         self._looking.close(_ENDING_S)
         self._topics.close()
-        self._speech.close()
+        self._client_publishers.close()
         self._node.shutdown()
 
     def subscribe(self, viewer: int, channel: int) -> None:
@@ -152,15 +152,15 @@ class FoxgloveBridge:
 
     def advertise(self, viewer: int, number: int, topic: str, type_name: str, words: str) -> None:
         """A viewer will publish a topic."""
-        self._speech.advertise((viewer, number), topic, type_name, words)
+        self._client_publishers.advertise((viewer, number), topic, type_name, words)
 
     def unadvertise(self, viewer: int, number: int) -> None:
         """A viewer publishes a topic no more."""
-        self._speech.unadvertise((viewer, number))
+        self._client_publishers.unadvertise((viewer, number))
 
     def publish(self, viewer: int, number: int, data: bytes) -> None:
         """A viewer sends a message."""
-        self._speech.publish((viewer, number), data)
+        self._client_publishers.publish((viewer, number), data)
 
     def get_parameters(self, names: Iterable[str]) -> dict[str, Any]:
         """Return parameters by name."""
@@ -178,7 +178,7 @@ class FoxgloveBridge:
         wants, viewer, channel = wish
         try:
             (self._topics.subscribe if wants else self._topics.unsubscribe)(viewer, channel)
-            self._pulse.beat(fast=self._topics.is_watched)
+            self._clock.beat(fast=self._topics.is_watched)
         except GazelleError as error:
             self._notice(str(error))
 

@@ -14,14 +14,14 @@ from gazelle.interfaces import fill, from_cdr, message_type, wire_type
 if TYPE_CHECKING:
     from gazelle.graph import Node, Publisher
 
-__all__ = ["Speech"]
+__all__ = ["ClientPublishers"]
 
 _MATCH_S = 1.0
 _PAUSE_S = 0.005
 _Key = tuple[int, int]
 
 
-class _Voice(NamedTuple):
+class _ClientPublisher(NamedTuple):
     publisher: Publisher
     is_json: bool
 
@@ -34,7 +34,7 @@ class _Voice(NamedTuple):
         return message
 
 
-class Speech:
+class ClientPublishers:
     """A publisher for each topic that a viewer has advertised."""
 
     def __init__(self, node: Node, notice: Callable[[str], None]) -> None:
@@ -47,7 +47,7 @@ class Speech:
         self._node = node
         self._notice = notice
         self._lock = threading.Lock()
-        self._voices: dict[_Key, _Voice] = {}
+        self._publishers: dict[_Key, _ClientPublisher] = {}
 
     def advertise(self, key: _Key, topic: str, type_name: str, words: str) -> None:
         """Let a viewer publish.
@@ -68,30 +68,32 @@ class Speech:
             self._notice(f"a viewer cannot publish {topic} as {type_name}: {error}")
             return
         with self._lock:
-            self._voices[key] = _Voice(publisher, words == "json")
+            self._publishers[key] = _ClientPublisher(publisher, words == "json")
         self._wait_for_ears(publisher)
 
     def unadvertise(self, key: _Key) -> None:
         """Let a viewer publish no more."""
         with self._lock:
-            voice = self._voices.pop(key, None)
-        if voice is not None:
-            voice.publisher.unregister()
+            client_publisher = self._publishers.pop(key, None)
+        if client_publisher is not None:
+            client_publisher.publisher.unregister()
 
     def publish(self, key: _Key, data: bytes) -> None:
         """Publish a viewer's message; one on a topic that was refused is dropped."""
         with self._lock:
-            voice = self._voices.get(key)
-        if voice is None:
+            client_publisher = self._publishers.get(key)
+        if client_publisher is None:
             return
         try:
-            voice.publisher.publish(voice.read(data))
+            client_publisher.publisher.publish(client_publisher.read(data))
         except (GazelleError, ValueError) as error:
-            self._notice(f"a viewer's message on {voice.publisher.topic} is dropped: {error}")
+            self._notice(
+                f"a viewer's message on {client_publisher.publisher.topic} is dropped: {error}"
+            )
 
     def close(self) -> None:
         """Let nobody publish any more."""
-        for key in tuple(self._voices):
+        for key in tuple(self._publishers):
             self.unadvertise(key)
 
     def _wait_for_ears(self, publisher: Publisher) -> None:

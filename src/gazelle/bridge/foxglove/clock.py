@@ -16,14 +16,14 @@ from gazelle.errors import GazelleError
 if TYPE_CHECKING:
     from gazelle.graph import Graph
 
-__all__ = ["Pulse"]
+__all__ = ["ViewerClock"]
 
 _FAST_S = 1 / 30
 _SLOW_S = 0.5
 _USE_SIM_TIME = "/use_sim_time"
 
 
-class Pulse:
+class ViewerClock:
     """Tells the time, often while somebody looks at a topic."""
 
     def __init__(self, graph: Graph, tell: Callable[[int], None]) -> None:

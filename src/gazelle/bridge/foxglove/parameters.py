@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import Kind
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.graph.names import check_name, resolve
 from gazelle.graph.ros2_parameter_values import value_from_message, value_message
 from gazelle.interfaces import message_type, service_type
@@ -148,7 +148,7 @@ class Parameters:
         self._store = store
         self._nodes = nodes
         self._notice = notice
-        self._changes: Mailbox | None = None
+        self._changes: CallbackQueue | None = None
 
     def follow(self, tell: Callable[[Mapping[str, Any]], None]) -> None:
         """Call back with what changes from now on; None for what is not set any more."""
@@ -164,7 +164,7 @@ class Parameters:
                 tell(changes)
 
         # The store waits for its listeners, and so may the server for the store.
-        self._changes = Mailbox(tell_changes, size=1, name="foxglove parameters")
+        self._changes = CallbackQueue(tell_changes, size=1, name="foxglove parameters")
         self._store.on_change(self._changes.put)
         self._nodes.follow(tell)
 

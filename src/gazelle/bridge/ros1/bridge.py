@@ -7,19 +7,24 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bag.definition_sharing import TextShare
-from gazelle.bridge.node_mirrors import Mirrors
+from gazelle.bridge.node_mirrors import NodeMirrors
 from gazelle.bridge.ros1.addresses import Address, MasterAddress
-from gazelle.bridge.ros1.connections import Crossing
-from gazelle.bridge.ros1.graph_state import BRIDGE_NAME, TypeBook, traits_of, wishes_of
+from gazelle.bridge.ros1.connections import Connections
+from gazelle.bridge.ros1.graph_state import (
+    BRIDGE_NAME,
+    TypeBook,
+    node_entities_of,
+    ros_node_entities_of,
+)
 from gazelle.bridge.ros1.master_connection import MasterPeer, find_master
 from gazelle.bridge.ros1.master_registry import State
 from gazelle.bridge.ros1.parameter_sync import ParameterSync
 from gazelle.bridge.ros1.service_types import ServiceTypes
 from gazelle.bridge.ros1.services import call_service
-from gazelle.bridge.ros1.slave_api import Presence, Wishes
+from gazelle.bridge.ros1.slave_api import NodeEntities, SlaveNode
 from gazelle.bridge.ros1.types import MessageKind, ServiceKind
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
-from gazelle.bridge.sync_thread import Settling
+from gazelle.bridge.sync_thread import SyncThread
 from gazelle.errors import GraphError
 from gazelle.graph import Publisher
 from gazelle.graph.errors import ServiceUnavailableError, coded
@@ -59,15 +64,15 @@ class Bridge:
         _refuse_second(graph)
         self._graph = graph
         self._lost = False
-        self._settling = Settling("ros1 bridge", self._look, self._notice)
-        self._presences: dict[str, Presence] = {}
+        self._sync_thread = SyncThread("ros1 bridge", self._look, self._notice)
+        self._slave_nodes: dict[str, SlaveNode] = {}
         self._node = graph.create_node(BRIDGE_NAME.strip("/"), namespace="/")
         # A clock of a thousand ticks a second is of no use to a bridge.
         graph.clock.use(False)
         self._workers = ThreadPoolExecutor(2, thread_name_prefix="ros1 bridge")
         try:
             self.master: MasterPeer = find_master(
-                graph.parameters, place, address, self._settling.touch, self._notice
+                graph.parameters, place, address, self._sync_thread.touch, self._notice
             )
         except GraphError:
             self._node.shutdown()
@@ -76,24 +81,24 @@ class Bridge:
         self._reserved = _NOTHING if self.master.is_embedded else _NODES_OF_ROSCORE
         self._book = TypeBook(self._notice, self._explain)
         self._services = ServiceTypes(
-            self.master.ask, self._settling.touch, self._book, self._notice
+            self.master.ask, self._sync_thread.touch, self._book, self._notice
         )
         uri = self.master.uri
-        self._mirrors: Mirrors[MessageKind, ServiceKind] = Mirrors(
+        self._mirrors: NodeMirrors[MessageKind, ServiceKind] = NodeMirrors(
             graph, self._node, self._call, self._end_in_ros1
         )
-        self._crossing = Crossing(graph, self._node, address, uri, self._voice_of)
-        self._own = Presence(self._crossing, self.master.ask, BRIDGE_NAME, BRIDGE_NAME)
-        self._crossing.own_uris.add(self._own.uri)
+        self._connections = Connections(graph, self._node, address, uri, self._voice_of)
+        self._own = SlaveNode(self._connections, self.master.ask, BRIDGE_NAME, BRIDGE_NAME)
+        self._connections.own_uris.add(self._own.uri)
         self._sync = self._joined_parameters()
         self._texts = TextShare(graph)
-        graph.discovery.listen(lambda entity, is_there: self._settling.touch())
-        self._settling.start(_IDLE_S if self.master.is_embedded else _POLL_S)
+        graph.discovery.listen(lambda entity, is_there: self._sync_thread.touch())
+        self._sync_thread.start(_IDLE_S if self.master.is_embedded else _POLL_S)
 
     @property
     def nodes(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Names of the graph's nodes in ROS 1, and of ROS 1's nodes on the graph."""
-        return tuple(sorted(self._presences)), self._mirrors.names
+        return tuple(sorted(self._slave_nodes)), self._mirrors.names
 
     def on_end(self, listener: Callable[[], None]) -> None:
         """Call back when somebody ends the bridge's node (``rosnode kill``)."""
@@ -101,14 +106,14 @@ class Bridge:
 
     def close(self) -> None:
         """Take everything that is of the other side off both; calling it twice does nothing."""
-        if not self._settling.close():
+        if not self._sync_thread.close():
             return
         self._services.close()
         self._texts.close()
         self._end_parameters()
         self._end_presences()
         self._mirrors.close()
-        self._crossing.close()
+        self._connections.close()
         self.master.close()
         self._workers.shutdown(wait=False, cancel_futures=True)
         self._node.shutdown()
@@ -124,21 +129,21 @@ class Bridge:
         state = self.master.state()
         self._register_again(state)
         entities = [one for one in self._graph.discovery.known() if one.zid != self._graph.zid]
-        taken = frozenset(node for node in _nodes(state) if node not in self._presences)
+        taken = frozenset(node for node in _nodes(state) if node not in self._slave_nodes)
         taken = (taken | self._reserved) - {BRIDGE_NAME}
-        wishes = wishes_of(entities, taken, self._skipped, self._book)
-        self._settle_presences(wishes)
-        own = frozenset({*self._presences, BRIDGE_NAME})
+        node_entities = node_entities_of(entities, taken, self._skipped, self._book)
+        self._settle_slave_nodes(node_entities)
+        own = frozenset({*self._slave_nodes, BRIDGE_NAME})
         services = self._services.of(one for one in state.services if one[0] not in own)
-        traits = traits_of(state, own, self._skipped, services, self._book)
-        self._mirrors.settle(traits)
-        self._settle_topics(wishes)
+        ros_entities = ros_node_entities_of(state, own, self._skipped, services, self._book)
+        self._mirrors.settle(ros_entities)
+        self._settle_topics(node_entities)
 
     def _register_again(self, state: State) -> None:
         """Have told again what a master lacks that was started anew since it was last asked."""
         forgotten = [one for one in self._all_presences if one.is_forgotten(state)]
-        for presence in forgotten:
-            presence.start_over()
+        for slave_node in forgotten:
+            slave_node.start_over()
         if forgotten and self._sync is not None and not self._lost:
             # Who listens to parameters is forgotten, too.
             self._lost = True
@@ -146,45 +151,49 @@ class Bridge:
             self._notice(text)
 
     @property
-    def _all_presences(self) -> tuple[Presence, ...]:
-        return *self._presences.values(), self._own
+    def _all_presences(self) -> tuple[SlaveNode, ...]:
+        return *self._slave_nodes.values(), self._own
 
-    def _settle_presences(self, wishes: dict[str, Wishes]) -> None:
-        wishes = dict(wishes)
-        self._settle_presence(self._own, wishes.pop(BRIDGE_NAME, Wishes(BRIDGE_NAME, {}, {}, {})))
-        gone = [one for name, one in self._presences.items() if name not in wishes]
-        self._presences = {k: one for k, one in self._presences.items() if k in wishes}
-        for presence in gone:
-            self._crossing.forget_offers(presence.wishes.node, presence.wishes.publishers)
-            self._crossing.own_uris.discard(presence.uri)
-            presence.close()
-        for name, one in wishes.items():
-            presence = self._presences.get(name) or self._add_presence(name, one.node)
-            self._settle_presence(presence, one)
+    def _settle_slave_nodes(self, node_entities: dict[str, NodeEntities]) -> None:
+        node_entities = dict(node_entities)
+        self._settle_slave_node(
+            self._own, node_entities.pop(BRIDGE_NAME, NodeEntities(BRIDGE_NAME, {}, {}, {}))
+        )
+        gone = [one for name, one in self._slave_nodes.items() if name not in node_entities]
+        self._slave_nodes = {k: one for k, one in self._slave_nodes.items() if k in node_entities}
+        for slave_node in gone:
+            self._connections.forget_published(
+                slave_node.node_entities.node, slave_node.node_entities.publishers
+            )
+            self._connections.own_uris.discard(slave_node.uri)
+            slave_node.close()
+        for name, one in node_entities.items():
+            slave_node = self._slave_nodes.get(name) or self._add_presence(name, one.node)
+            self._settle_slave_node(slave_node, one)
 
-    def _add_presence(self, name: str, node: str) -> Presence:
-        presence = Presence(self._crossing, self.master.ask, name, node)
-        self._crossing.own_uris.add(presence.uri)
-        self._presences = {**self._presences, name: presence}
-        return presence
+    def _add_presence(self, name: str, node: str) -> SlaveNode:
+        slave_node = SlaveNode(self._connections, self.master.ask, name, node)
+        self._connections.own_uris.add(slave_node.uri)
+        self._slave_nodes = {**self._slave_nodes, name: slave_node}
+        return slave_node
 
-    def _settle_presence(self, presence: Presence, wishes: Wishes) -> None:
-        gone = set(presence.wishes.publishers) - set(wishes.publishers)
-        self._crossing.forget_offers(presence.wishes.node, gone)
-        presence.settle(wishes)
+    def _settle_slave_node(self, slave_node: SlaveNode, node_entities: NodeEntities) -> None:
+        gone = set(slave_node.node_entities.publishers) - set(node_entities.publishers)
+        self._connections.forget_published(slave_node.node_entities.node, gone)
+        slave_node.settle(node_entities)
 
-    def _settle_topics(self, wishes: dict[str, Wishes]) -> None:
-        wanted = {topic for one in wishes.values() for topic in one.subscribers}
-        for topic in self._crossing.keep_topics(wanted):
+    def _settle_topics(self, node_entities: dict[str, NodeEntities]) -> None:
+        wanted = {topic for one in node_entities.values() for topic in one.subscribers}
+        for topic in self._connections.keep_topics(wanted):
             self._mirrors.forget_latched(topic)
 
     def _voice_of(
         self, node: str, topic: str, kind: MessageKind, latched: bool
     ) -> Publisher | None:
-        ours = node in self._presences or node == BRIDGE_NAME
-        if ours or self._settling.ended or not node.startswith("/"):
+        ours = node in self._slave_nodes or node == BRIDGE_NAME
+        if ours or self._sync_thread.ended or not node.startswith("/"):
             return None
-        return self._mirrors.voice(node, topic, kind, latched)
+        return self._mirrors.publisher(node, topic, kind, latched)
 
     def _call(self, service: str, kind: ServiceKind, request: Any) -> Any:
         try:
@@ -194,7 +203,7 @@ class Bridge:
         return call_service(uri, service, kind, BRIDGE_NAME, request)
 
     def _end_in_ros1(self, name: str, reason: str) -> None:
-        if not self._settling.ended:
+        if not self._sync_thread.ended:
             self._workers.submit(self._shut_down, name, reason)
 
     def _shut_down(self, name: str, reason: str) -> None:
@@ -207,7 +216,7 @@ class Bridge:
         if self.master.is_embedded:
             return None
         sync = ParameterSync(self._graph.parameters, self.master.ask, BRIDGE_NAME, self._notice)
-        self._crossing.on_parameter = sync.changed
+        self._connections.on_parameter = sync.changed
         try:
             sync.start(self._own.uri)
         except (RemoteError, RemoteRefusedError):
@@ -222,12 +231,12 @@ class Bridge:
                 self._lost = True
 
     def _end_presences(self) -> None:
-        for presence in self._all_presences:
+        for slave_node in self._all_presences:
             if self._lost:
                 # A master that does not answer would be waited for once for each name.
-                presence.start_over()
+                slave_node.start_over()
             try:
-                presence.close()
+                slave_node.close()
             except RemoteError:
                 self._lost = True
 
@@ -236,10 +245,10 @@ class Bridge:
             return
         self._lost = True
         self._notice(f"the master does not answer, the bridge waits for it: {error}")
-        for presence in self._all_presences:
-            presence.start_over()
+        for slave_node in self._all_presences:
+            slave_node.start_over()
         self._mirrors.close()
-        self._crossing.keep_topics(())
+        self._connections.keep_topics(())
 
     def _find_again(self) -> None:
         if self._lost and self._sync is not None:

@@ -8,10 +8,10 @@ from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.ros1.addresses import Address
-from gazelle.bridge.ros1.publisher import Offer, Outlet
+from gazelle.bridge.ros1.publisher import PublishedTopic, TcprosPublisher
 from gazelle.bridge.ros1.services import serve_requests
-from gazelle.bridge.ros1.subscriber import Inlet, PublisherOf
-from gazelle.bridge.ros1.subscriber_link import Link
+from gazelle.bridge.ros1.subscriber import PublisherOf, TcprosSubscriber
+from gazelle.bridge.ros1.subscriber_link import SubscriberLink
 from gazelle.bridge.ros1.types import ServiceKind
 from gazelle.errors import GazelleError
 from gazelle.graph.errors import ServiceCallError, ServiceRefusedError
@@ -19,10 +19,10 @@ from gazelle.graph.errors import ServiceCallError, ServiceRefusedError
 if TYPE_CHECKING:
     from gazelle.graph import Graph, Node
 
-__all__ = ["Crossing"]
+__all__ = ["Connections"]
 
 
-class Crossing:
+class Connections:
     """The traffic of all nodes; safe to use from many threads.
 
     Attributes:
@@ -56,19 +56,21 @@ class Crossing:
         self._node = node
         self._publisher_of = publisher_of
         self._lock = threading.RLock()
-        self._outlets: dict[str, Outlet] = {}
-        self._inlets: dict[str, Inlet] = {}
+        self._publishers: dict[str, TcprosPublisher] = {}
+        self._subscribers: dict[str, TcprosSubscriber] = {}
 
     def serve_topic(
-        self, stream: socket.socket, header: dict[str, str], offer: Offer, name: str
+        self, stream: socket.socket, header: dict[str, str], offer: PublishedTopic, name: str
     ) -> None:
         """Send a topic over a connection until the other side closes it."""
         topic = header["topic"]
         with self._lock:
-            outlet = self._outlets.get(topic)
-            if outlet is None:
-                outlet = self._outlets[topic] = Outlet(self._graph, topic, self.notice)
-        outlet.serve(stream, header, offer, name)
+            publisher = self._publishers.get(topic)
+            if publisher is None:
+                publisher = self._publishers[topic] = TcprosPublisher(
+                    self._graph, topic, self.notice
+                )
+        publisher.serve(stream, header, offer, name)
 
     def serve_service(
         self, stream: socket.socket, header: dict[str, str], kind: ServiceKind, name: str
@@ -98,38 +100,46 @@ class Crossing:
             name: of a node of the graph that wants it.
         """
         with self._lock:
-            inlet = self._inlets.get(topic)
-            if inlet is None:
-                inlet = Inlet(topic, name, self._publisher_of, self.notice)
-                self._inlets[topic] = inlet
-            inlet.update(uri for uri in uris if uri not in self.own_uris)
+            subscriber = self._subscribers.get(topic)
+            if subscriber is None:
+                subscriber = TcprosSubscriber(topic, name, self._publisher_of, self.notice)
+                self._subscribers[topic] = subscriber
+            subscriber.update(uri for uri in uris if uri not in self.own_uris)
 
     def keep_topics(self, wanted: Collection[str]) -> list[str]:
         """Take no other topics any more; return those given up."""
         with self._lock:
-            gone = [topic for topic in self._inlets if topic not in wanted]
+            gone = [topic for topic in self._subscribers if topic not in wanted]
             for topic in gone:
-                self._inlets.pop(topic).close()
+                self._subscribers.pop(topic).close()
         return gone
 
-    def forget_offers(self, node: str, topics: Collection[str]) -> None:
+    def forget_published(self, node: str, topics: Collection[str]) -> None:
         """End the connections of topics that a node of the graph publishes no more."""
         with self._lock:
-            outlets = [self._outlets[topic] for topic in topics if topic in self._outlets]
-        for outlet in outlets:
-            outlet.forget(node)
+            publishers = [self._publishers[topic] for topic in topics if topic in self._publishers]
+        for publisher in publishers:
+            publisher.forget(node)
 
-    def links_of(self, node: str) -> list[tuple[str, Link]]:
+    def links_of(self, node: str) -> list[tuple[str, SubscriberLink]]:
         """Return topic and connection of all that carries what a node publishes."""
         with self._lock:
-            outlets = list(self._outlets.values())
-        return [(outlet.topic, link) for outlet in outlets for link in outlet.links(node)]
+            publishers = list(self._publishers.values())
+        return [
+            (publisher.topic, link) for publisher in publishers for link in publisher.links(node)
+        ]
 
     def connections_of(self, topics: Collection[str]) -> list[tuple[str, str]]:
         """Return topic and publisher of the connections that bring these topics."""
         with self._lock:
-            inlets = [self._inlets[topic] for topic in topics if topic in self._inlets]
-        return [(inlet.topic, one[0]) for inlet in inlets for one in inlet.connections]
+            subscribers = [
+                self._subscribers[topic] for topic in topics if topic in self._subscribers
+            ]
+        return [
+            (subscriber.topic, one[0])
+            for subscriber in subscribers
+            for one in subscriber.connections
+        ]
 
     def end_node(self, node: str, reason: str) -> None:
         """End a node of the graph, some time soon."""
@@ -155,9 +165,9 @@ class Crossing:
         """End all connections."""
         self.keep_topics(())
         with self._lock:
-            outlets, self._outlets = self._outlets, {}
-        for outlet in outlets.values():
-            outlet.close()
+            publishers, self._publishers = self._publishers, {}
+        for publisher in publishers.values():
+            publisher.close()
 
     def _end_node(self, node: str, reason: str) -> None:
         try:

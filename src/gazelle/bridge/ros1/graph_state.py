@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import TypeVar
 
-from gazelle.bridge.node_mirrors import Traits
+from gazelle.bridge.node_mirrors import RosNodeEntities
 from gazelle.bridge.ros1.master_registry import State
-from gazelle.bridge.ros1.publisher import Offer
-from gazelle.bridge.ros1.slave_api import Wishes
+from gazelle.bridge.ros1.publisher import PublishedTopic
+from gazelle.bridge.ros1.slave_api import NodeEntities
 from gazelle.bridge.ros1.types import MessageKind, ServiceKind, is_ros2_only, message_kind
 from gazelle.bridge.ros1.types import service_kind as service_kind_of
 from gazelle.errors import GazelleError, NotFoundError
@@ -16,7 +16,7 @@ from gazelle.graph import ANY_TYPE, Entity, Kind
 from gazelle.graph.names import is_hidden, is_legal
 from gazelle.interfaces import ros1_type_of
 
-__all__ = ["BRIDGE_NAME", "TypeBook", "traits_of", "wishes_of"]
+__all__ = ["BRIDGE_NAME", "TypeBook", "node_entities_of", "ros_node_entities_of"]
 
 BRIDGE_NAME = "/ros1_bridge"
 _ALIAS = "_gazelle"
@@ -78,9 +78,9 @@ class TypeBook:
             say(text)
 
 
-def wishes_of(
+def node_entities_of(
     entities: Iterable[Entity], taken: frozenset[str], skipped: frozenset[str], book: TypeBook
-) -> dict[str, Wishes]:
+) -> dict[str, NodeEntities]:
     """Return what each node of the graph offers and wants, by its name in ROS 1.
 
     Args:
@@ -89,23 +89,23 @@ def wishes_of(
         skipped: topics that stay on their side.
         book: looks types up.
     """
-    found: dict[str, Wishes] = {}
+    found: dict[str, NodeEntities] = {}
     for one in entities:
         if one.kind is Kind.CLIENT or (one.kind is not Kind.NODE and not _crosses(one, skipped)):
             continue
         name = _ros1_name(one.node, taken)
-        wishes = found.setdefault(name, Wishes(one.node, {}, {}, {}))
-        _enter(one, wishes, book)
+        node_entities = found.setdefault(name, NodeEntities(one.node, {}, {}, {}))
+        _enter(one, node_entities, book)
     return found
 
 
-def traits_of(
+def ros_node_entities_of(
     state: State,
     own: frozenset[str],
     skipped: frozenset[str],
     services: Mapping[str, ServiceKind],
     book: TypeBook,
-) -> dict[str, Traits[MessageKind, ServiceKind]]:
+) -> dict[str, RosNodeEntities[MessageKind, ServiceKind]]:
     """Return what each node of ROS 1 offers and wants, by name.
 
     Args:
@@ -115,44 +115,44 @@ def traits_of(
         services: types of services that are known.
         book: looks types up.
     """
-    found: dict[str, Traits[MessageKind, ServiceKind]] = {}
+    found: dict[str, RosNodeEntities[MessageKind, ServiceKind]] = {}
 
     def crosses(node: str, name: str) -> bool:
         return node not in own and name not in skipped and is_legal(name)
 
-    def traits(node: str) -> Traits[MessageKind, ServiceKind]:
-        return found.setdefault(node, Traits({}, {}, {}))
+    def ros_entities(node: str) -> RosNodeEntities[MessageKind, ServiceKind]:
+        return found.setdefault(node, RosNodeEntities({}, {}, {}))
 
     for node, topic in state.publishers:
         type_name = state.types.get(topic, ANY_TYPE)
         if crosses(node, topic) and type_name != ANY_TYPE:
             kind = book.message(type_name, f"topic {topic} of {node}")
-            _put(traits(node).publishers, topic, kind)
+            _put(ros_entities(node).publishers, topic, kind)
     for node, topic in state.subscribers:
         if crosses(node, topic):
             type_name = state.types.get(topic, ANY_TYPE)
             known = book.message(type_name, f"topic {topic}") if type_name != ANY_TYPE else None
-            _put(traits(node).subscribers, topic, known.wire_name if known else ANY_TYPE)
+            _put(ros_entities(node).subscribers, topic, known.wire_name if known else ANY_TYPE)
     for node, service in state.services:
         if crosses(node, service):
-            _put(traits(node).services, service, services.get(service))
+            _put(ros_entities(node).services, service, services.get(service))
     return found
 
 
-def _enter(one: Entity, wishes: Wishes, book: TypeBook) -> None:
+def _enter(one: Entity, node_entities: NodeEntities, book: TypeBook) -> None:
     where = f"{one.name} of {one.node}"
     if one.kind is Kind.PUBLISHER:
         kind = book.message(one.type_name, f"topic {where}")
-        before = wishes.publishers.get(one.name)
+        before = node_entities.publishers.get(one.name)
         latched = one.qos.latched or (before is not None and before.latched)
-        _put(wishes.publishers, one.name, kind and Offer(one.node, kind, latched))
+        _put(node_entities.publishers, one.name, kind and PublishedTopic(one.node, kind, latched))
     elif one.kind is Kind.SUBSCRIPTION and one.type_name == ANY_TYPE:
-        _put(wishes.subscribers, one.name, ANY_TYPE)
+        _put(node_entities.subscribers, one.name, ANY_TYPE)
     elif one.kind is Kind.SUBSCRIPTION:
         kind = book.message(one.type_name, f"topic {where}")
-        _put(wishes.subscribers, one.name, kind and kind.ros1_name)
+        _put(node_entities.subscribers, one.name, kind and kind.ros1_name)
     elif one.kind is Kind.SERVICE:
-        _put(wishes.services, one.name, book.service(one.type_name, f"service {where}"))
+        _put(node_entities.services, one.name, book.service(one.type_name, f"service {where}"))
 
 
 def _full_ros1(kind: MessageKind | ServiceKind, name: str) -> str:

@@ -9,7 +9,7 @@ from gazelle.bridge.ros1.master_parameters import plain_value
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError
 from gazelle.errors import GraphError
 from gazelle.graph import ParameterStore
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.graph.parameter_tree import ParameterTree
 
 __all__ = ["ParameterSync"]
@@ -45,7 +45,9 @@ class ParameterSync:
         self._listens = False
         self._uri = ""
         # Listeners of the store must not wait for another process.
-        self._mailbox = Mailbox(lambda job: job[0](*job[1:]), size=0, name="ros1 parameters")
+        self._callback_queue = CallbackQueue(
+            lambda job: job[0](*job[1:]), size=0, name="ros1 parameters"
+        )
 
     def start(self, uri: str) -> None:
         """Bring both together; where both have a value the master's counts.
@@ -72,13 +74,13 @@ class ParameterSync:
                 self._send(name)
         if not self._listens:
             self._listens = True
-            self._store.on_change(lambda name: self._mailbox.put((self._send, name)))
+            self._store.on_change(lambda name: self._callback_queue.put((self._send, name)))
         if self._known.has(_RUN_ID):
             self._store_value(_RUN_ID, self._known.get(_RUN_ID))
 
     def changed(self, name: str, value: Any) -> None:
         """Take a change that the master tells of; an empty dictionary means it was deleted."""
-        self._mailbox.put((self._receive, name.rstrip("/") or _ROOT, value))
+        self._callback_queue.put((self._receive, name.rstrip("/") or _ROOT, value))
 
     def close(self, *, is_lost: bool = False) -> None:
         """Pass on nothing more.
@@ -89,7 +91,7 @@ class ParameterSync:
         Raises:
             RemoteError: the master does not answer any more.
         """
-        self._mailbox.close()
+        self._callback_queue.close()
         if self._uri and not is_lost:
             self._ask("unsubscribeParam", self._name, self._uri, _ROOT)
 

@@ -8,8 +8,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from gazelle.bag.definition_sharing import fetch_text
-from gazelle.bridge.raw_subscription import Sample, Tap
-from gazelle.bridge.ros1.subscriber_link import Link
+from gazelle.bridge.raw_subscription import RawSubscription, Sample
+from gazelle.bridge.ros1.subscriber_link import SubscriberLink
 from gazelle.bridge.ros1.tcpros import send_all, write_header
 from gazelle.bridge.ros1.types import Frame, MessageKind, message_kind
 from gazelle.errors import GazelleError
@@ -19,10 +19,10 @@ from gazelle.interfaces import RosVersion, ros1_definition
 if TYPE_CHECKING:
     from gazelle.graph import Graph
 
-__all__ = ["Offer", "Outlet"]
+__all__ = ["PublishedTopic", "TcprosPublisher"]
 
 
-class Offer(NamedTuple):
+class PublishedTopic(NamedTuple):
     """A topic as one node of the graph publishes it.
 
     Attributes:
@@ -36,7 +36,7 @@ class Offer(NamedTuple):
     latched: bool
 
 
-class Outlet:
+class TcprosPublisher:
     """Sends one topic to all who are connected; listens on the graph only while some are."""
 
     def __init__(self, graph: Graph, topic: str, notice: Callable[[str], None]) -> None:
@@ -45,12 +45,14 @@ class Outlet:
         self._graph = graph
         self._notice = notice
         self._lock = threading.Lock()
-        self._links: dict[str, list[Link]] = {}
+        self._links: dict[str, list[SubscriberLink]] = {}
         self._last: dict[str, Frame] = {}
-        self._tap: Tap | None = None
+        self._raw_subscription: RawSubscription | None = None
         self._refused: set[str] = set()
 
-    def serve(self, stream: socket.socket, header: dict[str, str], offer: Offer, name: str) -> None:
+    def serve(
+        self, stream: socket.socket, header: dict[str, str], offer: PublishedTopic, name: str
+    ) -> None:
         """Send what a node publishes over a connection, until the other side closes it.
 
         Args:
@@ -64,7 +66,7 @@ class Outlet:
             send_all(stream, [write_header({"error": problem})])
             self._notice(f"{header.get('callerid', 'a subscriber')}: {problem}")
             return
-        link = Link(stream, header.get("callerid", ""), self.topic)
+        link = SubscriberLink(stream, header.get("callerid", ""), self.topic)
         self._add(link, offer.node)
         try:
             fetch_text(self._graph, offer.kind.ros1_name, RosVersion.ROS1)
@@ -74,7 +76,7 @@ class Outlet:
             self._remove(link, offer.node)
             link.close()
 
-    def links(self, node: str) -> list[Link]:
+    def links(self, node: str) -> list[SubscriberLink]:
         """Return the connections that carry what a node publishes."""
         with self._lock:
             return list(self._links.get(node, ()))
@@ -94,16 +96,16 @@ class Outlet:
         for node in nodes:
             self.forget(node)
 
-    def _add(self, link: Link, node: str) -> None:
+    def _add(self, link: SubscriberLink, node: str) -> None:
         with self._lock:
             if node in self._last:
                 link.put(self._last[node])
             self._links.setdefault(node, []).append(link)
-            if self._tap is None:
-                self._tap = Tap(self._graph, self.topic, self._on_sample)
+            if self._raw_subscription is None:
+                self._raw_subscription = RawSubscription(self._graph, self.topic, self._on_sample)
 
-    def _remove(self, link: Link, node: str) -> None:
-        tap = None
+    def _remove(self, link: SubscriberLink, node: str) -> None:
+        raw_subscription = None
         with self._lock:
             links = self._links.get(node, [])
             if link in links:
@@ -111,10 +113,10 @@ class Outlet:
             if not links:
                 self._links.pop(node, None)
             if not self._links:
-                tap, self._tap = self._tap, None
+                raw_subscription, self._raw_subscription = self._raw_subscription, None
                 self._last.clear()
-        if tap is not None:
-            tap.close()
+        if raw_subscription is not None:
+            raw_subscription.close()
 
     def _on_sample(self, sample: Sample) -> None:
         with self._lock:
@@ -156,7 +158,7 @@ def _mismatch(header: dict[str, str], kind: MessageKind, topic: str) -> str:
     )
 
 
-def _answer(offer: Offer, topic: str, name: str) -> dict[str, str]:
+def _answer(offer: PublishedTopic, topic: str, name: str) -> dict[str, str]:
     return {
         "callerid": name,
         "latching": str(int(offer.latched)),

@@ -14,14 +14,14 @@ from typing import Any, NamedTuple, Protocol
 
 from gazelle.bridge.ros1.addresses import Address
 from gazelle.bridge.ros1.master_registry import State
-from gazelle.bridge.ros1.publisher import Offer
+from gazelle.bridge.ros1.publisher import PublishedTopic
 from gazelle.bridge.ros1.server_socket import Endpoint
-from gazelle.bridge.ros1.subscriber_link import Link
+from gazelle.bridge.ros1.subscriber_link import SubscriberLink
 from gazelle.bridge.ros1.tcpros import read_header, write_header
 from gazelle.bridge.ros1.types import ServiceKind
 from gazelle.bridge.ros1.xmlrpc_call import RemoteRefusedError
 
-__all__ = ["Ask", "Hub", "Presence", "Wishes"]
+__all__ = ["Ask", "Hub", "NodeEntities", "SlaveNode"]
 
 Ask = Callable[..., Any]
 """Calls a method of the master: (method, *arguments) → value."""
@@ -30,7 +30,7 @@ _READY = "ready on {host}:{port}"
 _TCPROS = "TCPROS"
 
 
-class Wishes(NamedTuple):
+class NodeEntities(NamedTuple):
     """What a node of the graph offers and wants.
 
     Attributes:
@@ -41,7 +41,7 @@ class Wishes(NamedTuple):
     """
 
     node: str
-    publishers: dict[str, Offer]
+    publishers: dict[str, PublishedTopic]
     subscribers: dict[str, str]
     services: dict[str, ServiceKind]
 
@@ -53,7 +53,7 @@ class Hub(Protocol):
     address: Address
 
     def serve_topic(
-        self, stream: socket.socket, header: dict[str, str], offer: Offer, name: str, /
+        self, stream: socket.socket, header: dict[str, str], offer: PublishedTopic, name: str, /
     ) -> None:
         """Send a topic over a connection."""
 
@@ -71,7 +71,7 @@ class Hub(Protocol):
     def process_of(self, node: str, /) -> int:
         """Return the process of a node of the graph, 0 when it is not known."""
 
-    def links_of(self, node: str, /) -> list[tuple[str, Link]]:
+    def links_of(self, node: str, /) -> list[tuple[str, SubscriberLink]]:
         """Return topic and connection of all that carries what a node publishes."""
 
     def connections_of(self, topics: Collection[str], /) -> list[tuple[str, str]]:
@@ -84,18 +84,18 @@ class Hub(Protocol):
         """Tell the user."""
 
 
-class Presence:
+class SlaveNode:
     """Speaks for one node.
 
     Attributes:
         name: the node's name in ROS 1.
-        wishes: what it offers and wants now.
+        node_entities: what it offers and wants now.
     """
 
     def __init__(self, hub: Hub, ask: Ask, name: str, node: str) -> None:
         """Open the node's port; nothing is registered yet."""
         self.name = name
-        self.wishes = Wishes(node, {}, {}, {})
+        self.node_entities = NodeEntities(node, {}, {}, {})
         self._hub = hub
         self._ask = ask
         self._lock = threading.Lock()
@@ -122,22 +122,24 @@ class Presence:
 
     @property
     def _node(self) -> str:
-        return self.wishes.node
+        return self.node_entities.node
 
-    def settle(self, wishes: Wishes) -> None:
+    def settle(self, node_entities: NodeEntities) -> None:
         """Make the registrations those of a new set of wishes.
 
         Raises:
             RemoteError: the master does not answer; call again later.
         """
-        before, self.wishes = self.wishes, wishes
+        before, self.node_entities = self.node_entities, node_entities
         wanted = {
-            *(("Publisher", name) for name in wishes.publishers),
-            *(("Subscriber", name) for name in wishes.subscribers),
-            *(("Service", name) for name in wishes.services),
+            *(("Publisher", name) for name in node_entities.publishers),
+            *(("Subscriber", name) for name in node_entities.subscribers),
+            *(("Service", name) for name in node_entities.services),
         }
         with self._lock:
-            changed = {key for key in wanted & self._registered if _differs(before, wishes, key)}
+            changed = {
+                key for key in wanted & self._registered if _differs(before, node_entities, key)
+            }
             for key in (self._registered - wanted) | changed:
                 self._unregister(*key)
             for key in sorted(wanted - self._registered):
@@ -186,7 +188,7 @@ class Presence:
             RemoteError: the master does not answer any more; the port is closed nevertheless.
         """
         try:
-            self.settle(Wishes(self.wishes.node, {}, {}, {}))
+            self.settle(NodeEntities(self.node_entities.node, {}, {}, {}))
         finally:
             self._endpoint.close()
 
@@ -195,10 +197,10 @@ class Presence:
             uri = self._endpoint.service_uri
             self._ask("registerService", self.name, name, uri, self.uri)
         elif what == "Publisher":
-            kind = self.wishes.publishers[name].kind
+            kind = self.node_entities.publishers[name].kind
             self._ask("registerPublisher", self.name, name, kind.ros1_name, self.uri)
         else:
-            type_name = self.wishes.subscribers[name]
+            type_name = self.node_entities.subscribers[name]
             found = self._ask("registerSubscriber", self.name, name, type_name, self.uri)
             self._hub.take_topic(name, list(found), self.name)
 
@@ -212,8 +214,8 @@ class Presence:
 
     def _take(self, stream: socket.socket) -> None:
         header = read_header(stream)
-        service = self.wishes.services.get(header.get("service", ""))
-        offer = self.wishes.publishers.get(header.get("topic", ""))
+        service = self.node_entities.services.get(header.get("service", ""))
+        offer = self.node_entities.publishers.get(header.get("topic", ""))
         if service is not None:
             self._hub.serve_service(stream, header, service, self.name)
         elif offer is not None:
@@ -236,7 +238,7 @@ class Presence:
         out = [(link.subscriber, "o", topic) for topic, link in self._hub.links_of(self._node)]
         into = [
             (publisher, "i", topic)
-            for topic, publisher in self._hub.connections_of(self.wishes.subscribers)
+            for topic, publisher in self._hub.connections_of(self.node_entities.subscribers)
         ]
         rows = [
             [number, other, way, _TCPROS, topic, True]
@@ -248,17 +250,21 @@ class Presence:
         return 1, self._hub.master_uri, self._hub.master_uri
 
     def _shutdown(self, _caller: str, reason: str = "") -> tuple[int, str, Any]:
-        self._hub.end_node(self.wishes.node, reason)
+        self._hub.end_node(self.node_entities.node, reason)
         return 1, "shutdown", 0
 
     def _pid(self, _caller: str) -> tuple[int, str, Any]:
-        return 1, "", self._hub.process_of(self.wishes.node) or os.getpid()
+        return 1, "", self._hub.process_of(self.node_entities.node) or os.getpid()
 
     def _subscriptions(self, _caller: str) -> tuple[int, str, Any]:
-        return 1, "subscriptions", [list(one) for one in sorted(self.wishes.subscribers.items())]
+        return (
+            1,
+            "subscriptions",
+            [list(one) for one in sorted(self.node_entities.subscribers.items())],
+        )
 
     def _publications(self, _caller: str) -> tuple[int, str, Any]:
-        offers = sorted(self.wishes.publishers.items())
+        offers = sorted(self.node_entities.publishers.items())
         return 1, "publications", [[topic, offer.kind.ros1_name] for topic, offer in offers]
 
     def _param_update(self, _caller: str, name: str, value: Any) -> tuple[int, str, Any]:
@@ -270,7 +276,7 @@ class Presence:
         return 1, "", 0
 
     def _request_topic(self, _caller: str, topic: str, protocols: Any) -> tuple[int, str, Any]:
-        if topic not in self.wishes.publishers:
+        if topic not in self.node_entities.publishers:
             return 0, f"Not a publisher of [{topic}]", 0
         names = [one[0] for one in protocols if isinstance(one, list) and one]
         if _TCPROS not in names:
@@ -279,7 +285,7 @@ class Presence:
         return 1, _READY.format(host=host, port=port), [_TCPROS, host, port]
 
 
-def _differs(before: Wishes, now: Wishes, key: tuple[str, str]) -> bool:
+def _differs(before: NodeEntities, now: NodeEntities, key: tuple[str, str]) -> bool:
     """Return whether a registration states another type than before."""
     what, name = key
     if what == "Publisher":

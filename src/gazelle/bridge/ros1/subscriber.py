@@ -15,7 +15,7 @@ from gazelle.errors import GazelleError, GraphError
 from gazelle.graph import ANY_TYPE, Publisher
 from gazelle.interfaces import RosVersion, keep_text
 
-__all__ = ["Inlet", "PublisherOf"]
+__all__ = ["PublisherOf", "TcprosSubscriber"]
 
 _CONNECT_S = 5.0
 _FIRST_PAUSE_S = 0.2
@@ -32,7 +32,7 @@ class PublisherOf(Protocol):
         """Return the publisher, None when the node may not speak there."""
 
 
-class Inlet:
+class TcprosSubscriber:
     """Takes one topic from all of its publishers in ROS 1."""
 
     def __init__(
@@ -82,16 +82,18 @@ class Inlet:
 class _Source:
     """The connection to one publisher; made again when it breaks."""
 
-    def __init__(self, inlet: Inlet, uri: str) -> None:
+    def __init__(self, subscriber: TcprosSubscriber, uri: str) -> None:
         self.node = ""
         self.received = 0
         self.received_bytes = 0
-        self._inlet = inlet
+        self._owner = subscriber
         self._uri = uri
         self._ended = threading.Event()
         self._stream: socket.socket | None = None
         self._told = False
-        threading.Thread(target=self._run, name=f"inlet {inlet.topic}", daemon=True).start()
+        threading.Thread(
+            target=self._run, name=f"subscriber {subscriber.topic}", daemon=True
+        ).start()
 
     def close(self) -> None:
         """End the connection and do not make it again."""
@@ -120,15 +122,17 @@ class _Source:
             pause_s = min(2 * pause_s, _MAX_PAUSE_S)
 
     def _take(self) -> None:
-        inlet = self._inlet
-        found = call(self._uri, "requestTopic", inlet._subscriber, inlet.topic, [[_TCPROS]])
+        subscriber = self._owner
+        found = call(
+            self._uri, "requestTopic", subscriber._subscriber, subscriber.topic, [[_TCPROS]]
+        )
         host, port = _place(found, self._uri)
         with socket.create_connection((host, port), _CONNECT_S) as stream:
             self._stream = stream
             if self._ended.is_set():
                 return
             stream.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-            stream.sendall(write_header(_request(inlet._subscriber, inlet.topic)))
+            stream.sendall(write_header(_request(subscriber._subscriber, subscriber.topic)))
             header = read_header(stream)
             publisher, kind = self._publisher(header)
             stream.settimeout(None)
@@ -141,7 +145,7 @@ class _Source:
         Raises:
             FrameError: it refuses, or its type is not the one that is known by this name.
         """
-        topic = self._inlet.topic
+        topic = self._owner.topic
         if "error" in header:
             raise FrameError(header["error"])
         kind = message_kind(header.get("type", ""))
@@ -154,7 +158,7 @@ class _Source:
         # The publisher's own words for the type, comments and all: bags keep them.
         keep_text(kind.ros1_name, RosVersion.ROS1, header.get("message_definition", ""))
         latched = header.get("latching") == "1"
-        publisher = self._inlet._publisher_of(header.get("callerid", ""), topic, kind, latched)
+        publisher = self._owner._publisher_of(header.get("callerid", ""), topic, kind, latched)
         if publisher is None:
             raise ConnectionError(f"{header.get('callerid')} is no publisher of {topic}")
         return publisher, kind
@@ -174,7 +178,7 @@ class _Source:
     def _tell(self, text: str) -> None:
         if not self._told:
             self._told = True
-            self._inlet._notice(f"messages on {self._inlet.topic} do not reach the graph: {text}")
+            self._owner._notice(f"messages on {self._owner.topic} do not reach the graph: {text}")
 
 
 def _place(found: Any, uri: str) -> tuple[str, int]:

@@ -10,7 +10,7 @@ from collections import deque
 from gazelle.bridge.ros1.tcpros import send_all
 from gazelle.bridge.ros1.types import Frame
 
-__all__ = ["FrameQueue", "Link"]
+__all__ = ["FrameQueue", "SubscriberLink"]
 
 _MAX_FRAMES = 1000
 _MAX_BYTES = 1 << 24
@@ -68,7 +68,7 @@ class FrameQueue:
         return count > self._most_frames or self._bytes > self._most_bytes
 
 
-class Link:
+class SubscriberLink:
     """Sends frames in a thread of its own, so a slow subscriber holds up nobody else.
 
     Attributes:

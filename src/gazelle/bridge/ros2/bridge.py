@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from gazelle.bridge.ros2.graph_state import BRIDGE_NAME
 from gazelle.bridge.ros2.interpreters import Interpreter
-from gazelle.bridge.ros2.rclpy_process import About, open_side
+from gazelle.bridge.ros2.rclpy_process import About, start_rclpy
 from gazelle.bridge.ros2.rclpy_session import Session
-from gazelle.bridge.sync_thread import Settling
+from gazelle.bridge.sync_thread import SyncThread
 from gazelle.errors import GraphError
 from gazelle.graph.errors import coded
 
@@ -42,15 +42,15 @@ class Bridge:
         _refuse_second(graph)
         self._graph = graph
         self._environ = environ
-        self._settling = Settling("ros2 bridge", self._settle, self._notice)
-        side = open_side(interpreters, environ)
-        self._interpreter = Interpreter(side.about.python, "as before")
+        self._sync_thread = SyncThread("ros2 bridge", self._settle, self._notice)
+        process = start_rclpy(interpreters, environ)
+        self._interpreter = Interpreter(process.about.python, "as before")
         self._node = graph.create_node(BRIDGE_NAME.strip("/"), namespace="/")
         # A clock of a thousand ticks a second is of no use to a bridge.
         graph.clock.use(False)
-        self._session = Session(graph, self._node, side, self._notice, self._settling.touch)
-        graph.discovery.listen(lambda entity, is_there: self._settling.touch())
-        self._settling.start(_POLL_S)
+        self._session = Session(graph, self._node, process, self._notice, self._sync_thread.touch)
+        graph.discovery.listen(lambda entity, is_there: self._sync_thread.touch())
+        self._sync_thread.start(_POLL_S)
 
     @property
     def about(self) -> About:
@@ -68,7 +68,7 @@ class Bridge:
 
     def close(self) -> None:
         """Take everything that is of the other side off both; calling it twice does nothing."""
-        if not self._settling.close():
+        if not self._sync_thread.close():
             return
         self._session.close()
         self._node.shutdown()
@@ -76,7 +76,7 @@ class Bridge:
     def _settle(self) -> None:
         if self._session.is_over:
             self._start_again()
-        if not self._settling.ended:
+        if not self._sync_thread.ended:
             self._session.settle()
 
     def _start_again(self) -> None:
@@ -86,15 +86,15 @@ class Bridge:
         )
         ghosts = frozenset({*self._session.nodes[0], BRIDGE_NAME})
         pause_s = _FIRST_PAUSE_S
-        while not self._settling.wait(pause_s):
+        while not self._sync_thread.wait(pause_s):
             try:
-                side = open_side([self._interpreter], self._environ)
+                process = start_rclpy([self._interpreter], self._environ)
             except GraphError as error:
                 self._notice(str(error))
                 pause_s = min(2 * pause_s, _MAX_PAUSE_S)
                 continue
             self._session = Session(
-                self._graph, self._node, side, self._notice, self._settling.touch, ghosts
+                self._graph, self._node, process, self._notice, self._sync_thread.touch, ghosts
             )
             return
 

@@ -7,10 +7,10 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gazelle.bridge.node_mirrors import Mirrors, Traits
-from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, Wanted, Wishes, crosses
-from gazelle.bridge.ros2.qos import Quality, request_for
-from gazelle.bridge.ros2.rclpy_process import Link
+from gazelle.bridge.node_mirrors import NodeMirrors, RosNodeEntities
+from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, GraphEntities, TopicOfType, crosses
+from gazelle.bridge.ros2.qos import QosProfile, request_for
+from gazelle.bridge.ros2.rclpy_process import RclpyLink
 from gazelle.bridge.ros2.ros_graph import NOTHING, RosState
 from gazelle.bridge.ros2.types import MessageKind, ServiceKind, TypeBook
 from gazelle.errors import GazelleError
@@ -19,7 +19,7 @@ from gazelle.interfaces import from_cdr, to_cdr
 if TYPE_CHECKING:
     from gazelle.graph import Graph, Node, Publisher
 
-__all__ = ["Inward"]
+__all__ = ["FromRos"]
 
 _MATCH_S = 0.3
 _MATCH_PERIOD_S = 0.002
@@ -28,22 +28,22 @@ _MATCH_PERIOD_S = 0.002
 class _Asked(NamedTuple):
     channel: int
     node: str
-    quality: Quality
+    qos: QosProfile
 
 
-class _Voice(NamedTuple):
+class _Publication(NamedTuple):
     kind: MessageKind
     latched: bool
 
 
-class Inward:
+class FromRos:
     """Keeps the graph's view of ROS current; `settle` is called from one thread."""
 
     def __init__(
         self,
         graph: Graph,
         node: Node,
-        link: Link,
+        link: RclpyLink,
         book: TypeBook,
         notice: Callable[[str], None],
     ) -> None:
@@ -59,15 +59,15 @@ class Inward:
         self._link = link
         self._book = book
         self._notice = notice
-        self._mirrors: Mirrors[MessageKind, ServiceKind] = Mirrors(
+        self._mirrors: NodeMirrors[MessageKind, ServiceKind] = NodeMirrors(
             graph, node, self._call, self._end_in_ros
         )
         self._lock = threading.Lock()
         self._state = NOTHING
-        self._speakers: dict[int, str] = {}
-        self._voices: dict[tuple[str, str], _Voice] = {}
-        self._asked: dict[Wanted, _Asked] = {}
-        self._topics: dict[int, Wanted] = {}
+        self._publisher_nodes: dict[int, str] = {}
+        self._publications: dict[tuple[str, str], _Publication] = {}
+        self._asked: dict[TopicOfType, _Asked] = {}
+        self._topics: dict[int, TopicOfType] = {}
         self._clients: dict[str, int] = {}
         self._heard: set[bytes] = set()
         self._told: set[tuple[str, str]] = set()
@@ -77,21 +77,21 @@ class Inward:
         """Names of ROS's nodes on the graph."""
         return self._mirrors.names
 
-    def settle(self, wishes: Wishes, state: RosState) -> None:
+    def settle(self, graph_entities: GraphEntities, state: RosState) -> None:
         """Show what ROS has; take the topics from it that the graph wants."""
         self._state = state
-        self._speakers = {one.number: one.node for one in state.publishers}
-        traits = self._traits(state)
+        self._publisher_nodes = {one.number: one.node for one in state.publishers}
+        ros_entities = self._ros_entities_of(state)
         latched = {(one.node, one.topic) for one in state.publishers if one.latched}
-        self._voices = {
-            (node, topic): _Voice(kind, (node, topic) in latched)
-            for node, one in traits.items()
+        self._publications = {
+            (node, topic): _Publication(kind, (node, topic) in latched)
+            for node, one in ros_entities.items()
             for topic, kind in one.publishers.items()
         }
-        self._mirrors.settle(traits)
-        for node, topic in latched & set(self._voices):
-            self._mirrors.voice(node, topic, self._voices[node, topic].kind, True)
-        self._settle_topics(wishes, state)
+        self._mirrors.settle(ros_entities)
+        for node, topic in latched & set(self._publications):
+            self._mirrors.publisher(node, topic, self._publications[node, topic].kind, True)
+        self._settle_topics(graph_entities, state)
         self._settle_clients(state)
 
     def owner_of(self, channel: int) -> tuple[str, str] | None:
@@ -107,7 +107,7 @@ class Inward:
         if wanted is None:
             return
         try:
-            publisher = self._voice(wanted, number)
+            publisher = self._publisher_of(wanted, number)
             if publisher is None:
                 return
             if publisher.gid not in self._heard:
@@ -121,21 +121,23 @@ class Inward:
         """Take everything of ROS off the graph."""
         self._mirrors.close()
 
-    def _traits(self, state: RosState) -> dict[str, Traits[MessageKind, ServiceKind]]:
-        found: dict[str, Traits[MessageKind, ServiceKind]] = {
-            name: Traits({}, {}, {}) for name in state.nodes
+    def _ros_entities_of(
+        self, state: RosState
+    ) -> dict[str, RosNodeEntities[MessageKind, ServiceKind]]:
+        found: dict[str, RosNodeEntities[MessageKind, ServiceKind]] = {
+            name: RosNodeEntities({}, {}, {}) for name in state.nodes
         }
         for end in state.publishers:
-            traits = found.setdefault(end.node, Traits({}, {}, {}))
+            ros_entities = found.setdefault(end.node, RosNodeEntities({}, {}, {}))
             if crosses(end.topic, end.type_name):
                 where = f"topic {end.topic} of {end.node}"
                 kind = self._book.message(end.type_name, where, reliable=end.reliable)
                 if kind is not None:
-                    traits.publishers[end.topic] = kind
+                    ros_entities.publishers[end.topic] = kind
         for end in state.subscriptions:
-            traits = found.setdefault(end.node, Traits({}, {}, {}))
+            ros_entities = found.setdefault(end.node, RosNodeEntities({}, {}, {}))
             if crosses(end.topic, end.type_name):
-                traits.subscribers[end.topic] = end.type_name
+                ros_entities.subscribers[end.topic] = end.type_name
         for node, name, type_name in state.services:
             if crosses(name, type_name):
                 service = self._book.service(type_name, f"service {name} of {node}")
@@ -143,35 +145,35 @@ class Inward:
                     found[node].services[name] = service
         return found
 
-    def _settle_topics(self, wishes: Wishes, state: RosState) -> None:
-        wanted: dict[Wanted, tuple[str, Quality]] = {}
-        for key, node in wishes.subscriptions.items():
+    def _settle_topics(self, graph_entities: GraphEntities, state: RosState) -> None:
+        wanted: dict[TopicOfType, tuple[str, QosProfile]] = {}
+        for key, node in graph_entities.subscriptions.items():
             ends = [one for one in state.publishers if (one.topic, one.type_name) == key]
-            quality, told = request_for(key.topic, ends)
+            qos, told = request_for(key.topic, ends)
             for policy, text in told.items():
                 self._tell(key.topic, policy, text)
             if not self._book.is_missing(key.type_name):
-                wanted[key] = (node, quality)
+                wanted[key] = (node, qos)
         for key, asked in list(self._asked.items()):
-            if wanted.get(key) != (asked.node, asked.quality):
+            if wanted.get(key) != (asked.node, asked.qos):
                 self._give_up(key, asked, is_wanted=key in wanted)
-        for key, (node, quality) in wanted.items():
+        for key, (node, qos) in wanted.items():
             if key not in self._asked:
-                self._ask(key, node, quality)
+                self._ask(key, node, qos)
 
-    def _ask(self, key: Wanted, node: str, quality: Quality) -> None:
+    def _ask(self, key: TopicOfType, node: str, qos: QosProfile) -> None:
         with self._lock:
             channel = self._link.do(
                 "subscription",
                 node=node,
                 topic=key.topic,
                 type=key.type_name,
-                **quality._asdict(),
+                **qos._asdict(),
             )
-            self._asked[key] = _Asked(channel, node, quality)
+            self._asked[key] = _Asked(channel, node, qos)
             self._topics[channel] = key
 
-    def _give_up(self, key: Wanted, asked: _Asked, *, is_wanted: bool) -> None:
+    def _give_up(self, key: TopicOfType, asked: _Asked, *, is_wanted: bool) -> None:
         with self._lock:
             self._topics.pop(asked.channel, None)
             del self._asked[key]
@@ -186,17 +188,17 @@ class Inward:
         for channel in gone:
             self._link.drop(channel)
 
-    def _voice(self, wanted: Wanted, number: int) -> Publisher | None:
+    def _publisher_of(self, wanted: TopicOfType, number: int) -> Publisher | None:
         topic, type_name = wanted
-        node = self._speakers.get(number) or self._only_speaker(wanted)
-        found = self._voices.get((node, topic))
+        node = self._publisher_nodes.get(number) or self._only_publisher(wanted)
+        found = self._publications.get((node, topic))
         if found is not None and found.kind.type_name == type_name:
-            return self._mirrors.voice(node, topic, found.kind, found.latched)
+            return self._mirrors.publisher(node, topic, found.kind, found.latched)
         # It speaks before ROS has told of it.
         kind = self._book.message(type_name, f"topic {topic}", reliable=True)
-        return kind and self._mirrors.voice(BRIDGE_NAME, topic, kind, False)
+        return kind and self._mirrors.publisher(BRIDGE_NAME, topic, kind, False)
 
-    def _only_speaker(self, wanted: Wanted) -> str:
+    def _only_publisher(self, wanted: TopicOfType) -> str:
         """Whoever speaks when nobody says: an older rclpy, or a publisher that is just new."""
         found = (one.node for one in self._state.publishers if one[1:3] == wanted)
         return next(found, BRIDGE_NAME)

@@ -5,12 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from gazelle.bridge.ros2.qos import Quality
+from gazelle.bridge.ros2.qos import QosProfile
 from gazelle.bridge.ros2.ros_graph import RosState
 from gazelle.graph import ANY_TYPE, Entity, Kind
 from gazelle.graph.names import is_hidden, is_legal_base, split
 
-__all__ = ["BRIDGE_NAME", "Spoken", "Wanted", "Wishes", "crosses", "wishes_of"]
+__all__ = [
+    "BRIDGE_NAME",
+    "GraphEntities",
+    "TopicOfNode",
+    "TopicOfType",
+    "crosses",
+    "graph_entities_of",
+]
 
 BRIDGE_NAME = "/ros2_bridge"
 _ALIAS = "_gazelle"
@@ -18,7 +25,7 @@ _ACTION = "/_action/"
 _OWN_OF_EACH_NODE = "type_description_interfaces/"
 
 
-class Spoken(NamedTuple):
+class TopicOfNode(NamedTuple):
     """A topic as one node in ROS offers it for the graph.
 
     Attributes:
@@ -32,14 +39,14 @@ class Spoken(NamedTuple):
     type_name: str
 
 
-class Wanted(NamedTuple):
+class TopicOfType(NamedTuple):
     """A topic of one type that the graph wants from ROS."""
 
     topic: str
     type_name: str
 
 
-class Wishes(NamedTuple):
+class GraphEntities(NamedTuple):
     """All that the graph has for ROS and wants of it.
 
     Attributes:
@@ -50,8 +57,8 @@ class Wishes(NamedTuple):
     """
 
     nodes: dict[str, str]
-    publishers: dict[Spoken, Quality]
-    subscriptions: dict[Wanted, str]
+    publishers: dict[TopicOfNode, QosProfile]
+    subscriptions: dict[TopicOfType, str]
     services: dict[tuple[str, str], str]
 
 
@@ -66,14 +73,14 @@ def crosses(name: str, type_name: str) -> bool:
     return not type_name.startswith(_OWN_OF_EACH_NODE)
 
 
-def wishes_of(entities: Iterable[Entity], state: RosState) -> Wishes:
+def graph_entities_of(entities: Iterable[Entity], state: RosState) -> GraphEntities:
     """Return what the graph has for ROS and wants of it.
 
     Args:
         entities: of the graph, without those that come from ROS.
         state: of ROS; a node of the graph has another name there if its own is taken.
     """
-    found = Wishes({}, {}, {}, {})
+    found = GraphEntities({}, {}, {}, {})
     taken = frozenset(state.nodes)
     for one in sorted(entities, key=lambda one: (one.node, one.name, one.type_name)):
         name = found.nodes.setdefault(one.node, _ros_name(one.node, taken))
@@ -88,23 +95,23 @@ def wishes_of(entities: Iterable[Entity], state: RosState) -> Wishes:
     return found
 
 
-def _enter_publisher(found: Wishes, name: str, one: Entity) -> None:
-    key = Spoken(name, one.name, one.type_name)
-    own = Quality(one.qos.reliable, one.qos.latched, max(one.qos.depth, 1))
+def _enter_publisher(found: GraphEntities, name: str, one: Entity) -> None:
+    key = TopicOfNode(name, one.name, one.type_name)
+    own = QosProfile(one.qos.reliable, one.qos.latched, max(one.qos.depth, 1))
     before = found.publishers.get(key, own)
-    found.publishers[key] = Quality(
+    found.publishers[key] = QosProfile(
         own.reliable or before.reliable,
         own.latched or before.latched,
         max(own.depth, before.depth),
     )
 
 
-def _enter_subscription(found: Wishes, name: str, one: Entity, state: RosState) -> None:
+def _enter_subscription(found: GraphEntities, name: str, one: Entity, state: RosState) -> None:
     types = {one.type_name}
     if one.type_name == ANY_TYPE:
         types = {end.type_name for end in state.publishers if end.topic == one.name}
     for type_name in types:
-        found.subscriptions.setdefault(Wanted(one.name, type_name), name)
+        found.subscriptions.setdefault(TopicOfType(one.name, type_name), name)
 
 
 def _ros_name(node: str, taken: frozenset[str]) -> str:

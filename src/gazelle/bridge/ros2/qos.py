@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from gazelle.bridge.ros2.ros_graph import End
+from gazelle.bridge.ros2.ros_graph import RosEndpoint
 from gazelle.graph.errors import coded
 
-__all__ = ["Quality", "request_for", "widened"]
+__all__ = ["QosProfile", "request_for", "widened"]
 
 _FEW, _MANY = 20, 100
 
 
-class Quality(NamedTuple):
+class QosProfile(NamedTuple):
     """A quality of service, as far as the bridge cares.
 
     Attributes:
@@ -28,8 +28,8 @@ class Quality(NamedTuple):
 
 
 def widened(
-    node: str, topic: str, offered: Quality, asked: Iterable[End]
-) -> tuple[Quality, dict[str, str]]:
+    node: str, topic: str, offered: QosProfile, asked: Iterable[RosEndpoint]
+) -> tuple[QosProfile, dict[str, str]]:
     """Return what to offer in ROS for a publisher of the graph so that all who ask are served.
 
     Args:
@@ -59,10 +59,10 @@ def widened(
                 "DURABILITY",
             )
     reliable = offered.reliable or "RELIABILITY" in told
-    return Quality(reliable, offered.latched or "DURABILITY" in told, offered.depth), told
+    return QosProfile(reliable, offered.latched or "DURABILITY" in told, offered.depth), told
 
 
-def request_for(topic: str, publishers: Iterable[End]) -> tuple[Quality, dict[str, str]]:
+def request_for(topic: str, publishers: Iterable[RosEndpoint]) -> tuple[QosProfile, dict[str, str]]:
     """Return what to ask for in ROS so that every publisher of a topic is heard.
 
     Args:
@@ -79,14 +79,14 @@ def request_for(topic: str, publishers: Iterable[End]) -> tuple[Quality, dict[st
         told["DURABILITY"] = coded(
             "bridge.qos-mixed",
             f"topic {topic} has latched (transient local) publishers and others in ROS 2: "
-            f"{', '.join(sorted(_words(one) for one in found))}; what was latched before the "
+            f"{', '.join(sorted(_latched_text(one) for one in found))}; what was latched before the "
             "bridge asked does not cross",
         )
     reliable = all(one.reliable for one in found)
-    return Quality(reliable, latched, _MANY if latched else _FEW), told
+    return QosProfile(reliable, latched, _MANY if latched else _FEW), told
 
 
-def _words(one: End) -> str:
+def _latched_text(one: RosEndpoint) -> str:
     return f"{one.node} {'latched' if one.latched else 'volatile'}"
 
 

@@ -14,7 +14,7 @@ from gazelle.bridge.ros2.rclpy_side.pipes import Frame, FrameKind, Pipes
 from gazelle.errors import GraphError
 from gazelle.graph.errors import ServiceRefusedError, coded
 
-__all__ = ["About", "Hearer", "Link", "Outcome", "Side", "open_side"]
+__all__ = ["About", "LinkListener", "Outcome", "RclpyLink", "RclpyProcess", "start_rclpy"]
 
 _SCRIPT = Path(__file__).parent / "rclpy_side" / "run.py"
 _START_S = 60.0
@@ -35,7 +35,7 @@ class Outcome(NamedTuple):
     type_hash: str
 
 
-class Hearer(Protocol):
+class LinkListener(Protocol):
     """Who is told what comes; all methods are called from one thread and must not wait for it."""
 
     def on_state(self, state: dict[str, Any]) -> None:
@@ -62,13 +62,13 @@ class _Call:
         self.error = ""
 
 
-class Link:
+class RclpyLink:
     """One connection; safe to use from many threads. After its end it does nothing."""
 
-    def __init__(self, pipes: Pipes, hearer: Hearer) -> None:
+    def __init__(self, pipes: Pipes, listener: LinkListener) -> None:
         """Begin to listen."""
         self._pipes = pipes
-        self._hearer = hearer
+        self._listener = listener
         self._channels = itertools.count(1)
         self._numbers = itertools.count(1)
         self._lock = threading.Lock()
@@ -147,14 +147,14 @@ class Link:
             with self._lock:
                 self._ended = True
             self.fail_calls(None, "the bridge's half in ROS 2 has ended")
-            self._hearer.on_end()
+            self._listener.on_end()
 
     def _hear(self, frame: Frame) -> None:
         kind, channel, number, data = frame
         if kind == FrameKind.MESSAGE:
-            self._hearer.on_message(channel, number, data)
+            self._listener.on_message(channel, number, data)
         elif kind == FrameKind.REQUEST:
-            self._hearer.on_request(channel, number, data)
+            self._listener.on_request(channel, number, data)
         elif kind == FrameKind.CONTROL:
             self._report(frame.control())
         else:
@@ -162,9 +162,9 @@ class Link:
 
     def _report(self, words: dict[str, Any]) -> None:
         if words.pop("report") == "state":
-            self._hearer.on_state(words)
+            self._listener.on_state(words)
         else:
-            self._hearer.on_done(words.pop("channel"), Outcome(**words))
+            self._listener.on_done(words.pop("channel"), Outcome(**words))
 
     def _finish(self, number: int, data: bytes, *, is_failure: bool) -> None:
         with self._lock:
@@ -197,7 +197,7 @@ class _StartError(Exception):
     """This Python has no ROS 2; the text says why."""
 
 
-class Side:
+class RclpyProcess:
     """The running process.
 
     Attributes:
@@ -256,11 +256,11 @@ class Side:
         return About(words["python"], words["rmw"], words["distro"], words["pid"], prefixes)
 
 
-def open_side(
+def start_rclpy(
     interpreters: Iterable[Interpreter],
     environ: Mapping[str, str],
     hint: Callable[[Mapping[str, str]], str] = sourced_hint,
-) -> Side:
+) -> RclpyProcess:
     """Start ROS's half with the first Python that can.
 
     Args:
@@ -274,7 +274,7 @@ def open_side(
     reasons = []
     for one in interpreters:
         try:
-            return Side(one, environ)
+            return RclpyProcess(one, environ)
         except _StartError as error:
             reasons.append(f"  {one.path} ({one.source}): {error}")
     text = coded("bridge.no-rclpy", "no Python with ROS 2's rclpy was found", fix=hint(environ))

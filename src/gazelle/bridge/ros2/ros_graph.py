@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-__all__ = ["NOTHING", "End", "Offered", "RosState"]
+__all__ = ["NOTHING", "RosEndpoint", "RosService", "RosState"]
 
 
-class End(NamedTuple):
+class RosEndpoint(NamedTuple):
     """A publisher or a subscription of a node in ROS.
 
     Attributes:
@@ -27,7 +27,7 @@ class End(NamedTuple):
     number: int = 0
 
 
-class Offered(NamedTuple):
+class RosService(NamedTuple):
     """A service of a node in ROS."""
 
     node: str
@@ -39,18 +39,18 @@ class RosState(NamedTuple):
     """All nodes, topics and services of ROS but the bridge's own."""
 
     nodes: tuple[str, ...]
-    publishers: tuple[End, ...]
-    subscriptions: tuple[End, ...]
-    services: tuple[Offered, ...]
+    publishers: tuple[RosEndpoint, ...]
+    subscriptions: tuple[RosEndpoint, ...]
+    services: tuple[RosService, ...]
 
     @classmethod
     def from_report(cls, words: dict[str, Any]) -> RosState:
         """Read a report."""
         return cls(
             tuple(row[0] for row in words["nodes"]),
-            tuple(End(*row) for row in words["publishers"]),
-            tuple(End(*row) for row in words["subscriptions"]),
-            tuple(Offered(*row) for row in words["services"]),
+            tuple(RosEndpoint(*row) for row in words["publishers"]),
+            tuple(RosEndpoint(*row) for row in words["subscriptions"]),
+            tuple(RosService(*row) for row in words["services"]),
         )
 
     def without(self, names: frozenset[str]) -> RosState:

@@ -6,10 +6,10 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gazelle.bridge.raw_subscription import Sample, Tap
-from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, Spoken, Wishes
-from gazelle.bridge.ros2.qos import Quality, widened
-from gazelle.bridge.ros2.rclpy_process import Link
+from gazelle.bridge.raw_subscription import RawSubscription, Sample
+from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, GraphEntities, TopicOfNode
+from gazelle.bridge.ros2.qos import QosProfile, widened
+from gazelle.bridge.ros2.rclpy_process import RclpyLink
 from gazelle.bridge.ros2.ros_graph import RosState
 from gazelle.bridge.ros2.types import ServiceKind, TypeBook
 from gazelle.errors import GazelleError
@@ -18,7 +18,7 @@ from gazelle.interfaces import from_cdr, to_cdr
 if TYPE_CHECKING:
     from gazelle.graph import Graph, Node, ServiceClient
 
-__all__ = ["Outward"]
+__all__ = ["ToRos"]
 
 
 class _Served(NamedTuple):
@@ -29,17 +29,17 @@ class _Served(NamedTuple):
 
 class _Channel(NamedTuple):
     number: int
-    quality: Quality
+    qos: QosProfile
 
 
-class Outward:
+class ToRos:
     """Keeps ROS's view of the graph current; `settle` is called from one thread."""
 
     def __init__(
         self,
         graph: Graph,
         node: Node,
-        link: Link,
+        link: RclpyLink,
         book: TypeBook,
         notice: Callable[[str], None],
     ) -> None:
@@ -60,11 +60,11 @@ class Outward:
         self._lock = threading.Lock()
         self._nodes: set[str] = {BRIDGE_NAME}
         self._names: dict[str, str] = {}
-        self._publishers: dict[Spoken, _Channel] = {}
+        self._publishers: dict[TopicOfNode, _Channel] = {}
         self._services: dict[tuple[str, str], int] = {}
         self._served: dict[int, _Served] = {}
         self._ready: set[int] = set()
-        self._taps: dict[str, Tap] = {}
+        self._raw_subscriptions: dict[str, RawSubscription] = {}
         self._told: set[tuple[str, str]] = set()
 
     @property
@@ -72,14 +72,14 @@ class Outward:
         """Names in ROS of the graph's nodes."""
         return tuple(sorted(self._nodes - {BRIDGE_NAME}))
 
-    def settle(self, wishes: Wishes, state: RosState) -> None:
+    def settle(self, graph_entities: GraphEntities, state: RosState) -> None:
         """Show these nodes, topics and services and no others; listen to what is wanted."""
-        self._names = wishes.nodes
-        names = {*wishes.nodes.values(), BRIDGE_NAME}
+        self._names = graph_entities.nodes
+        names = {*graph_entities.nodes.values(), BRIDGE_NAME}
         for name in sorted(names - self._nodes):
             self._link.do("node", node=name)
-        publishers = self._settle_publishers(wishes, state)
-        self._settle_services(wishes)
+        publishers = self._settle_publishers(graph_entities, state)
+        self._settle_services(graph_entities)
         for name in sorted(self._nodes - names):
             self._link.do("unnode", node=name)
         self._nodes = names
@@ -110,21 +110,23 @@ class Outward:
 
     def close(self) -> None:
         """Listen to nothing any more."""
-        for tap in self._taps.values():
-            tap.close()
-        self._taps = {}
+        for raw_subscription in self._raw_subscriptions.values():
+            raw_subscription.close()
+        self._raw_subscriptions = {}
         for served in self._served.values():
             served.client.unregister()
         self._served = {}
 
-    def _settle_publishers(self, wishes: Wishes, state: RosState) -> dict[Spoken, Quality]:
-        wanted: dict[Spoken, Quality] = {}
-        for key, own in wishes.publishers.items():
+    def _settle_publishers(
+        self, graph_entities: GraphEntities, state: RosState
+    ) -> dict[TopicOfNode, QosProfile]:
+        wanted: dict[TopicOfNode, QosProfile] = {}
+        for key, own in graph_entities.publishers.items():
             if self._book.is_missing(key.type_name):
                 continue
             asked = [end for end in state.subscriptions if end.topic == key.topic]
-            quality, told = widened(key.node, key.topic, own, asked)
-            wanted[key] = quality
+            qos, told = widened(key.node, key.topic, own, asked)
+            wanted[key] = qos
             for policy, text in told.items():
                 if (key.topic, policy) not in self._told:
                     self._told.add((key.topic, policy))
@@ -133,12 +135,12 @@ class Outward:
             with self._lock:
                 gone = self._publishers.pop(key)
             self._link.drop(gone.number)
-        for key, quality in wanted.items():
+        for key, qos in wanted.items():
             if key not in self._publishers:
-                self._add_publisher(key, quality)
+                self._add_publisher(key, qos)
         return wanted
 
-    def _add_publisher(self, key: Spoken, quality: Quality) -> None:
+    def _add_publisher(self, key: TopicOfNode, qos: QosProfile) -> None:
         # The report of how it went comes in another thread, which must find it entered.
         with self._lock:
             made = self._link.do(
@@ -146,18 +148,18 @@ class Outward:
                 node=key.node,
                 topic=key.topic,
                 type=key.type_name,
-                **quality._asdict(),
+                **qos._asdict(),
             )
-            self._publishers[key] = _Channel(made, quality)
+            self._publishers[key] = _Channel(made, qos)
 
-    def _settle_services(self, wishes: Wishes) -> None:
-        for key in set(self._services) - set(wishes.services):
+    def _settle_services(self, graph_entities: GraphEntities) -> None:
+        for key in set(self._services) - set(graph_entities.services):
             channel = self._services.pop(key)
             self._link.drop(channel)
             served = self._served.pop(channel, None)
             if served is not None:
                 served.client.unregister()
-        for key, type_name in wishes.services.items():
+        for key, type_name in graph_entities.services.items():
             if key not in self._services and not self._book.is_missing(type_name):
                 self._add_service(key, type_name)
 
@@ -172,7 +174,7 @@ class Outward:
             self._services[key] = channel
             self._served[channel] = _Served(name, kind, client)
 
-    def _settle_taps(self, publishers: dict[Spoken, Quality], state: RosState) -> None:
+    def _settle_taps(self, publishers: dict[TopicOfNode, QosProfile], state: RosState) -> None:
         asked = {end.topic for end in state.subscriptions}
         with self._lock:
             ready = {
@@ -180,20 +182,22 @@ class Outward:
             }
         wanted = {
             key.topic
-            for key, quality in publishers.items()
+            for key, qos in publishers.items()
             # What is latched waits in ROS for whoever comes late.
-            if key.topic in ready and (key.topic in asked or quality.latched)
+            if key.topic in ready and (key.topic in asked or qos.latched)
         }
-        for topic in set(self._taps) - wanted:
-            self._taps.pop(topic).close()
-        for topic in wanted - set(self._taps):
-            self._taps[topic] = Tap(self._graph, topic, self._on_sample(topic))
+        for topic in set(self._raw_subscriptions) - wanted:
+            self._raw_subscriptions.pop(topic).close()
+        for topic in wanted - set(self._raw_subscriptions):
+            self._raw_subscriptions[topic] = RawSubscription(
+                self._graph, topic, self._on_sample(topic)
+            )
 
     def _on_sample(self, topic: str) -> Callable[[Sample], None]:
         def send(sample: Sample) -> None:
             node = self._names.get(sample.publisher, "")
             with self._lock:
-                found = self._publishers.get(Spoken(node, topic, sample.type_name))
+                found = self._publishers.get(TopicOfNode(node, topic, sample.type_name))
                 # Somebody who has left before he was known still spoke for one of them.
                 found = found or next(
                     (

@@ -19,7 +19,7 @@ from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GazelleError
 from gazelle.graph import MessageInfo, Node, RawMessage
 from gazelle.graph import Publisher as _Publisher
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.interfaces import (
     AnyMsg,
     Ros1Message,
@@ -160,7 +160,7 @@ class Publisher(Topic):
         self.name = self.resolved_name = self.impl.topic
         if self._listener is not None:
             # A listener may ask the graph, whose answers come through the thread that tells here.
-            news = Mailbox(self._tell_listener, size=0, name=f"listener {self.name}")
+            news = CallbackQueue(self._tell_listener, size=0, name=f"listener {self.name}")
             node.graph.discovery.listen(lambda entity, _is_new: news.put(entity))
             news.put(None)
 

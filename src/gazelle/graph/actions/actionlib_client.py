@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.graph.actions.client_events import News
+from gazelle.graph.actions.client_events import ClientEvents
 from gazelle.graph.actions.client_goal import ClientGoal, CommState, steps
 from gazelle.graph.actions.goal import ActionlibStatus
 from gazelle.graph.actions.types import ActionTypes
@@ -37,14 +37,14 @@ class ActionlibClient:
         self._lock = threading.RLock()
         self._goal = node.create_publisher(f"{name}/goal", types.Envelope["goal"])
         self._cancel = node.create_publisher(f"{name}/cancel", types.GoalId)
-        self._news = News(node, name)
+        self._events = ClientEvents(node, name)
         status, feedback, result = (f"{name}/{topic}" for topic in ("status", "feedback", "result"))
         envelopes = types.Envelope
         self._topics = tuple(
             node.create_subscription(topic, message_type, take, inline=True)
             for topic, message_type, take in (
-                (status, types.StatusArray, self._news.topic(status, self._on_status)),
-                (feedback, envelopes["feedback"], self._news.topic(feedback, self._on_feedback)),
+                (status, types.StatusArray, self._events.topic(status, self._on_status)),
+                (feedback, envelopes["feedback"], self._events.topic(feedback, self._on_feedback)),
                 (result, envelopes["result"], self._take_result),
             )
         )
@@ -93,10 +93,10 @@ class ActionlibClient:
             topic.unregister()
         self._goal.unregister()
         self._cancel.unregister()
-        self._news.close()
+        self._events.close()
 
     def _take_result(self, message: Any) -> None:
-        self._news.put(lambda: self._on_result(message))
+        self._events.put(lambda: self._on_result(message))
 
     def _find(self, goal_id: str) -> ClientGoal | None:
         with self._lock:

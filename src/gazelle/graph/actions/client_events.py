@@ -6,16 +6,16 @@ import traceback
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.graph.callback_queue import Mailbox
+from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.graph.subscription import MAX_WAITING, Backlog
 
 if TYPE_CHECKING:
     from gazelle.graph.node import Node
 
-__all__ = ["News"]
+__all__ = ["ClientEvents"]
 
 
-class News:
+class ClientEvents:
     """One queue for all that comes, with a thread of its own.
 
     What is told once, such as a result, is never dropped. Feedback and status come all the time:
@@ -32,11 +32,11 @@ class News:
         """
         self._node = node
         self._name = name
-        self._mailbox = Mailbox(self._take, size=0, name=f"action {name}")
+        self._callback_queue = CallbackQueue(self._take, size=0, name=f"action {name}")
 
     def put(self, work: Callable[[], None]) -> None:
         """Have something done behind what came before it."""
-        self._mailbox.put(work)
+        self._callback_queue.put(work)
 
     def topic(self, name: str, callback: Callable[[Any], None]) -> Callable[[Any], None]:
         """Return what takes the messages of a topic, from any thread.
@@ -53,11 +53,11 @@ class News:
                 "messages wait, and the oldest are dropped from now on",
             )
 
-        return Backlog(self._mailbox.put, callback, overflowed).put
+        return Backlog(self._callback_queue.put, callback, overflowed).put
 
     def close(self) -> None:
         """Handle nothing more."""
-        self._mailbox.close()
+        self._callback_queue.close()
 
     def _take(self, work: Callable[[], None]) -> None:
         try:

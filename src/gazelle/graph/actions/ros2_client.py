@@ -9,7 +9,7 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
-from gazelle.graph.actions.client_events import News
+from gazelle.graph.actions.client_events import ClientEvents
 from gazelle.graph.actions.client_goal import ClientGoal
 from gazelle.graph.actions.goal import Ros2Status
 from gazelle.graph.actions.types import ActionTypes
@@ -41,10 +41,10 @@ class Ros2Client:
         self._send = node.create_client(f"{folder}/send_goal", types.SendGoal)
         self._cancel = node.create_client(f"{folder}/cancel_goal", types.CancelGoal)
         self._result = node.create_client(f"{folder}/get_result", types.GetResult)
-        self._news = News(node, name)
+        self._events = ClientEvents(node, name)
         self._topics = tuple(
             node.create_subscription(
-                topic, message_type, self._news.topic(topic, callback), inline=True
+                topic, message_type, self._events.topic(topic, callback), inline=True
             )
             for topic, message_type, callback in (
                 (f"{folder}/feedback", types.Envelope["feedback"], self._on_feedback),
@@ -90,7 +90,7 @@ class Ros2Client:
             topic.unregister()
         for client in (self._send, self._cancel, self._result):
             client.unregister()
-        self._news.close()
+        self._events.close()
 
     def _start(self, work: Callable[..., None], *args: Any) -> None:
         threading.Thread(target=work, args=args, name="action client", daemon=True).start()
@@ -106,7 +106,7 @@ class Ros2Client:
             if not answered().accepted:
                 status = Ros2Status.REJECTED
             else:
-                self._news.put(lambda: self._set(goal, Ros2Status.ACCEPTED))
+                self._events.put(lambda: self._set(goal, Ros2Status.ACCEPTED))
                 wanted = self._types.GetResult.Request()
                 wanted.goal_id.uuid = bytes.fromhex(goal.goal_id)
                 answer = self._result.call(wanted)
@@ -114,7 +114,7 @@ class Ros2Client:
         except GraphError as error:
             text = str(error)
         result = None if answer is None else answer.result
-        self._news.put(lambda: self._finish(goal, status, result, text))
+        self._events.put(lambda: self._finish(goal, status, result, text))
 
     def _finish(self, goal: ClientGoal, status: Ros2Status, result: Any, text: str) -> None:
         goal.result, goal.text = result, text

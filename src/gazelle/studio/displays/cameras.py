@@ -18,7 +18,7 @@ from gazelle.studio.frames import pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, Frame, OpenStream
-from gazelle.studio.subscriptions import Sample, Taps, stamp_s
+from gazelle.studio.subscriptions import Sample, Subscriptions, stamp_s
 
 __all__ = ["CameraInfo", "info_topic", "open_camera", "open_image", "open_picture", "open_turtles"]
 
@@ -42,7 +42,7 @@ def open_camera(site: Site) -> OpenStream:
     """Display Camera: the pictures, and the camera and where it stands ahead of them."""
     make = _maker(site)
     topic = site.params.text("topic")
-    info = CameraInfo(site.taps, info_topic(topic))
+    info = CameraInfo(site.subscriptions, info_topic(topic))
     told: Any = None
 
     def with_camera(sample: Sample) -> Any:
@@ -82,11 +82,11 @@ class CameraInfo:
         close: listens no more.
     """
 
-    def __init__(self, taps: Taps, topic: str) -> None:
+    def __init__(self, subscriptions: Subscriptions, topic: str) -> None:
         """Listen to the topic."""
         self.topic = topic
         self._sample: Sample | None = None
-        self.close: Callable[[], None] = taps.listen(topic, self._take)
+        self.close: Callable[[], None] = subscriptions.listen(topic, self._take)
 
     def message(self) -> Message | None:
         """Return the last one, None before it."""
@@ -105,7 +105,7 @@ def info_topic(topic: str) -> str:
 
 def open_turtles(context: DisplayContext, channel: Channel, params: Params) -> OpenStream:
     """Stream ``turtles`` of a ``node``: its hidden topic ``~_canvas`` as pictures."""
-    node = context.taps.node.resolve_name(params.text("node", _NODE))
+    node = context.subscriptions.node.resolve_name(params.text("node", _NODE))
     wanted = Params(params.where, {"topic": f"{node}/_canvas", "quality": _QUALITY})
     return open_picture(Site(context, channel, wanted))
 

@@ -28,7 +28,7 @@ def open_depth_cloud(site: Site) -> OpenStream:
     topic = site.params.text("Depth Map Topic", "") or site.params.text("topic")
     budget = budget_of(site)
     colouring = Colouring.read(site.params)
-    info = CameraInfo(site.taps, info_topic(topic))
+    info = CameraInfo(site.subscriptions, info_topic(topic))
     colours = _Last(site, site.params.text(_COLOUR, ""))
 
     def make(sample: Sample) -> Frame | None:
@@ -55,7 +55,7 @@ class _Last:
 
     def __init__(self, site: Site, topic: str) -> None:
         self._sample: Sample | None = None
-        self.close = site.taps.listen(topic, self._take) if topic else lambda: None
+        self.close = site.subscriptions.listen(topic, self._take) if topic else lambda: None
 
     def _take(self, sample: Sample) -> None:
         self._sample = sample

@@ -31,7 +31,7 @@ _NUMBERS = itertools.count(1)
 def open_map(site: Site) -> OpenStream:
     """Display Map; it moves along when its frame moves in the fixed one."""
     grid = _Grid(site)
-    topic, listen = site.params.text("topic"), site.taps.listen
+    topic, listen = site.params.text("topic"), site.subscriptions.listen
     # The grid hears of a map before it is asked for a frame of it.
     leaves = [listen(topic, grid.base), listen(f"{topic}_updates", grid.update)]
     stream = open_newest(site, grid.frame, refresh_s=_REFRESH_S)

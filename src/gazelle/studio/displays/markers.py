@@ -89,7 +89,7 @@ class InteractiveFrame(TypedDict):
 def open_markers(site: Site) -> OpenStream:
     """Displays Marker and MarkerArray, of a topic of either type."""
     markers = _Markers(site)
-    leave = site.taps.listen(site.params.text("topic"), markers.take)
+    leave = site.subscriptions.listen(site.params.text("topic"), markers.take)
     every(site.channel, _RETRY_S, markers.again)
     return OpenStream(leave)
 
@@ -202,8 +202,8 @@ def open_interactive(site: Site) -> OpenStream:
     base = topic.removesuffix("/update").removesuffix("/update_full")
     markers = _Interactive(site)
     ends = [
-        site.taps.listen(f"{base}/update_full", markers.take),
-        site.taps.listen(f"{base}/update", markers.take),
+        site.subscriptions.listen(f"{base}/update_full", markers.take),
+        site.subscriptions.listen(f"{base}/update", markers.take),
     ]
     markers.ask(f"{base}/get_interactive_markers")
     every(site.channel, _RETRY_S, markers.again)
@@ -230,11 +230,13 @@ class _Interactive:
 
     def ask(self, service: str) -> None:
         """Get all markers from a server of ROS 2; one of ROS 1 tells them on ``update_full``."""
-        offered = {one.name for one in self._site.taps.node.graph.services(include_hidden=True)}
+        offered = {
+            one.name for one in self._site.subscriptions.node.graph.services(include_hidden=True)
+        }
         if service not in offered:
             return
         kind = service_type(_GET)
-        client = self._site.taps.node.create_client(service, kind)
+        client = self._site.subscriptions.node.create_client(service, kind)
         try:
             answer = client.call(kind.Request(), _SERVICE_S)
         finally:

@@ -18,7 +18,7 @@ from gazelle.studio.json_text import message_value
 from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.streams import Channel, OpenStream, every
-from gazelle.studio.subscriptions import Sample, Taps, stamp_s
+from gazelle.studio.subscriptions import Sample, Subscriptions, stamp_s
 
 __all__ = ["DisplayContext", "Site", "open_newest", "open_on", "open_plain"]
 
@@ -30,12 +30,12 @@ class DisplayContext:
     """What all displays are shown with.
 
     Attributes:
-        taps: topics; its node calls services for displays.
+        subscriptions: topics; its node calls services for displays.
         frames: where frames are.
         assets: keeps meshes for pages.
     """
 
-    taps: Taps
+    subscriptions: Subscriptions
     frames: Frames
     assets: Assets
 
@@ -44,7 +44,7 @@ class Site:
     """Where a display is shown.
 
     Attributes:
-        taps: topics; its node calls services for displays.
+        subscriptions: topics; its node calls services for displays.
         assets: keeps meshes for pages.
         channel: where its frames go.
         params: topic, fixed frame and the display's own properties.
@@ -60,7 +60,7 @@ class Site:
         convert: Callable[[Any], Any] | None = None,
     ) -> None:
         """Note the site of a display; `convert` makes a message into one that it shows."""
-        self.taps = context.taps
+        self.subscriptions = context.subscriptions
         self.assets = context.assets
         self.channel = channel
         self.params = params
@@ -137,7 +137,7 @@ def open_newest(
         refresh_s: try again so often also when it went well, for what stays and moves along.
     """
     newest = _Newest(site, make)
-    leave = site.taps.listen(topic or site.params.text("topic"), newest.take)
+    leave = site.subscriptions.listen(topic or site.params.text("topic"), newest.take)
     every(site.channel, refresh_s or _RETRY_S, newest.again_always if refresh_s else newest.again)
     return OpenStream(leave)
 

@@ -39,11 +39,11 @@ from gazelle.studio.graph_view.topics import open_echo, open_stats
 from gazelle.studio.graph_view.topology import Topology, get_graph, open_graph
 from gazelle.studio.graph_view.transforms import open_tf, open_tree
 from gazelle.studio.graph_view.types import get_type, list_types
-from gazelle.studio.lazy import Once, closed_with
+from gazelle.studio.lazy import Lazy, closed_with
 from gazelle.studio.pages import Pages
 from gazelle.studio.routing import Method, methods_of, methods_without, streams_of
 from gazelle.studio.streams import StreamKind
-from gazelle.studio.subscriptions import Taps
+from gazelle.studio.subscriptions import Subscriptions
 
 __all__ = ["METHODS", "STREAMS", "GraphParts", "graph_parts"]
 
@@ -75,7 +75,7 @@ _CLIENT_METHODS: dict[str, Method[DynamicClients]] = {
     "reconfigure.get": get_reconfigurable,
     "reconfigure.set": set_reconfigurable,
 }
-_TOPIC_STREAMS: dict[str, StreamKind[Taps]] = {
+_TOPIC_STREAMS: dict[str, StreamKind[Subscriptions]] = {
     "topic.echo": StreamKind(latest=True, open=open_echo),
     "topic.plot": StreamKind(latest=False, open=open_plot),
     "topic.stats": StreamKind(latest=True, open=open_stats),
@@ -92,7 +92,7 @@ METHODS: dict[str, Method[GraphParts]] = {
     **methods_without({"type.get": get_type, "type.list": list_types}),
 }
 STREAMS: dict[str, StreamKind[GraphParts]] = {
-    **streams_of(lambda parts: parts.taps, _TOPIC_STREAMS),
+    **streams_of(lambda parts: parts.subscriptions, _TOPIC_STREAMS),
     **streams_of(lambda parts: parts.frames, _FRAME_STREAMS),
     **streams_of(lambda parts: parts.node, {"action": StreamKind(False, open_action)}),
     **streams_of(lambda parts: parts.topology(), {"graph": StreamKind(False, open_graph)}),
@@ -106,7 +106,7 @@ class GraphParts:
 
     Attributes:
         node: who looks and calls.
-        taps: topics that are listened to.
+        subscriptions: topics that are listened to.
         frames: where frames are.
         outbox: publishers of single messages.
         clients: those of dynamic_reconfigure.
@@ -116,25 +116,27 @@ class GraphParts:
     """
 
     node: Node
-    taps: Taps
+    subscriptions: Subscriptions
     frames: Frames
     outbox: Outbox
     clients: DynamicClients
-    topology: Once[Topology]
-    console: Once[Console]
-    publishers: Once[Publishers]
+    topology: Lazy[Topology]
+    console: Lazy[Console]
+    publishers: Lazy[Publishers]
 
 
-def graph_parts(taps: Taps, frames: Frames, pages: Pages, ending: ExitStack) -> GraphParts:
+def graph_parts(
+    subscriptions: Subscriptions, frames: Frames, pages: Pages, ending: ExitStack
+) -> GraphParts:
     """Return the parts that end with others."""
-    node = taps.node
+    node = subscriptions.node
     return GraphParts(
         node,
-        taps,
+        subscriptions,
         frames,
         Outbox(node),
         DynamicClients(node),
-        topology=Once(lambda: closed_with(ending, Topology(node.graph))),
-        console=Once(lambda: closed_with(ending, Console(taps))),
-        publishers=Once(lambda: closed_with(ending, Publishers(node, pages))),
+        topology=Lazy(lambda: closed_with(ending, Topology(node.graph))),
+        console=Lazy(lambda: closed_with(ending, Console(subscriptions))),
+        publishers=Lazy(lambda: closed_with(ending, Publishers(node, pages))),
     )

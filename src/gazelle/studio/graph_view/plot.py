@@ -20,7 +20,7 @@ from gazelle.interfaces.definition import FORMATS, Array, Field, attribute_name
 from gazelle.studio.errors import StudioError
 from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.subscriptions import Sample, Taps, stamp_s
+from gazelle.studio.subscriptions import Sample, Subscriptions, stamp_s
 
 __all__ = ["Curve", "PlotCurves", "PlotPoints", "curves_of", "open_plot", "read_number"]
 
@@ -115,14 +115,14 @@ class PlotPoints(TypedDict):
     v: list[float | None]
 
 
-def open_plot(taps: Taps, channel: Channel, params: Params) -> OpenStream:
+def open_plot(subscriptions: Subscriptions, channel: Channel, params: Params) -> OpenStream:
     """Stream ``topic.plot``; ``opened.info`` names the curves."""
-    looker = _Looker(taps)
-    known = taps.node.graph.entities()
+    looker = _Looker(subscriptions)
+    known = subscriptions.node.graph.entities()
     curves: list[Curve] = []
     for name in params.texts("curves"):
         curves += [one for one in curves_of(name, known, looker.last) if one not in curves]
-    plot = _Plot(taps, channel, curves)
+    plot = _Plot(subscriptions, channel, curves)
     info: PlotCurves = {"curves": [one.name for one in curves]}
     return OpenStream(plot.close, info)
 
@@ -130,8 +130,8 @@ def open_plot(taps: Taps, channel: Channel, params: Params) -> OpenStream:
 class _Looker:
     """Waits a moment for a topic's message, which tells how long its arrays are."""
 
-    def __init__(self, taps: Taps) -> None:
-        self._taps = taps
+    def __init__(self, subscriptions: Subscriptions) -> None:
+        self._subscriptions = subscriptions
 
     def last(self, topic: str) -> Any:
         came = threading.Event()
@@ -141,15 +141,15 @@ class _Looker:
             found.append(sample)
             came.set()
 
-        end = self._taps.listen(topic, take)
+        end = self._subscriptions.listen(topic, take)
         came.wait(_FIRST_MESSAGE_S)
         end()
         return found[0].message() if found else None
 
 
 class _Plot:
-    def __init__(self, taps: Taps, channel: Channel, curves: list[Curve]) -> None:
-        self._taps = taps
+    def __init__(self, subscriptions: Subscriptions, channel: Channel, curves: list[Curve]) -> None:
+        self._subscriptions = subscriptions
         self._channel = channel
         self._curves = curves
         self._lock = threading.Lock()
@@ -173,7 +173,7 @@ class _Plot:
             if first:
                 self._channel.later(_GATHER_S, self._start)
 
-        return self._taps.listen(topic, take)
+        return self._subscriptions.listen(topic, take)
 
     def _start(self) -> None:
         self._channel.work(self._drain)

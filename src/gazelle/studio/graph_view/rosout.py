@@ -13,7 +13,7 @@ from gazelle.interfaces.stamps import seconds_of
 from gazelle.studio.errors import StudioError
 from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.subscriptions import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Subscriptions
 
 __all__ = ["Console", "LogLine", "open_rosout"]
 
@@ -56,12 +56,12 @@ class Console:
         close: listens no more.
     """
 
-    def __init__(self, taps: Taps) -> None:
+    def __init__(self, subscriptions: Subscriptions) -> None:
         """Listen to ``/rosout``."""
         self._kept: deque[LogLine] = deque(maxlen=_KEPT)
         self._followers: list[tuple[Channel, int]] = []
         self._lock = threading.Lock()
-        self.close: Callable[[], None] = taps.listen(_TOPIC, self._take)
+        self.close: Callable[[], None] = subscriptions.listen(_TOPIC, self._take)
 
     def follow(self, channel: Channel, least: int) -> Callable[[], None]:
         """Send a channel what was kept and what comes, of this level's number and above."""

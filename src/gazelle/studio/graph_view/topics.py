@@ -8,7 +8,7 @@ from typing import Any, TypedDict
 from gazelle.studio.json_text import message_value
 from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream, Pace, every
-from gazelle.studio.subscriptions import Arrival, Sample, Taps, stamp_s, topic_name
+from gazelle.studio.subscriptions import Arrival, Sample, Subscriptions, stamp_s, topic_name
 
 __all__ = ["EchoedMessage", "TopicStats", "open_echo", "open_stats"]
 
@@ -31,15 +31,15 @@ class TopicStats(TypedDict):
     count: int
 
 
-def open_stats(taps: Taps, channel: Channel, params: Params) -> OpenStream:
+def open_stats(subscriptions: Subscriptions, channel: Channel, params: Params) -> OpenStream:
     """Stream ``topic.stats``; named topics are subscribed to, else those shown are counted."""
     named = params.texts("topics") if "topics" in params else None
-    ends = [taps.listen(topic, _ignore) for topic in named or ()]
-    shown = None if named is None else [topic_name(taps.node, topic) for topic in named]
+    ends = [subscriptions.listen(topic, _ignore) for topic in named or ()]
+    shown = None if named is None else [topic_name(subscriptions.node, topic) for topic in named]
 
     def rows() -> list[TopicStats]:
-        topics = taps.topics if shown is None else shown
-        return [_row(topic, *taps.arrivals(topic)) for topic in topics]
+        topics = subscriptions.topics if shown is None else shown
+        return [_row(topic, *subscriptions.arrivals(topic)) for topic in topics]
 
     def close() -> None:
         for end in ends:
@@ -58,10 +58,10 @@ class EchoedMessage(TypedDict):
     message: Any
 
 
-def open_echo(taps: Taps, channel: Channel, params: Params) -> OpenStream:
+def open_echo(subscriptions: Subscriptions, channel: Channel, params: Params) -> OpenStream:
     """Stream ``topic.echo``."""
     echo = _Echo(channel, params.number("rate_hz", 10.0, least=0.01, most=1000.0))
-    return OpenStream(taps.listen(params.text("topic"), echo.take))
+    return OpenStream(subscriptions.listen(params.text("topic"), echo.take))
 
 
 class _Echo:

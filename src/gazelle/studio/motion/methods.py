@@ -18,14 +18,14 @@ from gazelle.studio.request_params import Params
 from gazelle.studio.routing import Method, methods_without
 from gazelle.studio.scenes.robot import RobotContext
 from gazelle.studio.streams import Channel, OpenStream, StreamKind
-from gazelle.studio.subscriptions import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Subscriptions
 
 __all__ = ["METHODS", "STREAMS", "MotionMesh", "open_path", "read_mesh"]
 
 _MAX_TRIANGLES = 200_000
 
 
-def open_path(taps: Taps, channel: Channel, params: Params) -> OpenStream:
+def open_path(subscriptions: Subscriptions, channel: Channel, params: Params) -> OpenStream:
     """Send each ``moveit_msgs/DisplayTrajectory`` of a ``topic``."""
 
     def value(sample: Sample) -> Any:
@@ -37,7 +37,7 @@ def open_path(taps: Taps, channel: Channel, params: Params) -> OpenStream:
     def take(sample: Sample) -> None:
         channel.offer(lambda: value(sample))
 
-    return OpenStream(taps.listen(params.text("topic"), take))
+    return OpenStream(subscriptions.listen(params.text("topic"), take))
 
 
 class MotionMesh(TypedDict):
@@ -88,7 +88,7 @@ METHODS: dict[str, Method[RobotContext]] = {
     **methods_without({"motion.mesh": read_mesh}),
     "motion.robot": get_motion_robot,
 }
-STREAMS: dict[str, StreamKind[Taps]] = {
+STREAMS: dict[str, StreamKind[Subscriptions]] = {
     "motion.path": StreamKind(latest=True, open=open_path),
     "motion.scene": StreamKind(latest=True, open=open_scene),
 }

@@ -11,7 +11,7 @@ from gazelle.studio.graph_view.services import request_response
 from gazelle.studio.json_text import message_value
 from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream
-from gazelle.studio.subscriptions import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Subscriptions
 
 __all__ = ["PlanningScene", "open_scene"]
 
@@ -34,13 +34,13 @@ class PlanningScene(TypedDict):
     attached: NotRequired[list[Any]]
 
 
-def open_scene(taps: Taps, channel: Channel, params: Params) -> OpenStream:
+def open_scene(subscriptions: Subscriptions, channel: Channel, params: Params) -> OpenStream:
     """Ask the ``service`` for the whole scene, then follow its changes on the ``topic``."""
     scene = _Scene(channel)
-    leave = taps.listen(params.text("topic"), scene.take)
+    leave = subscriptions.listen(params.text("topic"), scene.take)
     try:
-        name = taps.node.resolve_name(params.text("service"))
-        scene.begin(request_response(taps.node, name, _GET).scene)
+        name = subscriptions.node.resolve_name(params.text("service"))
+        scene.begin(request_response(subscriptions.node, name, _GET).scene)
     except GazelleError:
         leave()
         raise

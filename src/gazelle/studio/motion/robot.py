@@ -11,7 +11,7 @@ from gazelle.studio.errors import StudioError
 from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.robot import RobotContext, description_text
 from gazelle.studio.scenes.shapes import PageGeometry, page_scene
-from gazelle.studio.subscriptions import Taps
+from gazelle.studio.subscriptions import Subscriptions
 
 if TYPE_CHECKING:
     from gazelle.description.moveit import MoveItConfig
@@ -129,9 +129,9 @@ def get_motion_robot(robots: RobotContext, params: Params) -> MotionRobot:
     from gazelle.workspace import Workspace
 
     description = params.text("description", _DESCRIPTION).lstrip("/") or _DESCRIPTION
-    node, prefix = _move_group(robots.taps.node.graph, params.text("namespace", ""))
+    node, prefix = _move_group(robots.subscriptions.node.graph, params.text("namespace", ""))
     found = Diagnostics()
-    tree = _parameters(robots.taps, node, prefix, description)
+    tree = _parameters(robots.subscriptions, node, prefix, description)
     config = config_from_parameters(
         tree, workspace=Workspace.discover(), diagnostics=found, description=description
     )
@@ -168,11 +168,13 @@ def _before(service: str) -> str:
     return service.removesuffix(_PLAN)
 
 
-def _parameters(taps: Taps, node: str, prefix: str, description: str) -> dict[str, Any]:
+def _parameters(
+    subscriptions: Subscriptions, node: str, prefix: str, description: str
+) -> dict[str, Any]:
     """ROS 2 gives a move_group its parameters, ROS 1 has the descriptions beside it."""
     from gazelle.parameters.trees import nested
 
-    store = taps.node.graph.parameters
+    store = subscriptions.node.graph.parameters
     own = store.get(node) if store.has(node) else {}
     tree = nested(own) if isinstance(own, Mapping) else {}
     for part in _PARTS:
@@ -183,15 +185,15 @@ def _parameters(taps: Taps, node: str, prefix: str, description: str) -> dict[st
                 tree[name] = nested(value) if isinstance(value, Mapping) else value
     for name in (description, f"{description}_semantic"):
         if not tree.get(name):
-            tree[name] = _of_topic(taps, f"{prefix}{name}")
+            tree[name] = _of_topic(subscriptions, f"{prefix}{name}")
     return tree
 
 
-def _of_topic(taps: Taps, topic: str) -> str:
+def _of_topic(subscriptions: Subscriptions, topic: str) -> str:
     """A description that is no parameter is on a topic of its name."""
-    if topic not in {one.name for one in taps.node.graph.topics()}:
+    if topic not in {one.name for one in subscriptions.node.graph.topics()}:
         raise StudioError(f"there is neither a parameter nor a topic '{topic}'", hint=_START)
-    return description_text(taps, topic)
+    return description_text(subscriptions, topic)
 
 
 def _robot_value(robot: RobotModel, config: MoveItConfig) -> _RobotPart:

@@ -9,7 +9,7 @@ from gazelle.studio.http_answers import Answer
 from gazelle.studio.plugins.panel_sources import Source
 from gazelle.studio.plugins.rqt.plugin_xml import rqt_plugins
 from gazelle.studio.plugins.rqt.porting import PortedPlugin, how_to_port
-from gazelle.studio.plugins.shown_panels import Desk
+from gazelle.studio.plugins.shown_panels import ShownPanels
 from gazelle.studio.request_params import Params
 from gazelle.studio.routing import Method, Route, methods_without
 from gazelle.studio.streams import Channel, OpenStream, StreamKind
@@ -59,7 +59,7 @@ class PanelInfo(TypedDict):
     module: str | None
 
 
-def list_panels(desk: Desk, _params: Params) -> list[PanelEntry]:
+def list_panels(shown_panels: ShownPanels, _params: Params) -> list[PanelEntry]:
     """``plugin.list``: what could be opened; no code of it runs."""
     panels: list[PanelEntry] = [
         {
@@ -70,7 +70,7 @@ def list_panels(desk: Desk, _params: Params) -> list[PanelEntry]:
             "about": source.texts.get("about") or source.origin,
             "problem": source.problem,
         }
-        for source in desk.sources().values()
+        for source in shown_panels.sources().values()
     ]
     foreign: list[PanelEntry] = [
         {
@@ -86,11 +86,11 @@ def list_panels(desk: Desk, _params: Params) -> list[PanelEntry]:
     return panels + foreign
 
 
-def open_panel(desk: Desk, channel: Channel, params: Params) -> OpenStream:
+def open_panel(shown_panels: ShownPanels, channel: Channel, params: Params) -> OpenStream:
     """Stream ``plugin``: events of one panel, whose code starts with its first page."""
-    show = desk.show(params.text("name"))
-    leave = show.follow(channel)
-    source = show.source
+    shown = shown_panels.show(params.text("name"))
+    leave = shown.follow(channel)
+    source = shown.source
     script = _script(source)
     info: PanelInfo = {
         "title": source.title,
@@ -100,21 +100,21 @@ def open_panel(desk: Desk, channel: Channel, params: Params) -> OpenStream:
     return OpenStream(leave, info)
 
 
-def take_event(desk: Desk, params: Params) -> dict[str, Any]:
+def take_event(shown_panels: ShownPanels, params: Params) -> dict[str, Any]:
     """``plugin.event``: what a person did with a widget."""
-    life = desk.shown(params.text("name")).life
-    if life is None:
+    running = shown_panels.shown(params.text("name")).running
+    if running is None:
         raise StudioError(f"the panel '{params.text('name')}' is not open")
-    life.event(params.text("widget", ""), params.any("value", None))
+    running.event(params.text("widget", ""), params.any("value", None))
     return {}
 
 
-def reload_panel(desk: Desk, params: Params) -> dict[str, Any]:
+def reload_panel(shown_panels: ShownPanels, params: Params) -> dict[str, Any]:
     """``plugin.reload``: the panel begins anew with its file as it is now."""
     name = params.text("name")
-    show = desk.shown(name)
+    shown = shown_panels.shown(name)
     # A file that cannot be read now is no panel of the list; trying it tells why.
-    show.reload(desk.sources().get(name, show.source))
+    shown.reload(shown_panels.sources().get(name, shown.source))
     return {}
 
 
@@ -123,15 +123,15 @@ def port_panel(params: Params) -> PortedPlugin:
     return how_to_port(params.text("name"), Workspace.discover())
 
 
-def file_answer(desk: Desk, rest: str) -> Answer | None:
+def file_answer(shown_panels: ShownPanels, rest: str) -> Answer | None:
     """``/plugin/<name>.js``: the ES module; ``/plugin/<name>/<widget>``: a picture."""
     name, slash, widget = rest.partition("/")
     if slash:
         try:
-            return desk.picture(name, widget)
+            return shown_panels.picture(name, widget)
         except StudioError:
             return None
-    source = desk.sources().get(name.removesuffix(".js"))
+    source = shown_panels.sources().get(name.removesuffix(".js"))
     path = _script(source) if source is not None and name.endswith(".js") else None
     if path is None:
         return None
@@ -147,11 +147,11 @@ def _script(source: Source) -> Any:
     return path if name and inside and path.is_file() else None
 
 
-METHODS: dict[str, Method[Desk]] = {
+METHODS: dict[str, Method[ShownPanels]] = {
     "plugin.event": take_event,
     "plugin.list": list_panels,
     **methods_without({"plugin.port": port_panel}),
     "plugin.reload": reload_panel,
 }
-STREAMS: dict[str, StreamKind[Desk]] = {"plugin": StreamKind(latest=False, open=open_panel)}
-ROUTES: dict[str, Route[Desk]] = {"plugin": file_answer}
+STREAMS: dict[str, StreamKind[ShownPanels]] = {"plugin": StreamKind(latest=False, open=open_panel)}
+ROUTES: dict[str, Route[ShownPanels]] = {"plugin": file_answer}

@@ -23,7 +23,7 @@ from gazelle.studio.plugins.panel_state import State, checked_layout, handler_of
 from gazelle.studio.plugins.widget_values import check_sendable, chosen
 from gazelle.workspace.python_files import import_python_file
 
-__all__ = ["Life"]
+__all__ = ["RunningPanel"]
 
 _BUSY_S = 5.0
 _MIN_DURATION_S = 0.005
@@ -31,7 +31,7 @@ _CLIENTS = ("rospy", "rclpy")
 _Tell = Callable[[str, str, Any], None]
 
 
-class Life:
+class RunningPanel:
     """From ``start`` to ``stop`` of a panel; its mistakes are told and end nothing.
 
     Attributes:

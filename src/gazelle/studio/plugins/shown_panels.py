@@ -16,7 +16,7 @@ from gazelle.graph import Graph
 from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.http_answers import Answer
 from gazelle.studio.plugins.panel_sources import Source, all_sources, named_file
-from gazelle.studio.plugins.running_panel import Life
+from gazelle.studio.plugins.running_panel import RunningPanel
 from gazelle.studio.plugins.widget_values import picture_answer
 from gazelle.studio.streams import Channel
 from gazelle.workspace import Workspace
@@ -24,7 +24,7 @@ from gazelle.workspace import Workspace
 if TYPE_CHECKING:
     from gazelle.studio.streams import Channel
 
-__all__ = ["Desk", "Follower", "PanelEvent", "Show"]
+__all__ = ["Follower", "PanelEvent", "ShownPanel", "ShownPanels"]
 
 _GATHER_S = 0.05
 _REPLACED = ("set", "widget", "error", "state")
@@ -79,17 +79,17 @@ class Follower:
                 self.channel.send(list(events.values()))
 
 
-class Show:
+class ShownPanel:
     """One panel with the pages that show it.
 
     Attributes:
         source: its class.
-        life: the object at work, None while no page shows it.
+        running: the object at work, None while no page shows it.
     """
 
     def __init__(self, graph: Graph, source: Source) -> None:
         self.source = source
-        self.life: Life | None = None
+        self.running: RunningPanel | None = None
         self._graph = graph
         self._followers: tuple[Follower, ...] = ()
         self._problem: dict[str, Any] | None = None
@@ -107,7 +107,7 @@ class Show:
         """
         follower = Follower(channel)
         with self._taking_turns():
-            if self.life is None:
+            if self.running is None:
                 self._begin(again=False)
             with self._counting:
                 self._followers += (follower,)
@@ -149,19 +149,19 @@ class Show:
         self._problem = None
         self._over = threading.Event()
         self._stamp_ns = self._modified()
-        life = self.life = Life(self._graph, self.source, self._tell_all)
-        life.begin(again=again)
+        running = self.running = RunningPanel(self._graph, self.source, self._tell_all)
+        running.begin(again=again)
         watch = threading.Thread(target=self._watch, args=(self._over,), daemon=True)
         watch.start()
 
     def _end(self) -> None:
         self._over.set()
-        life, self.life = self.life, None
-        if life is not None:
-            life.end()
+        running, self.running = self.running, None
+        if running is not None:
+            running.end()
 
     def _greet(self, follower: Follower) -> None:
-        state = self.life.state if self.life is not None else None
+        state = self.running.state if self.running is not None else None
         if state is not None:
             state.show_to(follower.tell)
         else:
@@ -204,13 +204,13 @@ class Show:
             return 0
 
 
-class Desk:
+class ShownPanels:
     """All panels of a graph's pages: those that could be opened, and those that are."""
 
     def __init__(self, graph: Graph) -> None:
         self._graph = graph
         self._named: dict[str, tuple[Source, ...]] = {}
-        self._shows: dict[str, Show] = {}
+        self._shown: dict[str, ShownPanel] = {}
         self._turn = threading.Lock()
 
     def name_file(self, words: str) -> tuple[Source, ...]:
@@ -244,32 +244,32 @@ class Desk:
             raise StudioError(known[name].problem)
         return known[name]
 
-    def show(self, name: str) -> Show:
+    def show(self, name: str) -> ShownPanel:
         """Return a panel to be shown."""
         with self._turn:
-            if name not in self._shows:
-                self._shows[name] = Show(self._graph, self.source(name))
-            return self._shows[name]
+            if name not in self._shown:
+                self._shown[name] = ShownPanel(self._graph, self.source(name))
+            return self._shown[name]
 
-    def shown(self, name: str) -> Show:
+    def shown(self, name: str) -> ShownPanel:
         """Return a panel that a page shows.
 
         Raises:
             StudioError: none does.
         """
-        found = self._shows.get(name)
-        if found is None or found.life is None:
-            raise StudioError(f"the panel '{name}' is not open", known=tuple(self._shows))
+        found = self._shown.get(name)
+        if found is None or found.running is None:
+            raise StudioError(f"the panel '{name}' is not open", known=tuple(self._shown))
         return found
 
     def picture(self, name: str, widget: str) -> Answer | None:
         """Return what an image shows now."""
-        show = self._shows.get(name)
-        state = show.life.state if show is not None and show.life is not None else None
+        shown = self._shown.get(name)
+        state = shown.running.state if shown is not None and shown.running is not None else None
         value = state.values.get(widget) if state is not None else None
         return None if value is None else picture_answer(value)
 
     def close(self) -> None:
         """End all panels."""
-        for show in self._shows.values():
-            show.close()
+        for shown in self._shown.values():
+            shown.close()

@@ -12,7 +12,7 @@ from gazelle.studio.errors import StudioError, unknown
 from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.shapes import PageGeometry, page_scene
-from gazelle.studio.subscriptions import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Subscriptions
 from gazelle.workspace import Workspace
 
 __all__ = ["RobotContext", "description_text", "get_robot"]
@@ -26,11 +26,11 @@ class RobotContext:
     """What descriptions of robots are read with.
 
     Attributes:
-        taps: topics that bring them; its node has their parameters.
+        subscriptions: topics that bring them; its node has their parameters.
         assets: keeps their meshes for pages.
     """
 
-    taps: Taps
+    subscriptions: Subscriptions
     assets: Assets
 
 
@@ -40,7 +40,7 @@ def get_robot(robots: RobotContext, params: Params) -> SceneValue[PageGeometry]:
     from gazelle.description.loader import load_models
     from gazelle.sensors.scene_json import robot_value
 
-    text = _description(robots.taps, params)
+    text = _description(robots.subscriptions, params)
     found = Diagnostics()
     models = load_models(text, workspace=Workspace.discover(), diagnostics=found, inserts=False)
     findings: list[dict[str, Any]] = [
@@ -58,16 +58,16 @@ def get_robot(robots: RobotContext, params: Params) -> SceneValue[PageGeometry]:
     return value
 
 
-def _description(taps: Taps, params: Params) -> str:
+def _description(subscriptions: Subscriptions, params: Params) -> str:
     if "topic" in params:
-        return description_text(taps, params.text("topic"))
-    graph, name = taps.node.graph, params.text("parameter", _PARAMETER)
+        return description_text(subscriptions, params.text("topic"))
+    graph, name = subscriptions.node.graph, params.text("parameter", _PARAMETER)
     try:
         value = graph.parameters.get(name)
     except KeyError:
         topics = {one.name for one in graph.topics()}
         if name in topics:
-            return description_text(taps, name)
+            return description_text(subscriptions, name)
         known = graph.parameters.names()
         raise unknown("parameter or topic", name, {*known, *topics}) from None
     if not isinstance(value, str):
@@ -75,7 +75,7 @@ def _description(taps: Taps, params: Params) -> str:
     return value
 
 
-def description_text(taps: Taps, topic: str) -> str:
+def description_text(subscriptions: Subscriptions, topic: str) -> str:
     """Return the latched text of a topic.
 
     Raises:
@@ -88,7 +88,7 @@ def description_text(taps: Taps, topic: str) -> str:
         samples.append(sample)
         came.set()
 
-    end = taps.listen(topic, take)
+    end = subscriptions.listen(topic, take)
     came.wait(_TOPIC_S)
     end()
     if not samples:

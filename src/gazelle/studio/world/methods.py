@@ -5,11 +5,11 @@ from __future__ import annotations
 from contextlib import ExitStack
 from dataclasses import dataclass
 
-from gazelle.studio.lazy import Once, closed_with
+from gazelle.studio.lazy import Lazy, closed_with
 from gazelle.studio.routing import Method, Route, methods_of, methods_without, streams_of
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.streams import StreamKind
-from gazelle.studio.subscriptions import Taps
+from gazelle.studio.subscriptions import Subscriptions
 from gazelle.studio.workers import Workers
 from gazelle.studio.world.edit import (
     apply_wrench,
@@ -49,7 +49,7 @@ _CALLS: dict[str, Method[WorldLink]] = {
     "world.step": step,
     "world.wrench": apply_wrench,
 }
-_TOPICS: dict[str, StreamKind[Taps]] = {
+_TOPICS: dict[str, StreamKind[Subscriptions]] = {
     "world.contacts": StreamKind(latest=True, open=open_contacts),
     "world.poses": StreamKind(latest=True, open=open_poses),
     "world.stats": StreamKind(latest=True, open=open_stats),
@@ -63,7 +63,7 @@ METHODS: dict[str, Method[WorldParts]] = {
     **methods_without({"world.models": list_models}),
 }
 STREAMS: dict[str, StreamKind[WorldParts]] = {
-    **streams_of(lambda parts: parts.taps, _TOPICS),
+    **streams_of(lambda parts: parts.subscriptions, _TOPICS),
     **streams_of(lambda parts: parts.scene(), _SCENE),
 }
 ROUTES: dict[str, Route[object]] = {"thumbnail": thumbnail}
@@ -75,16 +75,18 @@ class WorldParts:
 
     Attributes:
         link: calls it.
-        taps: its topics.
+        subscriptions: its topics.
         scene: what is in it; followed from the first look on.
     """
 
     link: WorldLink
-    taps: Taps
-    scene: Once[Scene]
+    subscriptions: Subscriptions
+    scene: Lazy[Scene]
 
 
-def world_parts(taps: Taps, workers: Workers, assets: Assets, ending: ExitStack) -> WorldParts:
+def world_parts(
+    subscriptions: Subscriptions, workers: Workers, assets: Assets, ending: ExitStack
+) -> WorldParts:
     """Return the parts that end with others."""
-    scene = Once(lambda: closed_with(ending, Scene(taps, workers, assets)))
-    return WorldParts(WorldLink(taps.node), taps, scene)
+    scene = Lazy(lambda: closed_with(ending, Scene(subscriptions, workers, assets)))
+    return WorldParts(WorldLink(subscriptions.node), subscriptions, scene)

@@ -14,7 +14,7 @@ from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.shapes import PageGeometry, page_scene
 from gazelle.studio.streams import Channel, Frame, OpenStream
-from gazelle.studio.subscriptions import Sample, Taps
+from gazelle.studio.subscriptions import Sample, Subscriptions
 from gazelle.studio.workers import Workers
 
 __all__ = [
@@ -53,21 +53,21 @@ class Scene:
     """The world's scene value as it is now, for all pages; None while there is no world.
 
     Attributes:
-        taps: topics; what moves in the scene is on some of them.
+        subscriptions: topics; what moves in the scene is on some of them.
         close: follows the world no more.
     """
 
-    def __init__(self, taps: Taps, workers: Workers, assets: Assets) -> None:
+    def __init__(self, subscriptions: Subscriptions, workers: Workers, assets: Assets) -> None:
         """Follow the world of a graph; workers read meshes, `assets` keeps them."""
-        self.taps = taps
+        self.subscriptions = subscriptions
         self._workers = workers
         self._assets = assets
         self._lock = threading.Lock()
         self._followers: list[Channel] = []
         self._value: PageScene | None = None
         self._count = self._shown = 0
-        taps.node.graph.discovery.listen(self._on_entity)
-        self.close: Callable[[], None] = taps.listen(_SCENE, self._take)
+        subscriptions.node.graph.discovery.listen(self._on_entity)
+        self.close: Callable[[], None] = subscriptions.listen(_SCENE, self._take)
 
     @property
     def value(self) -> PageScene | None:
@@ -116,23 +116,23 @@ def open_scene(scene: Scene, channel: Channel, _params: Params) -> OpenStream:
     return OpenStream(scene.follow(channel))
 
 
-def open_poses(taps: Taps, channel: Channel, _params: Params) -> OpenStream:
+def open_poses(subscriptions: Subscriptions, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``world.poses``."""
-    return _frames(taps, channel, "/_gazelle/poses", _POSES)
+    return _frames(subscriptions, channel, "/_gazelle/poses", _POSES)
 
 
-def open_contacts(taps: Taps, channel: Channel, _params: Params) -> OpenStream:
+def open_contacts(subscriptions: Subscriptions, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``world.contacts``."""
-    return _frames(taps, channel, "/_gazelle/contacts", _CONTACTS)
+    return _frames(subscriptions, channel, "/_gazelle/contacts", _CONTACTS)
 
 
-def open_stats(taps: Taps, channel: Channel, _params: Params) -> OpenStream:
+def open_stats(subscriptions: Subscriptions, channel: Channel, _params: Params) -> OpenStream:
     """Stream ``world.stats``."""
 
     def take(sample: Sample) -> None:
         channel.offer(lambda: json.loads(sample.message().data))
 
-    return OpenStream(taps.listen("/_gazelle/stats", take))
+    return OpenStream(subscriptions.listen("/_gazelle/stats", take))
 
 
 def open_joints(scene: Scene, channel: Channel, params: Params) -> OpenStream:
@@ -145,10 +145,10 @@ def open_joints(scene: Scene, channel: Channel, params: Params) -> OpenStream:
     def take(sample: Sample) -> None:
         channel.offer(lambda: _joint_rows(scene.value, model, sample.message()))
 
-    return OpenStream(scene.taps.listen("/_gazelle/joints", take))
+    return OpenStream(scene.subscriptions.listen("/_gazelle/joints", take))
 
 
-def _frames(taps: Taps, channel: Channel, topic: str, kind: int) -> OpenStream:
+def _frames(subscriptions: Subscriptions, channel: Channel, topic: str, kind: int) -> OpenStream:
     def make(sample: Sample) -> Frame:
         message = sample.message()
         count = len(message.values) // message.width
@@ -157,7 +157,7 @@ def _frames(taps: Taps, channel: Channel, topic: str, kind: int) -> OpenStream:
     def take(sample: Sample) -> None:
         channel.offer(lambda: make(sample))
 
-    return OpenStream(taps.listen(topic, take))
+    return OpenStream(subscriptions.listen(topic, take))
 
 
 def _joint_rows(scene: PageScene | None, model: str, frames: Any) -> list[WorldJoint] | None:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from .own_messages import Echoes, Speakers
+from .own_messages import OwnMessages, RosPublishers
 from .pipes import FrameKind, Pipes
 from .service_clients import Calls, MissingTypeError, class_of
 
@@ -20,7 +20,7 @@ class Endpoints:
 
     Attributes:
         own_names: global names of the bridge's nodes.
-        speakers: the publishers that are known.
+        ros_publishers: the publishers that are known.
     """
 
     def __init__(self, pipes: Pipes, node: Any, executor: Any) -> None:
@@ -31,13 +31,13 @@ class Endpoints:
         self._home = node
         self._nodes: dict[str, Any] = {name: node}
         self.own_names: set[str] = {name}
-        self.speakers = Speakers(node, self.own_names)
+        self.ros_publishers = RosPublishers(node, self.own_names)
         self._publishers: dict[int, tuple[Any, str]] = {}
         self._drops: dict[int, Callable[[], Any]] = {}
         self._services: dict[int, Any] = {}
         self._headers: dict[tuple[int, int], Any] = {}
         self._numbers = itertools.count(1)
-        self._echoes: dict[str, Echoes] = {}
+        self._own_messages: dict[str, OwnMessages] = {}
         self._calls = Calls(pipes, node)
         info = getattr(import_module("rclpy.subscription"), "MessageInfo", None)
         self._tells_gid = "publisher_gid" in getattr(info, "__annotations__", {})
@@ -66,9 +66,9 @@ class Endpoints:
         publisher, topic = self._publishers.get(channel, (None, ""))
         if publisher is None:
             return
-        echoes = self._echoes.get(topic)
-        if echoes is not None:
-            echoes.note(data)
+        own_messages = self._own_messages.get(topic)
+        if own_messages is not None:
+            own_messages.note(data)
         try:
             publisher.publish(data)
         except Exception:  # noqa: BLE001 - told; rclpy has no common class
@@ -129,10 +129,10 @@ class Endpoints:
             _qos(command),
             event_callbacks=_silent("PublisherEventCallbacks"),
         )
-        self.speakers.learn(topic)
+        self.ros_publishers.learn(topic)
         if command["latched"] and not self._tells_gid:
             # A subscription that comes later hears what is latched now.
-            self._echoes[topic] = Echoes(for_ever=True)
+            self._own_messages[topic] = OwnMessages(for_ever=True)
         self._publishers[channel] = (made, topic)
         self._drops[channel] = lambda: node.destroy_publisher(made)
         return _type_hash(node, self._home.get_publishers_info_by_topic(topic), command["type"])
@@ -185,17 +185,17 @@ class Endpoints:
 
     def _taker(self, channel: int, topic: str) -> Callable[[bytes, Any], None]:
         def take(data: bytes, info: Any) -> None:
-            number = self.speakers.number_of(topic, bytes(info["publisher_gid"]["data"]))
+            number = self.ros_publishers.number_of(topic, bytes(info["publisher_gid"]["data"]))
             if number:
                 self._pipes.send(FrameKind.MESSAGE, channel, number, data)
 
         def take_unsigned(data: bytes, _info: Any) -> None:
-            if not echoes.is_echo(data):
+            if not own_messages.is_echo(data):
                 self._pipes.send(FrameKind.MESSAGE, channel, 0, data)
 
         if self._tells_gid:
             return take
-        echoes = self._echoes.setdefault(topic, Echoes())
+        own_messages = self._own_messages.setdefault(topic, OwnMessages())
         return take_unsigned
 
     def _pass_on(self, channel: int, request: Any, header: Any) -> None:

@@ -31,7 +31,7 @@ class Watch:
             OSError: it has.
         """
         before: dict[str, list[_Row]] = {}
-        news = self._endpoints.speakers.news
+        news = self._endpoints.ros_publishers.news
         while True:
             started = time.monotonic()
             state = self._state()
@@ -50,7 +50,7 @@ class Watch:
         publishers: list[_Row] = []
         subscriptions: list[_Row] = []
         for topic, _types in self._node.get_topic_names_and_types():
-            for one, number in self._endpoints.speakers.learn(topic):
+            for one, number in self._endpoints.ros_publishers.learn(topic):
                 if number and _is_named(one):
                     publishers.append([*_row(one, topic), number])
             for one in self._node.get_subscriptions_info_by_topic(topic):

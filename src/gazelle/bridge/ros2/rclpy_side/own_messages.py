@@ -11,14 +11,14 @@ import time
 from collections import deque
 from typing import Any
 
-__all__ = ["Echoes", "Speakers"]
+__all__ = ["OwnMessages", "RosPublishers"]
 
 _ALIVE_S = 5.0
 _MAX = 1000
 _HEAD = 4
 
 
-class Speakers:
+class RosPublishers:
     """The publishers of all topics by their gid; safe to use from many threads.
 
     Attributes:
@@ -79,7 +79,7 @@ class Speakers:
             return self._numbers[gid]
 
 
-class Echoes:
+class OwnMessages:
     """What this process has published on one topic and may hear again; many threads may ask."""
 
     def __init__(self, *, for_ever: bool = False) -> None:
