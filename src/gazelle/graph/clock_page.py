@@ -55,7 +55,7 @@ class ClockPage:
             sweep(folder, _NAME)
             path = folder / f"{own_prefix(_NAME)}{os.urandom(8).hex()}"
             with contextlib.suppress(OSError):
-                self._words = _made(path, self.secret)
+                self._integers = _made(path, self.secret)
                 self.path = str(path)
                 return
         raise OSError("there is no folder for the clock's page")
@@ -67,12 +67,12 @@ class ClockPage:
         if is_jump:
             jumps, jump_ns = jumps + 1, now_ns - before_ns
         self._shown = (now_ns, jumps, jump_ns)
-        words = self._words
+        integers = self._integers
         # Each is written at once. Whoever reads in between sees that they do not fit together.
-        words[0] = now_ns
-        words[1] = jumps
-        words[2] = jump_ns
-        words[3] = ~(now_ns ^ (jumps << _JUMP_BITS) ^ jump_ns)
+        integers[0] = now_ns
+        integers[1] = jumps
+        integers[2] = jump_ns
+        integers[3] = ~(now_ns ^ (jumps << _JUMP_BITS) ^ jump_ns)
         return is_jump
 
     def close(self) -> None:
@@ -106,14 +106,14 @@ class PageView:
             os.close(number)
         if _HEAD.unpack_from(memory) != (_MAGIC, secret):
             raise OSError(f"{path} is another clock")
-        self._words = _numbers(memory)
+        self._integers = _numbers(memory)
         self._last: Reading = (0, 0, 0)
         self.read()
 
     def read(self) -> Reading:
         """Return what the page shows; from any thread, in less than a microsecond."""
         for _ in range(_TRIES):
-            now_ns, jumps, jump_ns, check = self._words.tolist()
+            now_ns, jumps, jump_ns, check = self._integers.tolist()
             if check == ~(now_ns ^ (jumps << _JUMP_BITS) ^ jump_ns):
                 self._last = reading = (now_ns, jumps, jump_ns)
                 return reading
@@ -160,5 +160,5 @@ def machine_name() -> str:
         import platform
         import uuid
 
-        words = f"{platform.node()} {uuid.getnode()}"
-        return hashlib.blake2b(words.encode(), digest_size=16).hexdigest()
+        machine = f"{platform.node()} {uuid.getnode()}"
+        return hashlib.blake2b(machine.encode(), digest_size=16).hexdigest()

@@ -185,8 +185,8 @@ def offer_loggers(node: Node, logger: str = "ros") -> None:
         try:
             node.log_level = level_of(request.level)
         except KeyError:
-            words = ", ".join(level.name.lower() for level in Level)
-            raise GraphError(f"'{request.level}' is no level; there are {words}") from None
+            levels = ", ".join(level.name.lower() for level in Level)
+            raise GraphError(f"'{request.level}' is no level; there are {levels}") from None
         return put._response_class()
 
     with node.announced_together():

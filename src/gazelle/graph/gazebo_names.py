@@ -160,9 +160,9 @@ def other_version_hint(name: str, offered: Iterable[str]) -> str:
     in_ros2, in_gz = _INSTEAD.get(name.rpartition("/")[2], ("", ""))
     text = "it is ROS 1's, and this world was started by ROS 2 or gz"
     in_ros2, there = _in_world(in_ros2, offered)
-    words = [in_ros2] if in_ros2 else []
-    words += [f"gz service -s /world/NAME/{in_gz}"] if in_gz and not there else []
-    return f"{text}, which have {' or '.join(words)}" if words else text
+    commands = [in_ros2] if in_ros2 else []
+    commands += [f"gz service -s /world/NAME/{in_gz}"] if in_gz and not there else []
+    return f"{text}, which have {' or '.join(commands)}" if commands else text
 
 
 def _in_world(service: str, offered: Iterable[str]) -> tuple[str, bool]:

@@ -201,10 +201,10 @@ def _complaint(name: str) -> str:
             f"Character [{name[0]}] is not valid as the first character in Graph Resource Name "
             f"[{name}].  Valid characters are a-z, A-Z, / and in some cases ~."
         )
-    for place, character in enumerate(name[1:], 1):
+    for index, character in enumerate(name[1:], 1):
         if not re.match(r"[\w/]", character, re.ASCII):
             return (
-                f"Character [{character}] at element [{place}] is not valid in Graph Resource "
+                f"Character [{character}] at element [{index}] is not valid in Graph Resource "
                 f"Name [{name}].  Valid characters are a-z, A-Z, 0-9, / and _."
             )
     return "a name must not have two slashes in a row"

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["Node"]
 
 _ROSOUT = "/rosout"
-_WIRE_LEVELS = {level: 10 * place for place, level in enumerate(Level, 1)}
+_WIRE_LEVELS = {level: 10 * number for number, level in enumerate(Level, 1)}
 _ROSOUT_TYPE = "rcl_interfaces/msg/Log"
 
 

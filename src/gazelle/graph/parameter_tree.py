@@ -94,19 +94,19 @@ class ParameterTree:
     def search(self, name: str, start: str) -> str | None:
         """Return the global name of the closest parameter, None when there is none.
 
-        Looks in `start` (a node's global name) and then in each namespace above it. As in ROS,
+        Looks in `start` (a namespace's global name) and then in each namespace above it. As in ROS,
         only the first part of the name decides where it is found.
         """
         if name.startswith("/"):
             return name if self.has(name) else None
         first = name.split("/", maxsplit=1)[0]
-        place = start
+        namespace = start
         while True:
-            if self.has(join(place, first)):
-                return resolve(name, place)
-            if place == "/":
+            if self.has(join(namespace, first)):
+                return resolve(name, namespace)
+            if namespace == "/":
                 return None
-            place = namespace_of(place)
+            namespace = namespace_of(namespace)
 
     def names(self) -> list[str]:
         """Return the names of all values (not of namespaces), in the order they were set."""
@@ -120,13 +120,13 @@ class ParameterTree:
             self.revision = revision
 
     def _namespace(self, parts: list[str]) -> dict[str, Any]:
-        place = self._root
+        namespace = self._root
         for part in parts:
-            below = place.get(part)
+            below = namespace.get(part)
             if not isinstance(below, dict):
-                below = place[part] = {}
-            place = below
-        return place
+                below = namespace[part] = {}
+            namespace = below
+        return namespace
 
 
 def _encode(value: Any) -> Any:

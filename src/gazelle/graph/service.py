@@ -78,7 +78,7 @@ class ServiceServer:
         self._with_caller = with_caller
         self._on_error = on_error
         self._closed = is_mute
-        self._repeats = AnsweredRequests()
+        self._answered = AnsweredRequests()
         self._turns = Turns()
         text = token(graph.domain, entity)
         self._gid = entity_gid(text)
@@ -102,13 +102,13 @@ class ServiceServer:
         asked = _attachment_of(query)
         turn = self._turns.take(asked.gid) if self._begin is not None else None
         name = f"service {self.name}"
-        words = (query, asked, turn)
-        threading.Thread(target=self._answer, args=words, name=name, daemon=True).start()
+        arguments = (query, asked, turn)
+        threading.Thread(target=self._answer, args=arguments, name=name, daemon=True).start()
 
     def _answer(self, query: Any, asked: Attachment, turn: Turn | None) -> None:
         end_turn = turn.end if turn is not None else None
         try:
-            answer, error = self._repeats.answer(
+            answer, error = self._answered.answer(
                 asked.gid, asked.sequence, lambda: self._handled(query, turn), on_repeat=end_turn
             )
         finally:
@@ -140,12 +140,12 @@ class ServiceServer:
         """Return the response's bytes, none when the handler gave no response."""
         data = query.payload.to_bytes() if query.payload is not None else b""
         request = type_support.decode(type_support.request_type(self.service_class), data)
-        words = (request, self._caller_of(query)) if self._with_caller else (request,)
+        arguments = (request, self._caller_of(query)) if self._with_caller else (request,)
         if self._begin is None or turn is None:
-            response = self._handler(*words)
+            response = self._handler(*arguments)
         else:
             with turn:
-                finish = self._begin(*words)
+                finish = self._begin(*arguments)
             response = finish()
         if response is None:
             return b""

@@ -154,6 +154,6 @@ class InTurn:
         """
         self.begin = begin
 
-    def __call__(self, *words: Any) -> Any:
+    def __call__(self, *arguments: Any) -> Any:
         """Do both parts and return the response."""
-        return self.begin(*words)()
+        return self.begin(*arguments)()

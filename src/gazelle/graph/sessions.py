@@ -85,13 +85,13 @@ def close_session(session: Any, then: Callable[[], None] | None = None) -> None:
         then: called when it is closed, however long that takes.
     """
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(session))
-    words = (session, then or _do_nothing)
-    closing = threading.Thread(target=_close, args=words, name="gazelle-close", daemon=True)
+    arguments = (session, then or _do_nothing)
+    closing = threading.Thread(target=_close, args=arguments, name="gazelle-close", daemon=True)
     try:
         closing.start()
     except RuntimeError:
         # Python 3.12 and later start no thread at the process' very end.
-        _close(*words)
+        _close(*arguments)
     else:
         closing.join(_CLOSE_S)
 

@@ -263,12 +263,12 @@ def _fits(text: str, ros_version: RosVersion) -> bool:
     """Guess from what only one generation can write; a neutral text fits both."""
     lines = [line.partition("#")[0].split() for line in text.splitlines()]
     if ros_version is RosVersion.ROS2:
-        return not any(words and words[0].partition("[")[0] in _ROS1_WORDS for words in lines)
-    return not any(_is_ros2_line(words) for words in lines)
+        return not any(tokens and tokens[0].partition("[")[0] in _ROS1_WORDS for tokens in lines)
+    return not any(_is_ros2_line(tokens) for tokens in lines)
 
 
-def _is_ros2_line(words: list[str]) -> bool:
-    if not words:
+def _is_ros2_line(tokens: list[str]) -> bool:
+    if not tokens:
         return False
-    has_default = len(words) > 2 and "=" not in "".join(words[1:])
-    return has_default or "<=" in words[0] or words[0].startswith(("wstring", "builtin_interf"))
+    has_default = len(tokens) > 2 and "=" not in "".join(tokens[1:])
+    return has_default or "<=" in tokens[0] or tokens[0].startswith(("wstring", "builtin_interf"))

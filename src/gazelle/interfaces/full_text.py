@@ -50,11 +50,11 @@ def installed_texts(package: str, name: str, ros_version: RosVersion) -> Iterato
     """
     values = tuple(os.environ.get(variable, "") for variable in _VARIABLES)
     for folder in _share_folders(values, _SYSTEM, _DISTRIBUTIONS):
-        places = [folder / package]
+        folders = [folder / package]
         if folder.name == package:  # ROS_PACKAGE_PATH names packages too
-            places.append(folder)
-        for place in places:
-            text = _read(place / "msg" / f"{name}.msg")
+            folders.append(folder)
+        for below in folders:
+            text = _read(below / "msg" / f"{name}.msg")
             if text is not None:
                 yield text
     if ros_version is RosVersion.ROS1:

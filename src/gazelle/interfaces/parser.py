@@ -132,13 +132,13 @@ def _read_line(reading: _Reading) -> None:
         _add_constant(reading, match[1], match[2], _string_text(match[3], reading.ros_version))
         return
     code = _without_comment(line)
-    words = code.split(None, 1)
-    if len(words) < 2:
+    tokens = code.split(None, 1)
+    if len(tokens) < 2:
         reading.report(
             "interfaces.bad-line", f"'{code}' has a type but no name, or the reverse", code
         )
         return
-    kind, rest = words
+    kind, rest = tokens
     if re.match(r"\w+\s*=(?!=)", rest):
         name, _, value = rest.partition("=")
         _add_constant(reading, kind, name.strip(), value.strip())

@@ -28,11 +28,11 @@ def split_name(name: str, part: str = "msg") -> tuple[str, str, str]:
     Raises:
         NotFoundError: the text is not written as a type's name.
     """
-    words = name.strip("/").split("/")
-    if len(words) == 2 and all(words):
-        return words[0], part, words[1]
-    if len(words) == 3 and all(words) and words[1] in ("msg", "srv", "action"):
-        return words[0], words[1], words[2]
+    parts = name.strip("/").split("/")
+    if len(parts) == 2 and all(parts):
+        return parts[0], part, parts[1]
+    if len(parts) == 3 and all(parts) and parts[1] in ("msg", "srv", "action"):
+        return parts[0], parts[1], parts[2]
     raise NotFoundError(
         "type", name, hint="a type is written package/Name or package/msg/Name (srv, action)"
     )

@@ -13,7 +13,7 @@ from tests.bridge.ros1.peer import ask, pack_header, post, read_fields
 
 from gazelle.bridge.ros1 import Address, MasterAddress, master_address, own_address
 from gazelle.bridge.ros1.addresses import address_of_master
-from gazelle.bridge.ros1.server_socket import Endpoint
+from gazelle.bridge.ros1.server_socket import ServerSocket
 from gazelle.bridge.ros1.tcpros import read_header, write_header
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
 from gazelle.errors import GraphError
@@ -29,7 +29,7 @@ def notices() -> Notices:
 
 
 @pytest.fixture
-def endpoint(notices: Notices) -> Iterator[Endpoint]:
+def server_socket(notices: Notices) -> Iterator[ServerSocket]:
     """Answers ``hello``, fails at ``fail``, and sends headers back."""
 
     def fail() -> Any:
@@ -39,22 +39,22 @@ def endpoint(notices: Notices) -> Iterator[Endpoint]:
         stream.sendall(write_header(read_header(stream)))
 
     methods = {"hello": lambda: (1, "", "hi"), "no": lambda: (0, "not so", 0), "fail": fail}
-    found = Endpoint(own_address({}), methods, echo, notices.append)
+    found = ServerSocket(own_address({}), methods, echo, notices.append)
     yield found
     found.close()
 
 
-def test_both_protocols_share_a_port(endpoint: Endpoint) -> None:
-    assert ask(endpoint.uri, "hello") == [1, "", "hi"]
-    with socket.create_connection((HERE, endpoint.port)) as stream:
+def test_both_protocols_share_a_port(server_socket: ServerSocket) -> None:
+    assert ask(server_socket.uri, "hello") == [1, "", "hi"]
+    with socket.create_connection((HERE, server_socket.port)) as stream:
         stream.sendall(pack_header({"topic": "/a", "odd": "x=y"}))
         assert read_fields(stream) == {"topic": "/a", "odd": "x=y"}
 
 
-def test_page_of_another_host_is_refused(endpoint: Endpoint) -> None:
-    assert post(endpoint.uri, GOOD).status == 200
-    assert post(endpoint.uri, GOOD, Host=f"evil.example:{endpoint.port}").status == 403
-    assert post(endpoint.uri, GOOD, Origin="http://localhost").status == 403
+def test_page_of_another_host_is_refused(server_socket: ServerSocket) -> None:
+    assert post(server_socket.uri, GOOD).status == 200
+    assert post(server_socket.uri, GOOD, Host=f"evil.example:{server_socket.port}").status == 403
+    assert post(server_socket.uri, GOOD, Origin="http://localhost").status == 403
 
 
 @pytest.mark.parametrize(
@@ -67,31 +67,31 @@ def test_page_of_another_host_is_refused(endpoint: Endpoint) -> None:
         b"",
     ],
 )
-def test_bad_calls_are_refused(endpoint: Endpoint, body: bytes) -> None:
-    assert post(endpoint.uri, body).status == 400
-    assert ask(endpoint.uri, "hello") == [1, "", "hi"]
+def test_bad_calls_are_refused(server_socket: ServerSocket, body: bytes) -> None:
+    assert post(server_socket.uri, body).status == 400
+    assert ask(server_socket.uri, "hello") == [1, "", "hi"]
 
 
-def test_call_that_claims_too_much_is_refused(endpoint: Endpoint) -> None:
-    with socket.create_connection((HERE, endpoint.port), 10.0) as stream:
+def test_call_that_claims_too_much_is_refused(server_socket: ServerSocket) -> None:
+    with socket.create_connection((HERE, server_socket.port), 10.0) as stream:
         head = f"POST / HTTP/1.1\r\nHost: {HERE}:1\r\nContent-Length: 99999999999\r\n\r\n"
         stream.sendall(head.encode())
         assert stream.recv(64).startswith(b"HTTP/1.1 413 ")
 
 
 def test_failure_inside_reaches_the_caller_and_the_user(
-    endpoint: Endpoint, notices: Notices
+    server_socket: ServerSocket, notices: Notices
 ) -> None:
-    assert ask(endpoint.uri, "fail") == [-1, "inside", 0]
+    assert ask(server_socket.uri, "fail") == [-1, "inside", 0]
     assert notices[0].startswith("fail failed: inside\nTraceback")
 
 
-def test_failures_of_a_server_are_told_apart(endpoint: Endpoint) -> None:
-    assert call(endpoint.uri, "hello") == "hi"
+def test_failures_of_a_server_are_told_apart(server_socket: ServerSocket) -> None:
+    assert call(server_socket.uri, "hello") == "hi"
     with pytest.raises(RemoteRefusedError, match="not so"):
-        call(endpoint.uri, "no")
+        call(server_socket.uri, "no")
     with pytest.raises(RemoteError, match='method "what" is not supported'):
-        call(endpoint.uri, "what")
+        call(server_socket.uri, "what")
     with pytest.raises(RemoteError, match=r"is not http://host:port/"):
         call("ftp://x", "hello")
 
@@ -105,21 +105,21 @@ def test_failures_of_a_server_are_told_apart(endpoint: Endpoint) -> None:
     ],
 )
 def test_bad_headers_are_told_and_end_the_connection(
-    endpoint: Endpoint, notices: Notices, data: bytes, text: str
+    server_socket: ServerSocket, notices: Notices, data: bytes, text: str
 ) -> None:
-    with socket.create_connection((HERE, endpoint.port), 10.0) as stream:
+    with socket.create_connection((HERE, server_socket.port), 10.0) as stream:
         stream.sendall(data)
         assert stream.recv(1) == b""
     assert text in notices[0]
 
 
-def test_closing_ends_what_is_open(endpoint: Endpoint) -> None:
-    with socket.create_connection((HERE, endpoint.port), 10.0) as stream:
-        endpoint.close()
+def test_closing_ends_what_is_open(server_socket: ServerSocket) -> None:
+    with socket.create_connection((HERE, server_socket.port), 10.0) as stream:
+        server_socket.close()
         with contextlib.suppress(ConnectionResetError):
             assert stream.recv(1) == b""
     with pytest.raises(OSError):
-        socket.create_connection((HERE, endpoint.port), 1.0).close()
+        socket.create_connection((HERE, server_socket.port), 1.0).close()
 
 
 def test_only_this_machine_is_served_without_the_variables() -> None:

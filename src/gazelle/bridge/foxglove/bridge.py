@@ -62,9 +62,9 @@ def read_asset(workspace: Workspace, uri: str) -> bytes | None:
         workspace: finds packages and models.
         uri: ``package://…`` or ``model://…``.
     """
-    scheme, _, place = uri.partition("://")
-    path = PurePosixPath(unquote(place))
-    if scheme not in _SCHEMES or not _stays_inside(unquote(place)):
+    scheme, _, path_text = uri.partition("://")
+    path = PurePosixPath(unquote(path_text))
+    if scheme not in _SCHEMES or not _stays_inside(unquote(path_text)):
         return None
     if path.suffix.lower() not in _MESHES | _PICTURES | _DESCRIPTIONS:
         return None
@@ -150,9 +150,11 @@ class FoxgloveBridge:
         """A viewer wants a channel no more."""
         self._looking.put((False, viewer, channel))
 
-    def advertise(self, viewer: int, number: int, topic: str, type_name: str, words: str) -> None:
+    def advertise(
+        self, viewer: int, number: int, topic: str, type_name: str, encoding: str
+    ) -> None:
         """A viewer will publish a topic."""
-        self._client_publishers.advertise((viewer, number), topic, type_name, words)
+        self._client_publishers.advertise((viewer, number), topic, type_name, encoding)
 
     def unadvertise(self, viewer: int, number: int) -> None:
         """A viewer publishes a topic no more."""
@@ -201,6 +203,8 @@ def _sorted(side: dict[str, set[str]]) -> dict[str, tuple[str, ...]]:
     return {name: tuple(sorted(nodes)) for name, nodes in sorted(side.items())}
 
 
-def _stays_inside(place: str) -> bool:
+def _stays_inside(path_text: str) -> bool:
     """Whether no part of a path leads out of the package that it starts with."""
-    return not any(part in ("", ".", "..") or set("\\:") & set(part) for part in place.split("/"))
+    return not any(
+        part in ("", ".", "..") or set("\\:") & set(part) for part in path_text.split("/")
+    )

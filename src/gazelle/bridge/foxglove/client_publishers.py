@@ -49,17 +49,17 @@ class ClientPublishers:
         self._lock = threading.Lock()
         self._publishers: dict[_Key, _ClientPublisher] = {}
 
-    def advertise(self, key: _Key, topic: str, type_name: str, words: str) -> None:
+    def advertise(self, key: _Key, topic: str, type_name: str, encoding: str) -> None:
         """Let a viewer publish.
 
         Args:
             key: the viewer and his number for the topic.
             topic: any legal name.
             type_name: ``pkg/msg/Name`` or ``pkg/Name``.
-            words: ``cdr`` or ``json``.
+            encoding: ``cdr`` or ``json``.
         """
-        if words not in ("cdr", "json"):
-            self._notice(f"a viewer cannot publish {topic}: {words} is neither cdr nor json")
+        if encoding not in ("cdr", "json"):
+            self._notice(f"a viewer cannot publish {topic}: {encoding} is neither cdr nor json")
             return
         try:
             message_class = message_type(wire_type(type_name))
@@ -68,7 +68,7 @@ class ClientPublishers:
             self._notice(f"a viewer cannot publish {topic} as {type_name}: {error}")
             return
         with self._lock:
-            self._publishers[key] = _ClientPublisher(publisher, words == "json")
+            self._publishers[key] = _ClientPublisher(publisher, encoding == "json")
         self._wait_for_ears(publisher)
 
     def unadvertise(self, key: _Key) -> None:

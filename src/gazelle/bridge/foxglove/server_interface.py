@@ -76,8 +76,10 @@ class Requests(Protocol):
     def unsubscribe(self, viewer: int, channel: int) -> None:
         """A viewer wants a channel no more, or has gone."""
 
-    def advertise(self, viewer: int, number: int, topic: str, type_name: str, words: str) -> None:
-        """A viewer will publish a topic; `words` says how its messages are encoded."""
+    def advertise(
+        self, viewer: int, number: int, topic: str, type_name: str, encoding: str
+    ) -> None:
+        """A viewer will publish a topic; `encoding` says how its messages are encoded."""
 
     def unadvertise(self, viewer: int, number: int) -> None:
         """A viewer publishes a topic no more, or has gone."""

@@ -112,22 +112,22 @@ def own_address(environ: Mapping[str, str]) -> Address:
     return Address(bind, host, _LOCAL_NAMES | names)
 
 
-def address_of_master(place: MasterAddress, own: Address) -> Address:
+def address_of_master(master: MasterAddress, own: Address) -> Address:
     """Return where a master of our own listens, so that it is found at its place.
 
     Args:
-        place: on this machine.
+        master: on this machine.
         own: what the other servers of the bridge bind to.
 
     Raises:
         GraphError: the place is one that other machines can reach, and the bridge is not open.
     """
-    if not own.is_loopback or place.host in _LOCAL_NAMES:
-        return own._replace(names=own.names | {place.host})
-    found = socket.gethostbyname(place.host)
+    if not own.is_loopback or master.host in _LOCAL_NAMES:
+        return own._replace(names=own.names | {master.host})
+    found = socket.gethostbyname(master.host)
     if not found.startswith("127."):
-        text = f"{place.uri} is this machine as others reach it, and the bridge is open to none"
-        fix = f"export ROS_MASTER_URI=http://localhost:{place.port} in all shells, or open the "
-        fix += f"bridge to other machines: export ROS_HOSTNAME={place.host}"
+        text = f"{master.uri} is this machine as others reach it, and the bridge is open to none"
+        fix = f"export ROS_MASTER_URI=http://localhost:{master.port} in all shells, or open the "
+        fix += f"bridge to other machines: export ROS_HOSTNAME={master.host}"
         raise GraphError(coded("bridge.not-open", text, fix=fix))
-    return Address(found, place.host, own.names | {place.host.lower(), found})
+    return Address(found, master.host, own.names | {master.host.lower(), found})

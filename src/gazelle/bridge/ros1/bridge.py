@@ -16,7 +16,7 @@ from gazelle.bridge.ros1.graph_state import (
     node_entities_of,
     ros_node_entities_of,
 )
-from gazelle.bridge.ros1.master_connection import MasterPeer, find_master
+from gazelle.bridge.ros1.master_connection import MasterConnection, find_master
 from gazelle.bridge.ros1.master_registry import State
 from gazelle.bridge.ros1.parameter_sync import ParameterSync
 from gazelle.bridge.ros1.service_types import ServiceTypes
@@ -50,12 +50,12 @@ class Bridge:
         master: the master, real or our own.
     """
 
-    def __init__(self, graph: Graph, place: MasterAddress, address: Address) -> None:
+    def __init__(self, graph: Graph, master: MasterAddress, address: Address) -> None:
         """Find the master at a place, or be it; then bring over what there is.
 
         Args:
             graph: the graph.
-            place: the master's.
+            master: the master's.
             address: what servers of the bridge bind to and are called.
 
         Raises:
@@ -71,8 +71,8 @@ class Bridge:
         graph.clock.use(False)
         self._workers = ThreadPoolExecutor(2, thread_name_prefix="ros1 bridge")
         try:
-            self.master: MasterPeer = find_master(
-                graph.parameters, place, address, self._sync_thread.touch, self._notice
+            self.master: MasterConnection = find_master(
+                graph.parameters, master, address, self._sync_thread.touch, self._notice
             )
         except GraphError:
             self._node.shutdown()

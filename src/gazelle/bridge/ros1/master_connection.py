@@ -10,13 +10,13 @@ from typing import Any, Protocol
 from gazelle.bridge.ros1.addresses import Address, MasterAddress, address_of_master
 from gazelle.bridge.ros1.master import Master
 from gazelle.bridge.ros1.master_registry import State
-from gazelle.bridge.ros1.server_socket import Endpoint
+from gazelle.bridge.ros1.server_socket import ServerSocket
 from gazelle.bridge.ros1.xmlrpc_call import RemoteRefusedError, call
 from gazelle.errors import GraphError
 from gazelle.graph import ParameterStore
 from gazelle.graph.errors import coded
 
-__all__ = ["EmbeddedMaster", "MasterPeer", "RunningMaster", "find_master"]
+__all__ = ["EmbeddedMaster", "MasterConnection", "RunningMaster", "find_master"]
 
 _SUCCESS = 1
 _ASKING = "/ros1_bridge"
@@ -24,7 +24,7 @@ _PROBE_S = 2.0
 _FACTS = {"/rosdistro": "noetic\n", "/rosversion": "1.15.15\n"}
 
 
-class MasterPeer(Protocol):
+class MasterConnection(Protocol):
     """How the bridge talks to a master."""
 
     uri: str
@@ -81,7 +81,7 @@ class EmbeddedMaster:
     def __init__(
         self,
         parameters: ParameterStore,
-        place: MasterAddress,
+        master: MasterAddress,
         address: Address,
         on_change: Callable[[], None],
         notice: Callable[[str], None],
@@ -93,16 +93,20 @@ class EmbeddedMaster:
         """
         self._master = Master(parameters, on_change)
         try:
-            self._endpoint = Endpoint(address, self._master.methods, None, notice, port=place.port)
+            self._server_socket = ServerSocket(
+                address, self._master.methods, None, notice, port=master.port
+            )
         except OSError as error:
             self._master.close()
-            text = f"port {place.port} is taken by a program that is not a ROS 1 master, or by one "
+            text = (
+                f"port {master.port} is taken by a program that is not a ROS 1 master, or by one "
+            )
             text += "that does not answer"
             if error.errno != errno.EADDRINUSE:
-                text = f"port {place.port} cannot be listened at: {error.strerror}"
+                text = f"port {master.port} cannot be listened at: {error.strerror}"
             fix = "end that program, or choose another port: gazelle bridge ros1 --port 11312"
             raise GraphError(coded("bridge.master-port-taken", text, fix=fix)) from error
-        self.uri = self._master.uri = self._endpoint.uri
+        self.uri = self._master.uri = self._server_socket.uri
         for name, value in _FACTS.items():
             if not parameters.has(name):
                 parameters.set(name, value)
@@ -126,22 +130,22 @@ class EmbeddedMaster:
 
     def close(self) -> None:
         """Listen no more; nodes of ROS 1 go on and wait for the next master."""
-        self._endpoint.close()
+        self._server_socket.close()
         self._master.close()
 
 
 def find_master(
     parameters: ParameterStore,
-    place: MasterAddress,
+    master: MasterAddress,
     address: Address,
     on_change: Callable[[], None],
     notice: Callable[[str], None],
-) -> MasterPeer:
+) -> MasterConnection:
     """Return the master that runs at a place, our own when none does.
 
     Args:
         parameters: the graph's, for a master of our own.
-        place: where.
+        master: where.
         address: what our own binds to and is called.
         on_change: called after every registration at our own.
         notice: told of failures.
@@ -150,13 +154,13 @@ def find_master(
         GraphError: it should be on another machine and does not answer there, or the port is
             another program's.
     """
-    if _answers(place.uri):
-        return RunningMaster(place.uri)
-    if not place.is_here:
-        text = f"no ROS 1 master answers at {place.uri}, and it is not this machine"
+    if _answers(master.uri):
+        return RunningMaster(master.uri)
+    if not master.is_here:
+        text = f"no ROS 1 master answers at {master.uri}, and it is not this machine"
         raise GraphError(coded("bridge.no-master", text))
-    bound = address_of_master(place, address)
-    return EmbeddedMaster(parameters, place, bound, on_change, notice)
+    bound = address_of_master(master, address)
+    return EmbeddedMaster(parameters, master, bound, on_change, notice)
 
 
 def _answers(uri: str) -> bool:

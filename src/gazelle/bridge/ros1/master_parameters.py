@@ -151,7 +151,7 @@ def _search(store: ParameterStore, start: str, name: str) -> str:
     first = name.split("/", maxsplit=1)[0]
     parts = [part for part in start.split("/") if part]
     for count in range(len(parts), -1, -1):
-        place = "/" + "/".join(parts[:count])
-        if store.has(resolve(first, place)):
-            return resolve(name, place)
+        namespace = "/" + "/".join(parts[:count])
+        if store.has(resolve(first, namespace)):
+            return resolve(name, namespace)
     return ""

@@ -14,7 +14,7 @@ from gazelle.bridge.ros1.addresses import Address
 from gazelle.bridge.ros1.xmlrpc_server import Methods, Notice, serve_calls
 from gazelle.errors import GazelleError
 
-__all__ = ["Endpoint", "StreamHandler"]
+__all__ = ["ServerSocket", "StreamHandler"]
 
 _FIRST_BYTES = 4
 _HTTP = (b"POST", b"GET ", b"HEAD", b"PUT ", b"OPTI")
@@ -25,7 +25,7 @@ StreamHandler = Callable[[socket.socket], None]
 """Serves a TCPROS connection until it ends; the stream is closed when it returns."""
 
 
-class Endpoint:
+class ServerSocket:
     """Accepts connections, each served in a thread of its own.
 
     Attributes:

@@ -9,19 +9,18 @@ import contextlib
 import os
 import socket
 import threading
-from collections.abc import Callable, Collection
-from typing import Any, NamedTuple, Protocol
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
-from gazelle.bridge.ros1.addresses import Address
+from gazelle.bridge.ros1.connections import Connections
 from gazelle.bridge.ros1.master_registry import State
 from gazelle.bridge.ros1.publisher import PublishedTopic
-from gazelle.bridge.ros1.server_socket import Endpoint
-from gazelle.bridge.ros1.subscriber_link import SubscriberLink
+from gazelle.bridge.ros1.server_socket import ServerSocket
 from gazelle.bridge.ros1.tcpros import read_header, write_header
 from gazelle.bridge.ros1.types import ServiceKind
 from gazelle.bridge.ros1.xmlrpc_call import RemoteRefusedError
 
-__all__ = ["Ask", "Hub", "NodeEntities", "SlaveNode"]
+__all__ = ["Ask", "NodeEntities", "SlaveNode"]
 
 Ask = Callable[..., Any]
 """Calls a method of the master: (method, *arguments) → value."""
@@ -46,44 +45,6 @@ class NodeEntities(NamedTuple):
     services: dict[str, ServiceKind]
 
 
-class Hub(Protocol):
-    """What a presence needs of the bridge; all of it may be called from any thread."""
-
-    master_uri: str
-    address: Address
-
-    def serve_topic(
-        self, stream: socket.socket, header: dict[str, str], offer: PublishedTopic, name: str, /
-    ) -> None:
-        """Send a topic over a connection."""
-
-    def serve_service(
-        self, stream: socket.socket, header: dict[str, str], kind: ServiceKind, name: str, /
-    ) -> None:
-        """Answer calls over a connection."""
-
-    def take_topic(self, topic: str, uris: list[str], name: str, /) -> None:
-        """Learn where a topic is published in ROS 1."""
-
-    def end_node(self, node: str, reason: str, /) -> None:
-        """End a node of the graph."""
-
-    def process_of(self, node: str, /) -> int:
-        """Return the process of a node of the graph, 0 when it is not known."""
-
-    def links_of(self, node: str, /) -> list[tuple[str, SubscriberLink]]:
-        """Return topic and connection of all that carries what a node publishes."""
-
-    def connections_of(self, topics: Collection[str], /) -> list[tuple[str, str]]:
-        """Return topic and publisher of the connections that bring these topics."""
-
-    def changed_parameter(self, name: str, value: Any, /) -> None:
-        """Learn of a parameter's new value."""
-
-    def notice(self, text: str, /) -> None:
-        """Tell the user."""
-
-
 class SlaveNode:
     """Speaks for one node.
 
@@ -92,11 +53,11 @@ class SlaveNode:
         node_entities: what it offers and wants now.
     """
 
-    def __init__(self, hub: Hub, ask: Ask, name: str, node: str) -> None:
+    def __init__(self, connections: Connections, ask: Ask, name: str, node: str) -> None:
         """Open the node's port; nothing is registered yet."""
         self.name = name
         self.node_entities = NodeEntities(node, {}, {}, {})
-        self._hub = hub
+        self._connections = connections
         self._ask = ask
         self._lock = threading.Lock()
         self._registered: set[tuple[str, str]] = set()
@@ -113,12 +74,14 @@ class SlaveNode:
             "requestTopic": self._request_topic,
             "shutdown": self._shutdown,
         }
-        self._endpoint = Endpoint(hub.address, methods, self._take, hub.notice)
+        self._server_socket = ServerSocket(
+            connections.address, methods, self._take, connections.notice
+        )
 
     @property
     def uri(self) -> str:
         """Address of the slave server."""
-        return self._endpoint.uri
+        return self._server_socket.uri
 
     @property
     def _node(self) -> str:
@@ -146,7 +109,7 @@ class SlaveNode:
                 try:
                     self._register(*key)
                 except RemoteRefusedError as error:
-                    self._hub.notice(f"the master refuses {key[1]} of {self.name}: {error}")
+                    self._connections.notice(f"the master refuses {key[1]} of {self.name}: {error}")
                     self._refused.add(key)
                 self._registered.add(key)
 
@@ -190,11 +153,11 @@ class SlaveNode:
         try:
             self.settle(NodeEntities(self.node_entities.node, {}, {}, {}))
         finally:
-            self._endpoint.close()
+            self._server_socket.close()
 
     def _register(self, what: str, name: str) -> None:
         if what == "Service":
-            uri = self._endpoint.service_uri
+            uri = self._server_socket.service_uri
             self._ask("registerService", self.name, name, uri, self.uri)
         elif what == "Publisher":
             kind = self.node_entities.publishers[name].kind
@@ -202,10 +165,10 @@ class SlaveNode:
         else:
             type_name = self.node_entities.subscribers[name]
             found = self._ask("registerSubscriber", self.name, name, type_name, self.uri)
-            self._hub.take_topic(name, list(found), self.name)
+            self._connections.take_topic(name, list(found), self.name)
 
     def _unregister(self, what: str, name: str) -> None:
-        uri = self._endpoint.service_uri if what == "Service" else self.uri
+        uri = self._server_socket.service_uri if what == "Service" else self.uri
         # One that another process has taken over is not ours to remove; the master knows.
         with contextlib.suppress(RemoteRefusedError):
             self._ask(f"unregister{what}", self.name, name, uri)
@@ -217,9 +180,9 @@ class SlaveNode:
         service = self.node_entities.services.get(header.get("service", ""))
         offer = self.node_entities.publishers.get(header.get("topic", ""))
         if service is not None:
-            self._hub.serve_service(stream, header, service, self.name)
+            self._connections.serve_service(stream, header, service, self.name)
         elif offer is not None:
-            self._hub.serve_topic(stream, header, offer, self.name)
+            self._connections.serve_topic(stream, header, offer, self.name)
         else:
             name = header.get("service") or header.get("topic") or "?"
             text = f"[{name}] is neither a topic nor a service of [{self.name}]"
@@ -227,7 +190,7 @@ class SlaveNode:
 
     def _bus_stats(self, _caller: str) -> tuple[int, str, Any]:
         topics: dict[str, list[list[int]]] = {}
-        for number, (topic, link) in enumerate(self._hub.links_of(self._node), 1):
+        for number, (topic, link) in enumerate(self._connections.links_of(self._node), 1):
             topics.setdefault(topic, []).append([number, link.sent_bytes, link.sent, 1])
         published = [
             [topic, sum(row[1] for row in rows), rows] for topic, rows in sorted(topics.items())
@@ -235,10 +198,12 @@ class SlaveNode:
         return 1, "", [published, [], []]
 
     def _bus_info(self, _caller: str) -> tuple[int, str, Any]:
-        out = [(link.subscriber, "o", topic) for topic, link in self._hub.links_of(self._node)]
+        out = [
+            (link.subscriber, "o", topic) for topic, link in self._connections.links_of(self._node)
+        ]
         into = [
             (publisher, "i", topic)
-            for topic, publisher in self._hub.connections_of(self.node_entities.subscribers)
+            for topic, publisher in self._connections.connections_of(self.node_entities.subscribers)
         ]
         rows = [
             [number, other, way, _TCPROS, topic, True]
@@ -247,14 +212,14 @@ class SlaveNode:
         return 1, "bus info", rows
 
     def _master_uri(self, _caller: str) -> tuple[int, str, Any]:
-        return 1, self._hub.master_uri, self._hub.master_uri
+        return 1, self._connections.master_uri, self._connections.master_uri
 
     def _shutdown(self, _caller: str, reason: str = "") -> tuple[int, str, Any]:
-        self._hub.end_node(self.node_entities.node, reason)
+        self._connections.end_node(self.node_entities.node, reason)
         return 1, "shutdown", 0
 
     def _pid(self, _caller: str) -> tuple[int, str, Any]:
-        return 1, "", self._hub.process_of(self.node_entities.node) or os.getpid()
+        return 1, "", self._connections.process_of(self.node_entities.node) or os.getpid()
 
     def _subscriptions(self, _caller: str) -> tuple[int, str, Any]:
         return (
@@ -268,11 +233,11 @@ class SlaveNode:
         return 1, "publications", [[topic, offer.kind.ros1_name] for topic, offer in offers]
 
     def _param_update(self, _caller: str, name: str, value: Any) -> tuple[int, str, Any]:
-        self._hub.changed_parameter(name, value)
+        self._connections.changed_parameter(name, value)
         return 1, "", 0
 
     def _publisher_update(self, _caller: str, topic: str, uris: Any) -> tuple[int, str, Any]:
-        self._hub.take_topic(str(topic), [str(uri) for uri in uris], self.name)
+        self._connections.take_topic(str(topic), [str(uri) for uri in uris], self.name)
         return 1, "", 0
 
     def _request_topic(self, _caller: str, topic: str, protocols: Any) -> tuple[int, str, Any]:
@@ -281,7 +246,7 @@ class SlaveNode:
         names = [one[0] for one in protocols if isinstance(one, list) and one]
         if _TCPROS not in names:
             return 0, f"no supported protocol implementations among {names}", 0
-        host, port = self._endpoint.host, self._endpoint.port
+        host, port = self._server_socket.host, self._server_socket.port
         return 1, _READY.format(host=host, port=port), [_TCPROS, host, port]
 
 

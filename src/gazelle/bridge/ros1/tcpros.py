@@ -47,16 +47,16 @@ def read_header(stream: socket.socket) -> dict[str, str]:
     """
     body = bytes(read_frame(stream, _MAX_HEADER_BYTES))
     fields: dict[str, str] = {}
-    place = 0
-    while place < len(body):
-        end = place + 4
-        size = _LENGTH.unpack_from(body, place)[0] if end <= len(body) else len(body)
+    offset = 0
+    while offset < len(body):
+        end = offset + 4
+        size = _LENGTH.unpack_from(body, offset)[0] if end <= len(body) else len(body)
         line = body[end : end + size]
         if end + size > len(body) or b"=" not in line:
             raise FrameError("this is not a connection header of TCPROS")
         key, _, value = line.decode("utf-8", "replace").partition("=")
         fields[key] = value
-        place = end + size
+        offset = end + size
     return fields
 
 
@@ -81,15 +81,15 @@ def read_exactly(stream: socket.socket, size: int) -> bytearray:
     """
     # Whoever says that much will come must send it before there is room for more.
     data = bytearray(min(size, _FIRST_BYTES))
-    place = 0
-    while place < size:
-        if place == len(data):
-            data.extend(bytes(min(size - place, place)))
-        with memoryview(data) as view, view[place:] as rest:
+    offset = 0
+    while offset < size:
+        if offset == len(data):
+            data.extend(bytes(min(size - offset, offset)))
+        with memoryview(data) as view, view[offset:] as rest:
             got = stream.recv_into(rest)
         if not got:
             raise ConnectionError("the connection was closed")
-        place += got
+        offset += got
     return data
 
 

@@ -103,10 +103,10 @@ def _of_shebang(command: Path, path: str) -> str:
             line = file.readline(512).decode("utf-8", "replace").strip()
     except OSError:
         return ""
-    words = line.removeprefix("#!").split()
-    if not line.startswith("#!") or not any("python" in word for word in words):
+    tokens = line.removeprefix("#!").split()
+    if not line.startswith("#!") or not any("python" in word for word in tokens):
         return ""
-    program = words[0]
+    program = tokens[0]
     if Path(program).name == "env":
-        program = next((word for word in words[1:] if "python" in word), "")
+        program = next((word for word in tokens[1:] if "python" in word), "")
     return shutil.which(program, path=path) or ""

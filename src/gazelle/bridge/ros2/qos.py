@@ -79,14 +79,14 @@ def request_for(topic: str, publishers: Iterable[RosEndpoint]) -> tuple[QosProfi
         told["DURABILITY"] = coded(
             "bridge.qos-mixed",
             f"topic {topic} has latched (transient local) publishers and others in ROS 2: "
-            f"{', '.join(sorted(_latched_text(one) for one in found))}; what was latched before the "
+            f"{', '.join(sorted(_durability(one) for one in found))}; what was latched before the "
             "bridge asked does not cross",
         )
     reliable = all(one.reliable for one in found)
     return QosProfile(reliable, latched, _MANY if latched else _FEW), told
 
 
-def _latched_text(one: RosEndpoint) -> str:
+def _durability(one: RosEndpoint) -> str:
     return f"{one.node} {'latched' if one.latched else 'volatile'}"
 
 

@@ -160,11 +160,11 @@ class RclpyLink:
         else:
             self._finish(number, data, is_failure=kind == FrameKind.FAILURE)
 
-    def _report(self, words: dict[str, Any]) -> None:
-        if words.pop("report") == "state":
-            self._listener.on_state(words)
+    def _report(self, report: dict[str, Any]) -> None:
+        if report.pop("report") == "state":
+            self._listener.on_state(report)
         else:
-            self._listener.on_done(words.pop("channel"), Outcome(**words))
+            self._listener.on_done(report.pop("channel"), Outcome(**report))
 
     def _finish(self, number: int, data: bytes, *, is_failure: bool) -> None:
         with self._lock:
@@ -243,17 +243,17 @@ class RclpyProcess:
         watchdog = threading.Timer(_START_S, self._process.kill)
         watchdog.start()
         try:
-            words = self.pipes.receive().control()
+            report = self.pipes.receive().control()
         except (EOFError, ValueError) as error:
             self.close()
             raise _StartError(f"it ended before it said anything ({self.exit_text})") from error
         finally:
             watchdog.cancel()
-        if words["report"] == "failed":
+        if report["report"] == "failed":
             self.close()
-            raise _StartError(words["error"])
-        prefixes = tuple(words["prefixes"])
-        return About(words["python"], words["rmw"], words["distro"], words["pid"], prefixes)
+            raise _StartError(report["error"])
+        prefixes = tuple(report["prefixes"])
+        return About(report["python"], report["rmw"], report["distro"], report["pid"], prefixes)
 
 
 def start_rclpy(

@@ -44,13 +44,13 @@ class RosState(NamedTuple):
     services: tuple[RosService, ...]
 
     @classmethod
-    def from_report(cls, words: dict[str, Any]) -> RosState:
+    def from_report(cls, report: dict[str, Any]) -> RosState:
         """Read a report."""
         return cls(
-            tuple(row[0] for row in words["nodes"]),
-            tuple(RosEndpoint(*row) for row in words["publishers"]),
-            tuple(RosEndpoint(*row) for row in words["subscriptions"]),
-            tuple(RosService(*row) for row in words["services"]),
+            tuple(row[0] for row in report["nodes"]),
+            tuple(RosEndpoint(*row) for row in report["publishers"]),
+            tuple(RosEndpoint(*row) for row in report["subscriptions"]),
+            tuple(RosService(*row) for row in report["services"]),
         )
 
     def without(self, names: frozenset[str]) -> RosState:

@@ -63,15 +63,15 @@ def action_name(kind: Any) -> str:
     """
     text = kind if isinstance(kind, str) else getattr(kind, "TYPE_NAME", "")
     text = text or getattr(kind, "name", "")
-    words = str(text).split("/")
+    parts = str(text).split("/")
     is_class = not isinstance(kind, str) and bool(getattr(kind, "TYPE_NAME", ""))
-    if len(words) not in (2, 3) or (is_class and not words[-1].endswith(_SUFFIX)):
+    if len(parts) not in (2, 3) or (is_class and not parts[-1].endswith(_SUFFIX)):
         raise GraphError(
             f"{kind!r} is no action type\n"
             "  fix: give package/Name, or the class NameAction of package.msg (ROS 1), or the "
             "class Name of package.action (ROS 2)\n  ROS says: Type is not an action spec"
         )
-    return f"{words[0]}/action/{words[-1].removesuffix(_SUFFIX)}"
+    return f"{parts[0]}/action/{parts[-1].removesuffix(_SUFFIX)}"
 
 
 def action_types(kind: Any, ros_version: RosVersion) -> ActionTypes:

@@ -87,11 +87,11 @@ class History:
         elif stamp_ns + cache_ns < stamps[-1]:
             return "TF_OLD_DATA"
         else:
-            place = bisect_left(stamps, stamp_ns)
-            if stamps[place] == stamp_ns:
+            index = bisect_left(stamps, stamp_ns)
+            if stamps[index] == stamp_ns:
                 return "TF_REPEATED_DATA"
-            stamps.insert(place, stamp_ns)
-            self._samples.insert(place, sample)
+            stamps.insert(index, stamp_ns)
+            self._samples.insert(index, sample)
         kept = bisect_left(stamps, stamps[-1] - cache_ns)
         if kept:
             del stamps[:kept], self._samples[:kept]
@@ -106,12 +106,12 @@ class History:
         stamps = self._stamps
         if stamp_ns == 0:
             return self._samples[-1]
-        place = bisect_left(stamps, stamp_ns)
-        if place < len(stamps) and stamps[place] == stamp_ns:
-            return self._samples[place]
-        if place == 0 or place == len(stamps):
-            raise ExtrapolationError(self._outside(stamp_ns), is_past=place == 0)
-        before, after = self._samples[place - 1], self._samples[place]
+        index = bisect_left(stamps, stamp_ns)
+        if index < len(stamps) and stamps[index] == stamp_ns:
+            return self._samples[index]
+        if index == 0 or index == len(stamps):
+            raise ExtrapolationError(self._outside(stamp_ns), is_past=index == 0)
+        before, after = self._samples[index - 1], self._samples[index]
         if before.parent != after.parent:
             return before
         ratio = (stamp_ns - before.stamp_ns) / (after.stamp_ns - before.stamp_ns)

@@ -29,9 +29,9 @@ def _hot(t: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _rainbow(t: NDArray[np.float64]) -> NDArray[np.float64]:
     """RViz's rainbow: from magenta over blue and green to red at 1 (its getRainbowColor)."""
-    place = np.clip(t, 0.0, 1.0) * 5.0 + 1.0
-    sector = np.floor(place).astype(int)
-    part = place - sector
+    position = np.clip(t, 0.0, 1.0) * 5.0 + 1.0
+    sector = np.floor(position).astype(int)
+    part = position - sector
     n = np.where(sector % 2 == 0, part, 1.0 - part)
     zero, one = np.zeros_like(t), np.ones_like(t)
     rows = {
@@ -76,15 +76,15 @@ def rainbow() -> NDArray[np.uint32]:
 def parsed_colour(text: Any, default: tuple[int, int, int]) -> tuple[int, int, int]:
     """Return a colour of RViz's properties: ``255; 0; 0``, ``#ff0000`` or ``[255, 0, 0]``."""
     if isinstance(text, str) and text.startswith("#") and len(text) == 7:
-        words: list[Any] = [int(text[start : start + 2], 16) for start in (1, 3, 5)]
+        channels: list[Any] = [int(text[start : start + 2], 16) for start in (1, 3, 5)]
     elif isinstance(text, str):
-        words = text.replace(";", " ").replace(",", " ").split()
+        channels = text.replace(";", " ").replace(",", " ").split()
     elif isinstance(text, list):
-        words = text
+        channels = text
     else:
         return default
     try:
-        numbers = [min(max(int(float(word)), 0), 255) for word in words]
+        numbers = [min(max(int(float(channel)), 0), 255) for channel in channels]
     except (TypeError, ValueError, OverflowError):
         return default
     return (numbers[0], numbers[1], numbers[2]) if len(numbers) == 3 else default

@@ -139,8 +139,8 @@ class _Grid:
         fits = rect.right <= width and rect.top <= height
         if not fits or not part.size or part.size != message.width * message.height:
             return
-        place = self._cells[rect.y : rect.top, rect.x : rect.right]
-        place[...] = part.reshape(place.shape)
+        cells = self._cells[rect.y : rect.top, rect.x : rect.right]
+        cells[...] = part.reshape(cells.shape)
         self._touch(rect)
 
     def _touch(self, rect: _Rect) -> None:

@@ -93,10 +93,10 @@ def ramp(values: NDArray[Any], bounds: tuple[float, float] | None, colours: Pack
         low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
         numbers = np.nan_to_num(numbers, nan=low, posinf=high, neginf=low)
     factor = 255.0 / (high - low) if high > low else 0.0
-    places = (numbers - np.float32(low)) * np.float32(factor)
+    levels = (numbers - np.float32(low)) * np.float32(factor)
     if bounds is not None:
-        np.clip(places, 0.0, 255.0, out=places)
-    return np.take(colours, places.astype(np.uint8))
+        np.clip(levels, 0.0, 255.0, out=levels)
+    return np.take(colours, levels.astype(np.uint8))
 
 
 def flat_colour(rgb: tuple[int, int, int]) -> int:

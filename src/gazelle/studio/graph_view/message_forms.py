@@ -50,7 +50,7 @@ def _value(item: Field, value: Any, keys: Any, path: str) -> Any:
             value = _yaml(value, path)
         if not isinstance(value, list):
             return value
-        return [_one(item, one, keys, f"{path}[{place}]") for place, one in enumerate(value)]
+        return [_one(item, one, keys, f"{path}[{index}]") for index, one in enumerate(value)]
     return _one(item, value, keys, path)
 
 

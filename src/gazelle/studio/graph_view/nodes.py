@@ -133,8 +133,8 @@ def _loggers(node: Node, target: str) -> list[LoggerRow]:
         return [{"name": one.name, "level": one.level.lower()} for one in found]
     own = target.strip("/").replace("/", ".")
     answer = request_response(node, f"{target}/get_logger_levels", _ROS2_GET, names=[own])
-    words = {number: word for word, number in _ROS2_LEVELS.items()}
-    return [{"name": one.name, "level": words.get(one.level, "info")} for one in answer.levels]
+    names = {number: word for word, number in _ROS2_LEVELS.items()}
+    return [{"name": one.name, "level": names.get(one.level, "info")} for one in answer.levels]
 
 
 def _ends(endpoints: tuple[Endpoint, ...]) -> list[EndpointRow]:

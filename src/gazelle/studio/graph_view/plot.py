@@ -159,16 +159,16 @@ class _Plot:
         for index, curve in enumerate(curves):
             by_topic.setdefault(curve.topic, []).append(index)
         self._queue: deque[tuple[list[int], Sample]] = deque()
-        self._ends = [self._listen(topic, places) for topic, places in by_topic.items()]
+        self._ends = [self._listen(topic, indices) for topic, indices in by_topic.items()]
 
     def close(self) -> None:
         for end in self._ends:
             end()
 
-    def _listen(self, topic: str, places: list[int]) -> Any:
+    def _listen(self, topic: str, indices: list[int]) -> Any:
         def take(sample: Sample) -> None:
             with self._lock:
-                self._queue.append((places, sample))
+                self._queue.append((indices, sample))
                 first = len(self._queue) == 1
             if first:
                 self._channel.later(_GATHER_S, self._start)
@@ -187,19 +187,19 @@ class _Plot:
             queue, self._queue = self._queue, deque()
         times: dict[int, list[float]] = {}
         values: dict[int, list[float | None]] = {}
-        for places, sample in queue:
+        for indices, sample in queue:
             try:
                 message = sample.message()
             except GazelleError as error:
                 self._channel.status("error", str(error))
                 continue
             at_s = stamp_s(message, sample.time_s)
-            for place in places:
-                times.setdefault(place, []).append(at_s)
-                number = read_number(message, self._curves[place].steps)
-                values.setdefault(place, []).append(number)
-        for place in sorted(times):
-            points: PlotPoints = {"curve": place, "t": times[place], "v": values[place]}
+            for index in indices:
+                times.setdefault(index, []).append(at_s)
+                number = read_number(message, self._curves[index].steps)
+                values.setdefault(index, []).append(number)
+        for index in sorted(times):
+            points: PlotPoints = {"curve": index, "t": times[index], "v": values[index]}
             self._channel.add(points)
 
 

@@ -107,10 +107,10 @@ def _unreadable(sample: Sample, error: Exception) -> LogLine:
 
 
 def _record(message: Any) -> LogLine:
-    place = max((number for number in range(5) if _LEVELS[number] <= message.level), default=0)
+    index = max((number for number in range(5) if _LEVELS[number] <= message.level), default=0)
     return {
         "stamp_s": seconds_of(message.stamp),
-        "level": _WORDS[place],
+        "level": _WORDS[index],
         "name": message.name,
         "message": message.msg,
         "file": message.file,

@@ -80,8 +80,8 @@ def _value(name: str, parts: list[tuple[Any, Any]]) -> MotionMesh:
     if len(faces) > _MAX_TRIANGLES:
         text = f"{name} has {len(faces)} triangles, more than {_MAX_TRIANGLES}"
         raise StudioError(text, hint="Planning needs a simple shape; reduce the mesh first.")
-    places, index = np.unique(corners.round(9), axis=0, return_inverse=True)
-    return {"vertices": places.tolist(), "triangles": index.reshape(-1)[faces].tolist()}
+    vertices, index = np.unique(corners.round(9), axis=0, return_inverse=True)
+    return {"vertices": vertices.tolist(), "triangles": index.reshape(-1)[faces].tolist()}
 
 
 METHODS: dict[str, Method[RobotContext]] = {

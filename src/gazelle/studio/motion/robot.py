@@ -179,9 +179,9 @@ def _parameters(
     tree = nested(own) if isinstance(own, Mapping) else {}
     for part in _PARTS:
         name = f"{description}{part}"
-        for place in (f"{prefix}{name}", f"/{name}"):
-            if name not in tree and store.has(place):
-                value = store.get(place)
+        for parameter in (f"{prefix}{name}", f"/{name}"):
+            if name not in tree and store.has(parameter):
+                value = store.get(parameter)
                 tree[name] = nested(value) if isinstance(value, Mapping) else value
     for name in (description, f"{description}_semantic"):
         if not tree.get(name):

@@ -129,26 +129,28 @@ def all_sources(named: Iterable[Source], workspace: Workspace) -> dict[str, Sour
     return found
 
 
-def named_file(words: str) -> tuple[Source, ...]:
+def named_file(argument: str) -> tuple[Source, ...]:
     """Return the panels that ``FILE.py`` or ``FILE.py:Class`` means.
 
     Raises:
         GazelleError: there is no such file, it cannot be read, or has no such panel.
     """
-    path, wanted = _split(words)
+    path, wanted = _split(argument)
     file = Path(path).expanduser().absolute()
     if not file.is_file():
-        raise GazelleError(f"--panel {words}: there is no file {file}")
+        raise GazelleError(f"--panel {argument}: there is no file {file}")
     classes = panel_classes(file)
     if isinstance(classes, Unreadable):
-        raise GazelleError(f"--panel {words}: {classes.reason}")
+        raise GazelleError(f"--panel {argument}: {classes.reason}")
     if not classes:
-        text = f"--panel {words}: the file has no class that derives from "
+        text = f"--panel {argument}: the file has no class that derives from "
         raise GazelleError(text + "gazelle.studio.plugins.Panel")
     names = [one.name for one in classes]
     if wanted and wanted not in names:
         nearest = ", ".join(nearest_names(wanted, names) or names)
-        raise GazelleError(f"--panel {words}: the file has no panel '{wanted}'; it has {nearest}")
+        raise GazelleError(
+            f"--panel {argument}: the file has no panel '{wanted}'; it has {nearest}"
+        )
     chosen = [one for one in classes if wanted in ("", one.name)]
     return tuple(_source(file.stem, file, one, f"file {file}") for one in chosen)
 
@@ -167,22 +169,22 @@ def sources_of_package(package: Package) -> Iterator[Source]:
             yield _source(package.name, file, one, origin)._replace(folders=folders)
 
 
-def own_panel(words: str) -> str:
+def own_panel(argument: str) -> str:
     """Return the kind that ``rqt -s WORDS`` means among the user's panels, empty for none.
 
     A panel comes before a plug-in of rqt of the same name: it is what became of it.
 
     Args:
-        words: ``package.Class`` or ``Class`` of a panel; package, ``module.Class`` or
+        argument: ``package.Class`` or ``Class`` of a panel; package, ``module.Class`` or
             ``package/module.Class`` of a plug-in of rqt.
     """
     workspace = Workspace.discover()
     for name, source in all_sources((), workspace).items():
-        if words in (name, source.class_name):
+        if argument in (name, source.class_name):
             return f"plugin:{name}"
     for plugin in rqt_plugins(workspace):
         class_name = re.split(r"\.|::", plugin.type)[-1]
-        if words in (plugin.name, plugin.type, plugin.package, class_name):
+        if argument in (plugin.name, plugin.type, plugin.package, class_name):
             return f"rqt-plugin:{plugin.name}"
     return ""
 
@@ -271,7 +273,7 @@ def _keep(found: dict[str, Source], source: Source) -> None:
     found.setdefault(name, source._replace(name=name))
 
 
-def _split(words: str) -> tuple[str, str]:
+def _split(argument: str) -> tuple[str, str]:
     """A drive letter has a colon too."""
-    path, colon, wanted = words.rpartition(":")
-    return (path, wanted) if colon and wanted.isidentifier() else (words, "")
+    path, colon, wanted = argument.rpartition(":")
+    return (path, wanted) if colon and wanted.isidentifier() else (argument, "")

@@ -101,8 +101,8 @@ class RunningPanel:
             state.set(name, fitting)
         handler = handler_of(panel, widget)
         if handler is not None:
-            words = (fitting,) if has_value else ()
-            self._guarded(f"on_{name}", lambda: handler(*words), _BUSY_S)
+            arguments = (fitting,) if has_value else ()
+            self._guarded(f"on_{name}", lambda: handler(*arguments), _BUSY_S)
 
     def value(self, name: str) -> Any:
         """Return a widget's value."""

@@ -213,21 +213,21 @@ class ShownPanels:
         self._shown: dict[str, ShownPanel] = {}
         self._turn = threading.Lock()
 
-    def name_file(self, words: str) -> tuple[Source, ...]:
+    def name_file(self, argument: str) -> tuple[Source, ...]:
         """Add the panels of ``FILE.py[:Class]``.
 
         Raises:
             GazelleError: there are none.
         """
-        self._named[words] = named_file(words)
-        return self._named[words]
+        self._named[argument] = named_file(argument)
+        return self._named[argument]
 
     def sources(self) -> dict[str, Source]:
         """Return what could be opened, by name."""
-        for words in self._named:
+        for argument in self._named:
             # A file that is just being written stays listed as it was.
             with contextlib.suppress(GazelleError):
-                self._named[words] = named_file(words)
+                self._named[argument] = named_file(argument)
         named = [source for sources in self._named.values() for source in sources]
         return all_sources(named, Workspace.discover())
 

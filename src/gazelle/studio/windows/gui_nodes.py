@@ -55,8 +55,8 @@ def _wants_sliders(arguments: NodeArguments, graph: Graph) -> bool:
 
 def _own(arguments: NodeArguments, graph: Graph, name: str) -> Any:
     """Return what the command line or the store has at ``~name``, None where neither has it."""
-    place = f"{resolve(arguments.name, arguments.namespace)}/{name}"
-    return arguments.params.get(name, graph.parameters.get(place, None))
+    parameter = f"{resolve(arguments.name, arguments.namespace)}/{name}"
+    return arguments.params.get(name, graph.parameters.get(parameter, None))
 
 
 def _beside(

@@ -96,9 +96,9 @@ def present(node: Node, request: Request, stop: threading.Event, say: _SAY) -> N
 def _ask(node: Node, request: Request, say: _SAY) -> bool:
     kind = service_type(_DO)
     client = node.create_client(SERVICE, kind)
-    words = {"op": "show", "panel": request.panel, "params": request.params}
+    message = {"op": "show", "panel": request.panel, "params": request.params}
     try:
-        answer = client.call(kind.Request(request=json.dumps(words)), _ANSWER_S)
+        answer = client.call(kind.Request(request=json.dumps(message)), _ANSWER_S)
     except GraphError:
         return False
     finally:
@@ -125,8 +125,8 @@ def offer(server: Any) -> None:
     studio = server.studio
 
     def answer(request: Any) -> Any:
-        words = json.loads(request.request)
-        studio.pages.show(str(words["panel"]), dict(words.get("params") or {}))
+        message = json.loads(request.request)
+        studio.pages.show(str(message["panel"]), dict(message.get("params") or {}))
         return service_type(_DO).Response(response=json.dumps({"url": server.url}))
 
     studio.node.create_service(SERVICE, service_type(_DO), answer)

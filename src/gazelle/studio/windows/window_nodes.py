@@ -84,8 +84,8 @@ def gzclient(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
 
 def rviz(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Show displays, those of a ``.rviz`` file if one is named."""
-    words, options = _words(arguments.rest)
-    file = options.get("-d") or options.get("--display-config") or next(iter(words), "")
+    positional, options = _parsed(arguments.rest)
+    file = options.get("-d") or options.get("--display-config") or next(iter(positional), "")
     frame = options.get("-f") or options.get("--fixed-frame") or ""
     params = {"file": _path(file)} if file else {}
     return run_view("rviz", params | ({"frame": frame} if frame else {}), arguments, graph, stop)
@@ -93,29 +93,29 @@ def rviz(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
 
 def rqt_plot(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Show numbers over time."""
-    words, _ = _words(arguments.rest)
-    curves = [curve for word in words for curve in _curves(word)]
+    positional, _ = _parsed(arguments.rest)
+    curves = [curve for argument in positional for curve in _curves(argument)]
     return run_view("rqt_plot", {"curves": curves} if curves else {}, arguments, graph, stop)
 
 
 def image_view(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Show a picture."""
-    words, _ = _words(arguments.rest)
-    topic = next(iter(words), "") or dict(arguments.remappings).get("image", "")
+    positional, _ = _parsed(arguments.rest)
+    topic = next(iter(positional), "") or dict(arguments.remappings).get("image", "")
     params = {"topic": _absolute(topic)} if topic else {}
     return run_view("rqt_image_view", params, arguments, graph, stop)
 
 
 def rqt_bag(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Show a bag."""
-    words, _ = _words(arguments.rest)
-    params = {"path": _path(words[0])} if words else {}
+    positional, _ = _parsed(arguments.rest)
+    params = {"path": _path(positional[0])} if positional else {}
     return run_view("rqt_bag", params, arguments, graph, stop)
 
 
 def rqt(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Show one plug-in's panel, a perspective, or what was shown last."""
-    _, options = _words(arguments.rest)
+    _, options = _parsed(arguments.rest)
     plugin = options.get("-s") or options.get("--standalone") or ""
     if plugin:
         found = _PLUGIN.match(plugin)
@@ -135,24 +135,26 @@ def _opens(panel: str) -> _Node:
     return run
 
 
-def _words(rest: Sequence[str]) -> tuple[list[str], dict[str, str]]:
+def _parsed(rest: Sequence[str]) -> tuple[list[str], dict[str, str]]:
     """Return the plain words, and the options that have a value."""
-    words: list[str] = []
+    positional: list[str] = []
     options: dict[str, str] = {}
     left = iter(rest)
-    for word in left:
-        name, sign, value = word.partition("=")
+    for argument in left:
+        name, sign, value = argument.partition("=")
         if name in _VALUED:
             options[name] = value if sign else next(left, "")
-        elif not word.startswith("-"):
-            words.append(word)
-    return words, options
+        elif not argument.startswith("-"):
+            positional.append(argument)
+    return positional, options
 
 
-def _curves(word: str) -> list[str]:
+def _curves(argument: str) -> list[str]:
     """``/pose/x:y`` is ``/pose/x`` and ``/pose/y``."""
-    found = _FIELDS.match(word)
-    names = [found["start"] + field for field in found["fields"].split(":")] if found else [word]
+    found = _FIELDS.match(argument)
+    names = (
+        [found["start"] + field for field in found["fields"].split(":")] if found else [argument]
+    )
     return [_absolute(name) for name in names]
 
 

@@ -61,9 +61,11 @@ def primitive_sdf(kind: str, size: list[float]) -> str:
         raise StudioError(f"a {kind} has {wanted} sizes above 0, not {size}")
     if max(size) > _MAX_M:
         raise StudioError(f"a {kind}'s sizes are at most {_MAX_M:g} m, not {size}")
-    words = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}[kind]
+    elements = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length")}[kind]
     values = [" ".join(f"{one:g}" for one in size)] if kind == "box" else [f"{v:g}" for v in size]
-    inside = "".join(f"<{word}>{value}</{word}>" for word, value in zip(words, values, strict=True))
+    inside = "".join(
+        f"<{name}>{value}</{name}>" for name, value in zip(elements, values, strict=True)
+    )
     geometry = f"<geometry><{kind}>{inside}</{kind}></geometry>"
     xx, yy, zz = _moments(kind, size)
     return (
@@ -107,8 +109,8 @@ def _text_of(source: Params) -> tuple[str, str]:
 
 def _in_file(error: StudioError, file: str) -> StudioError:
     """Name the file that was dropped where the world only knows of a text."""
-    words = str(error)
-    return StudioError(_PLACE.sub(lambda _: file, words)) if file else error
+    text = str(error)
+    return StudioError(_PLACE.sub(lambda _: file, text)) if file else error
 
 
 def _named(text: str, file: str) -> str:

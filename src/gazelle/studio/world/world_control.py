@@ -78,8 +78,9 @@ def pose_of(params: Params, name: str = "pose") -> list[float]:
 def pose_message(values: list[float]) -> Any:
     """Return a ``geometry_msgs/Pose`` of seven numbers."""
     message = message_type("geometry_msgs/Pose")()
-    place, turn = message.position, message.orientation
-    place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w = values
+    position, orientation = message.position, message.orientation
+    position.x, position.y, position.z = values[:3]
+    orientation.x, orientation.y, orientation.z, orientation.w = values[3:]
     return message
 
 

@@ -129,8 +129,8 @@ def _number(tag: Tag, name: str, default: float) -> float:
         return default
 
 
-def _call(kind: str, name: str, *words: str) -> str:
-    return f"{kind}({', '.join((_quoted(name), *(word for word in words if word)))})"
+def _call(kind: str, name: str, *args: str) -> str:
+    return f"{kind}({', '.join((_quoted(name), *(word for word in args if word)))})"
 
 
 def _quoted(text: str) -> str:
@@ -173,22 +173,22 @@ def _tick(name: str, tag: Tag) -> _Made:
 def _slider(name: str, tag: Tag) -> _Made:
     least, most = _number(tag, "minimum", 0.0), _number(tag, "maximum", _DEFAULT_MOST)
     value = _number(tag, "value", least)
-    words = [f"min={_shown(least)}", f"max={_shown(most)}", "step=1"]
-    words += [f"value={_shown(value)}"] if value != least else []
+    args = [f"min={_shown(least)}", f"max={_shown(most)}", "step=1"]
+    args += [f"value={_shown(value)}"] if value != least else []
     note = f"on_{name}(self, value) in place of valueChanged"
-    return _call("Slider", name, *words), note + "; min and max may be the real limits, with unit="
+    return _call("Slider", name, *args), note + "; min and max may be the real limits, with unit="
 
 
 def _spin(name: str, tag: Tag) -> _Made:
     real = tag.attributes.get("class") == "QDoubleSpinBox"
     least, most = _number(tag, "minimum", 0.0), _number(tag, "maximum", _DEFAULT_MOST)
     value = _number(tag, "value", least)
-    words = [f"value={value!r}" if real else f"value={_shown(value)}"]
-    words += [f"min={_shown(least)}", f"max={_shown(most)}"]
-    words += [f"step={_shown(_number(tag, 'singleStep', 1.0))}"]
+    args = [f"value={value!r}" if real else f"value={_shown(value)}"]
+    args += [f"min={_shown(least)}", f"max={_shown(most)}"]
+    args += [f"step={_shown(_number(tag, 'singleStep', 1.0))}"]
     unit = _text(tag, "suffix").strip()
-    words += [f"unit={_quoted(unit)}"] if unit else []
-    return _call("Number", name, *words), f"on_{name}(self, value) in place of valueChanged"
+    args += [f"unit={_quoted(unit)}"] if unit else []
+    return _call("Number", name, *args), f"on_{name}(self, value) in place of valueChanged"
 
 
 def _choice(name: str, tag: Tag) -> _Made:
@@ -199,9 +199,9 @@ def _choice(name: str, tag: Tag) -> _Made:
 
 
 def _line(name: str, tag: Tag) -> _Made:
-    words = [f"{ours}={_quoted(_text(tag, qt))}" for qt, ours in
+    args = [f"{ours}={_quoted(_text(tag, qt))}" for qt, ours in
              (("text", "value"), ("placeholderText", "placeholder")) if _text(tag, qt)]  # fmt: skip
-    return _call("TextInput", name, *words), f"on_{name}(self, text) in place of editingFinished"
+    return _call("TextInput", name, *args), f"on_{name}(self, text) in place of editingFinished"
 
 
 def _label(name: str, tag: Tag) -> _Made:
@@ -216,8 +216,8 @@ def _readout(name: str, tag: Tag) -> _Made:
 
 def _table(name: str, tag: Tag) -> _Made:
     columns = [_text(column, "text") for column in tag.find_all("column")]
-    words = _tuple([column or "…" for column in columns] or ["…"])
-    return _call("Table", name, f"columns={words}"), f"self[{_quoted(name)}] = rows"
+    args = _tuple([column or "…" for column in columns] or ["…"])
+    return _call("Table", name, f"columns={args}"), f"self[{_quoted(name)}] = rows"
 
 
 _MAKERS: dict[str, Callable[[str, Tag], _Made]] = {
