@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.graph.test_requests import HOSTILE
+from tests.graph.test_process_queries_requests import HOSTILE
 from tests.patience import eventually, stretched
 
 from gazelle.bag import Connection, Encoding, Storage, create_bag, open_bag

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from tests.bridge.foxglove.conftest import Viewer
-from tests.bridge.foxglove.test_assets import write_package
+from tests.bridge.foxglove.test_bridge_assets import write_package
 from tests.patience import at_most
 
 from gazelle.bridge.foxglove import Allow, FoxgloveBridge, SdkViewers
