@@ -13,7 +13,7 @@ from gazelle.workspace.installed_files import installed_source
 LISTS = """cmake_minimum_required(VERSION 3.8)
 project(courier)  # install(DIRECTORY wrong DESTINATION share/courier)
 install(
-  DIRECTORY description/urdf_reader bringup/config launch
+  DIRECTORY description/urdf bringup/config launch
   DESTINATION share/${PROJECT_NAME}
 )
 install(DIRECTORY arms/six/ DESTINATION "share/${PROJECT_NAME}/arm")
@@ -23,7 +23,7 @@ install(PROGRAMS tools/a.py tools/b.py DESTINATION ${CATKIN_PACKAGE_SHARE_DESTIN
 ament_auto_package(INSTALL_TO_SHARE extra/worlds)
 """
 FILES = {
-    "urdf/courier.urdf.xacro": "description/urdf_reader/courier.urdf.xacro",
+    "urdf/courier.urdf.xacro": "description/urdf/courier.urdf.xacro",
     "config/wheels.yaml": "bringup/config/wheels.yaml",
     "arm/joints/one.yaml": "arms/six/joints/one.yaml",
     "doc/README.md": "description/notes.md",
@@ -67,9 +67,9 @@ def test_addresses_mean_the_share_folder(courier: Path, discover) -> None:
 
 
 def test_xacro_includes_and_loads_what_is_installed_elsewhere(courier: Path, discover) -> None:
-    macro = courier / "description/urdf_reader/wheel.xacro"
+    macro = courier / "description/urdf/wheel.xacro"
     macro.write_text(MACRO)
-    main = courier / "description/urdf_reader/courier.urdf.xacro"
+    main = courier / "description/urdf/courier.urdf.xacro"
     main.write_text(MAIN)
     diagnostics = Diagnostics()
     found = expand_xacro(main, workspace=discover(extra=(courier.parent,)), diagnostics=diagnostics)

@@ -17,7 +17,7 @@ from gazelle.workspace import Workspace, ament_index
 
 LISTS = """project(heron)
 find_package(ament_cmake REQUIRED)
-install(DIRECTORY description/urdf_reader bringup/launch DESTINATION share/${PROJECT_NAME})
+install(DIRECTORY description/urdf bringup/launch DESTINATION share/${PROJECT_NAME})
 install(DIRECTORY worlds/ DESTINATION share/${PROJECT_NAME}/yard FILES_MATCHING PATTERN "*.sdf")
 install(FILES notes.txt DESTINATION share/${PROJECT_NAME}/doc RENAME README)
 install(PROGRAMS tools/drive_all.py DESTINATION lib/${PROJECT_NAME} RENAME drive)
@@ -34,8 +34,8 @@ setup(name=name, version="1.0.0", packages=[], data_files=[
 ])
 """
 FILES = (
-    "description/urdf_reader/heron.urdf",
-    "description/urdf_reader/arms/left.urdf",
+    "description/urdf/heron.urdf",
+    "description/urdf/arms/left.urdf",
     "bringup/launch/heron.launch.py",
     "worlds/pond.sdf",
     "worlds/pond.txt",
@@ -82,9 +82,9 @@ def workspace(heron: Path, discover) -> Workspace:
 @pytest.mark.parametrize(
     ("place", "source"),
     [
-        ("urdf/heron.urdf", "description/urdf_reader/heron.urdf"),
-        ("urdf/arms/left.urdf", "description/urdf_reader/arms/left.urdf"),
-        ("urdf/arms/../heron.urdf", "description/urdf_reader/heron.urdf"),
+        ("urdf/heron.urdf", "description/urdf/heron.urdf"),
+        ("urdf/arms/left.urdf", "description/urdf/arms/left.urdf"),
+        ("urdf/arms/../heron.urdf", "description/urdf/heron.urdf"),
         ("yard/pond.sdf", "worlds/pond.sdf"),
         ("doc/README", "notes.txt"),
         ("extra/kept.yaml", "extra/kept.yaml"),
@@ -189,7 +189,7 @@ def test_new_file_is_there_for_the_next_process(heron: Path) -> None:
 
     before = share()
     assert share() == before
-    write(heron, "description/urdf_reader/new.urdf")
+    write(heron, "description/urdf/new.urdf")
     after = share()
     assert (after / "urdf/new.urdf").is_file()
     assert not (before / "urdf/new.urdf").exists()
@@ -249,7 +249,7 @@ def test_package_index_answers_with_that_folder(
 ) -> None:
     monkeypatch.setattr(ament_index, "known_workspace", lambda: workspace)
     share = Path(ament_index.get_package_share_directory("heron"))
-    assert (share / "urdf/heron.urdf").samefile(heron / "description/urdf_reader/heron.urdf")
+    assert (share / "urdf/heron.urdf").samefile(heron / "description/urdf/heron.urdf")
 
 
 def test_launch_file_of_a_package_that_was_never_built_runs(heron: Path, gazelle) -> None:

@@ -1,7 +1,7 @@
 """Where the files of a source package lie that its build files install to other places.
 
-``install(DIRECTORY description/urdf_reader DESTINATION share/${PROJECT_NAME})`` makes
-``$(find pkg)/urdf`` of what is ``description/urdf_reader`` in the source folder, and a row of
+``install(DIRECTORY description/urdf DESTINATION share/${PROJECT_NAME})`` makes
+``$(find pkg)/urdf`` of what is ``description/urdf`` in the source folder, and a row of
 ``data_files`` in ``setup.py`` may do the same. In a workspace that was never built such addresses
 lead nowhere without reading those lines.
 """
