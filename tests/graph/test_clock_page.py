@@ -43,9 +43,9 @@ def test_half_a_change_is_not_seen(page: ClockPage) -> None:
     view = PageView(page.path, page.secret)
     page.show(10)
     assert view.read() == (10, 0, 0)
-    page._words[0] = 20
+    page._integers[0] = 20
     assert view.read() == (10, 0, 0)
-    page._words[0] = 10
+    page._integers[0] = 10
     page.show(21)
     assert view.read() == (21, 0, 0)
 
