@@ -119,7 +119,7 @@ def test_what_reaches_new_lines_is_damaged_further(tmp_path: Path) -> None:
 def test_lines_that_are_reached_are_known() -> None:
     lines = reached(lambda: Entity.from_token("a"))
     assert lines
-    assert {Path(file).name for file, _ in lines} == {"keys.py"}
+    assert {Path(file).name for file, _ in lines} == {"key_expressions.py"}
 
 
 def test_lines_that_other_threads_reach_are_not_counted() -> None:

@@ -61,9 +61,7 @@ def test_addresses_name_machine_port_and_process(robot: Node, run, port: int) ->
 
 
 def test_ping_asks_the_process(robot: Node, run, monkeypatch) -> None:
-    from gazelle.cli.rosnode import ping
-
-    monkeypatch.setattr(ping, "_PERIOD_S", 0.0)
+    monkeypatch.setattr("gazelle.cli.rosnode._PERIOD_S", 0.0)
     lines = run("rosnode", "ping", "-c", "2", "robot").out.splitlines()
     assert lines[:2] == [
         "rosnode: node is [/robot]",

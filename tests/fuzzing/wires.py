@@ -17,7 +17,7 @@ from unittest.mock import patch
 from tests.fuzzing.kind import Kind
 
 from gazelle.bridge.foxglove.bridge import read_asset
-from gazelle.bridge.foxglove.client_publishers import Speech
+from gazelle.bridge.foxglove.client_publishers import ClientPublishers
 from gazelle.bridge.foxglove.parameters import Parameters, plain_value
 from gazelle.bridge.ros1.master import Master
 from gazelle.bridge.ros1.tcpros import read_frame, read_header, write_header
@@ -250,20 +250,20 @@ class _Voices:
 def _viewer(path: Path, _diagnostics: Diagnostics, workspace: Workspace) -> None:
     """Do what a viewer of Foxglove asks for, as its server hands it over."""
     told: list[str] = []
-    speech = Speech(cast(Any, _Voices()), told.append)
+    publishers = ClientPublishers(cast(Any, _Voices()), told.append)
     of_nodes = SimpleNamespace(knows=lambda _name: False, get=lambda _names: {})
     parameters = Parameters(_store(), cast(Any, of_nodes), told.append)
     for one in _asked(path.read_bytes()):
         match one.get("op"):
             case "advertise":
                 words = [str(one.get(key)) for key in ("topic", "schemaName", "encoding")]
-                speech.advertise((1, _number(one)), *words)
+                publishers.advertise((1, _number(one)), *words)
             case "publish":
                 data = one.get("data")
                 text = data if isinstance(data, str) else json.dumps(data)
-                speech.publish((1, _number(one)), text.encode("utf-8", "replace"))
+                publishers.publish((1, _number(one)), text.encode("utf-8", "replace"))
             case "unadvertise":
-                speech.unadvertise((1, _number(one)))
+                publishers.unadvertise((1, _number(one)))
             case "getParameters":
                 names = one.get("names")
                 parameters.get(str(name) for name in (names if isinstance(names, list) else ()))
@@ -273,7 +273,7 @@ def _viewer(path: Path, _diagnostics: Diagnostics, workspace: Workspace) -> None
                 {name: plain_value(value) for name, value in found.items()}
             case "fetchAsset":
                 read_asset(workspace, str(one.get("uri")))
-    speech.close()
+    publishers.close()
     if told:
         raise GazelleError(told[0])
 

@@ -16,7 +16,7 @@ _TF = '<node pkg="tf2_ros" type="static_transform_publisher" name="tf" args="0 0
 # What happens without the launcher, a node of the user and the simulator: test_supervisor.py.
 _VICTIMS = {
     "host": "gazelle.nodes --host",
-    "guard": "guard.py",
+    "watchdog": "watchdog.py",
 }
 
 

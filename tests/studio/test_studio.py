@@ -44,11 +44,11 @@ def test_a_page_that_comes_again_follows_time_again(
 
 def test_only_the_server_and_its_tables_know_the_whole_studio() -> None:
     folder = Path(studio.__file__).parent
-    knows = re.compile(r"gazelle\.studio\.session\b|gazelle\.studio import .*\bStudio\b")
+    knows = re.compile(r"gazelle\.studio\.studio\b|gazelle\.studio import .*\bStudio\b")
     found = {
         str(path.relative_to(folder))
         for path in folder.rglob("*.py")
         if knows.search(path.read_text(encoding="utf-8"))
     }
-    server = {"catalogue.py", "connection.py", "server.py", "views/page_owner.py"}
+    server = {"connection.py", "protocol.py", "server.py", "windows/page_owner.py"}
     assert found == {"__init__.py", *server}

@@ -49,7 +49,7 @@ def test_launch_file_is_shown_without_being_launched(
     tree = gazelle(*_LAUNCH, "--print", cwd=workspaces_dir / "ros2_ws")
     assert tree.wait() == 0
     assert "ExecInPkg(pkg='robot_state_publisher', exec='robot_state_publisher')" in tree.text
-    assert tree.text.count("timer.TimerAction object") == 5
+    assert tree.text.count(".TimerAction object") == 5
 
 
 def test_mistake_in_the_documents_file_is_shown_at_its_line(

@@ -58,7 +58,7 @@ rospy.init_node("one")
 (machine,) = rosnode.get_machines_by_nodes()
 assert "/one" in rosnode.get_nodes_by_machine(machine)
 assert rosnode.rosnode_ping_all() == (rosnode.get_node_names(), [])
-master = masterapi.Master("/one")
+master = rosgraph.Master("/one")
 assert rosnode.get_api_uri(master, "/one").startswith("gazelle://")
 assert rosnode.get_api_uri(master, "/nobody") is None
 assert rosparam.load_str(str="a: 1", filename="f") == [({"a": 1}, "/")]

@@ -311,10 +311,10 @@ def test_what_a_process_left_behind_ends_with_the_launch(run: Run, tmp_path: Pat
 
 
 _LAUNCHER = """
-from gazelle.launch import guard
+from gazelle.launch import watchdog
 from gazelle.launch.ros2 import LaunchDescription, LaunchService
 from gazelle.launch.ros2.actions import ExecuteProcess
-guard._PATIENCE_S = 0.2
+watchdog._PATIENCE_S = 0.2
 service = LaunchService()
 code = "trap '' INT TERM; sleep 60 & echo pids $$ $!; wait"
 service.include_launch_description(LaunchDescription([

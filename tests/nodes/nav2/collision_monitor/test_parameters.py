@@ -67,7 +67,7 @@ def test_bands_are_read_in_their_order() -> None:
 
 
 @pytest.mark.parametrize(
-    ("zone", "says"),
+    ("polygon", "says"),
     [
         ({"type": "squere", "action_type": "stop"}, "there are polygon, circle, velocity_polygon"),
         ({"type": "circle", "action_type": "halt"}, "there are none, stop, slowdown, approach"),
