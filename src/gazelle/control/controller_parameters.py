@@ -61,7 +61,7 @@ def controller_parameters(
     diagnostics: Diagnostics,
     *,
     full_name: Callable[[str], str] = str,
-    place: Callable[[str], SourceSpan | None] = lambda key: None,
+    span: Callable[[str], SourceSpan | None] = lambda key: None,
 ) -> ParameterReader:
     """Return typed access to one controller's parameters.
 
@@ -71,7 +71,7 @@ def controller_parameters(
         table: known keys with defaults.
         diagnostics: receives what is wrong.
         full_name: the name a user knows a key by, such as ``/mira/roll_controller/pid/p``.
-        place: where a key stands, None when unknown.
+        span: where a key stands, None when unknown.
     """
     owner = ParameterOwner(
         name,
@@ -84,5 +84,5 @@ def controller_parameters(
         takes_nan=True,
         missing=ControllerError,
     )
-    source = TreeSource(tree, full_name=full_name, place=place)
+    source = TreeSource(tree, full_name=full_name, span=span)
     return ParameterReader(table, source, owner, diagnostics)

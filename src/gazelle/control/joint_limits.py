@@ -239,8 +239,8 @@ def limits_from_parameters(limits: JointLimits, tree: Mapping[str, Any]) -> Join
         max_jerk=_bound(limits.max_jerk, tree, "jerk"),
         max_effort=_bound(limits.max_effort, tree, "effort"),
     )
-    words = ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
-    values = [_number(tree.get(word)) for word in words]
+    keys = ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
+    values = [_number(tree.get(word)) for word in keys]
     if tree.get("has_soft_limits") is not True or None in values:
         return limits
     lower, upper, k_position, k_velocity = (value or 0.0 for value in values)

@@ -75,9 +75,9 @@ def read_relations(path: Path, diagnostics: Diagnostics) -> Relations:
     """
     rows = []
     for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
-        words = line.partition("#")[0].split()
-        if words:
-            row = _numbers(words)
+        fields = line.partition("#")[0].split()
+        if fields:
+            row = _numbers(fields)
             if row is None:
                 _report(diagnostics, SourceSpan(str(path), number), line)
             else:
@@ -86,9 +86,9 @@ def read_relations(path: Path, diagnostics: Diagnostics) -> Relations:
     return Relations(table[:, 0], table[:, 1], table[:, [2, 3, _YAW]])
 
 
-def _numbers(words: list[str]) -> list[float] | None:
+def _numbers(fields: list[str]) -> list[float] | None:
     try:
-        row = [float(word) for word in words]
+        row = [float(word) for word in fields]
     except ValueError:
         return None
     return row if len(row) == _COLUMNS and bool(np.isfinite(row).all()) else None

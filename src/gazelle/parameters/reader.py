@@ -118,7 +118,7 @@ class ParameterSource(Protocol):
         """Return the name that a user knows a parameter by, such as ``/mira/arm/pid/p``."""
         ...
 
-    def place(self, name: str) -> SourceSpan | None:
+    def span(self, name: str) -> SourceSpan | None:
         """Return where a parameter stands, None when that is not known."""
         ...
 
@@ -129,7 +129,7 @@ class TreeSource:
     Args:
         tree: nested, or keys with dots or slashes.
         full_name: see `ParameterSource.full_name`.
-        place: see `ParameterSource.place`.
+        span: see `ParameterSource.span`.
 
     Attributes:
         tree: the values, nested.
@@ -140,11 +140,11 @@ class TreeSource:
         tree: Mapping[str, Any],
         *,
         full_name: Callable[[str], str] = str,
-        place: Callable[[str], SourceSpan | None] = lambda name: None,
+        span: Callable[[str], SourceSpan | None] = lambda name: None,
     ) -> None:
         self.tree = nested(tree)
         self._full_name = full_name
-        self._place = place
+        self._span = span
 
     def find(self, name: str) -> Any:
         """Return the value of a name with dots, `MISSING` when there is none."""
@@ -158,9 +158,9 @@ class TreeSource:
         """Return the name that a user knows a parameter by."""
         return self._full_name(name)
 
-    def place(self, name: str) -> SourceSpan | None:
+    def span(self, name: str) -> SourceSpan | None:
         """Return where a parameter stands."""
-        return self._place(name)
+        return self._span(name)
 
 
 def branch_of(tree: Mapping[str, Any], name: str) -> Any:
@@ -223,9 +223,9 @@ class ParameterReader:
         """Return the name that a user knows a parameter by, such as ``/mira/arm/pid/p``."""
         return self.source.full_name(key)
 
-    def place(self, key: str) -> SourceSpan | None:
+    def span(self, key: str) -> SourceSpan | None:
         """Return where a parameter stands, None when that is not known."""
-        return self.source.place(key)
+        return self.source.span(key)
 
     def has(self, key: str) -> bool:
         """Tell whether a parameter was given, under any of its spellings."""
@@ -363,16 +363,16 @@ class ParameterReader:
         row, full_name = self.table.row_for(key), self.full_name(key)
         others = "".join(f" or '{alias}'" for alias in row.aliases) if row is not None else ""
         # In ROS 2 parameters belong to their owner's node and have no longer name.
-        place = f"parameter {full_name}" if full_name != key else f"parameter of node {self.name}"
-        text = f"{self.owner.beginning}: no '{key}'{others} given ({place})"
+        told_as = f"parameter {full_name}" if full_name != key else f"parameter of node {self.name}"
+        text = f"{self.owner.beginning}: no '{key}'{others} given ({told_as})"
         raise self.owner.missing(f"{text}; {hint}" if hint else text)
 
     def report(self, code: str, text: str, fix: str = "", *, key: str = "") -> None:
         """Report something about these parameters, at the place of one."""
-        place = self.place(key) if key else None
+        span = self.span(key) if key else None
         phrase = self.owner.bad_phrase if code == "parameter.bad-value" else ""
         message = f"{self.owner.beginning}: {text}"
-        self.diagnostics.report(code, message, place, fix=fix, phrase=phrase)
+        self.diagnostics.report(code, message, span, fix=fix, phrase=phrase)
 
     def report_unknown(self, *others: str) -> None:
         """Report what was given and is not known, and what changes nothing.
@@ -398,13 +398,13 @@ class ParameterReader:
 
     def _report_unknown(self, name: str, others: tuple[str, ...]) -> None:
         known = (*self.table.keys(), *others)
-        words = {"name": self.full_name(name), "family": self.table.family}
+        filled = {"name": self.full_name(name), "family": self.table.family}
         hint = did_you_mean(name, known) or did_you_mean(name.partition(".")[0], known)
-        self.report("parameter.unknown", self.owner.unknown.format(**words), hint, key=name)
+        self.report("parameter.unknown", self.owner.unknown.format(**filled), hint, key=name)
 
     def _report_idle(self, name: str, value: Any, why: str) -> None:
-        words = {"name": self.full_name(name), "value": shortened(value), "why": why}
-        self.report("parameter.idle", self.owner.idle.format(**words), key=name)
+        filled = {"name": self.full_name(name), "value": shortened(value), "why": why}
+        self.report("parameter.idle", self.owner.idle.format(**filled), key=name)
 
     def spellings(self, key: str) -> tuple[str, ...]:
         """Return the names under which a parameter may have been given."""

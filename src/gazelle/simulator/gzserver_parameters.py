@@ -126,7 +126,7 @@ def read_server_parameters(
             node.parameters.set(node.resolve_name(f"~{key}"), value)
         stored = node.parameters.get(node.name, {}) or {}
     values = nested({**stored, **source.manager_tree(), **arguments.params})
-    tree = TreeSource(values, place=lambda key: source.place(name, key))
+    tree = TreeSource(values, span=lambda key: source.span(name, key))
     owner = ParameterOwner(node.name, managed=frozenset({"use_sim_time", "qos_overrides"}))
     return ParameterReader(PARAMETERS, tree, owner, diagnostics, ros_version=ros_version)
 

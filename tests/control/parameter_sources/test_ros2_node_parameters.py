@@ -44,9 +44,9 @@ def test_type_comes_from_the_manager_and_parameters_from_the_node(tmp_path: Path
     assert tree["gains"]["joint_1"] == {"p": 1000.0, "d": 50.0}
     assert tree["constraints"] == {"goal_time": 0.5}
     assert not list(found)
-    place = source.place("arm_controller", "gains.joint_1.p")
-    assert place is not None
-    assert str(place) == f"{path}:11:17"
+    span = source.span("arm_controller", "gains.joint_1.p")
+    assert span is not None
+    assert str(span) == f"{path}:11:17"
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_later_sections_and_overrides_win(tmp_path: Path) -> None:
     assert source.tree("arm_controller")["gains"]["joint_1"] == {"p": 7.0, "d": 50.0}
     source.set("arm_controller", "gains.joint_1.d", 8.0)
     assert source.tree("arm_controller")["gains"]["joint_1"] == {"p": 7.0, "d": 8.0}
-    assert source.place("arm_controller", "gains.joint_1.d") is None
+    assert source.span("arm_controller", "gains.joint_1.d") is None
 
 
 def test_type_may_stand_in_the_controllers_own_section(tmp_path: Path) -> None:

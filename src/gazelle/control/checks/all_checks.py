@@ -67,10 +67,10 @@ def check_control(
     rows = disagreements(types, hardware, controllers, moveit, absent)
     if rows:
         named = {name for row in rows for name in row.controllers}
-        places = [item.place for item in controllers if item.name in named and item.place]
+        spans = [item.span for item in controllers if item.name in named and item.span]
         text = "robot, hardware, controllers and MoveIt do not mean the same joints:\n"
-        place = places[0] if places else span
-        diagnostics.report("control.names-disagree", text + table_text(rows), place)
+        first = spans[0] if spans else span
+        diagnostics.report("control.names-disagree", text + table_text(rows), first)
     wanted = {name for item in controllers for name in item.joints}
     for name in hardware:
         if name in joints and name in wanted:
@@ -83,8 +83,8 @@ def check_control(
                 # Configured for another hardware interface, as files for several have it.
                 continue
             if joint is not None and loop is not None and gains.joint in loop.inertias:
-                place = source.place(item.name, gains.key) or item.place or span
-                _check_gains(item, gains, joint, loop, place, diagnostics)
+                nearest = source.span(item.name, gains.key) or item.span or span
+                _check_gains(item, gains, joint, loop, nearest, diagnostics)
 
 
 def _check_limits(joint: Joint, resource: JointResource, diagnostics: Diagnostics) -> None:
@@ -109,7 +109,7 @@ def _check_gains(
     gains: Gains,
     joint: Joint,
     loop: LoopDynamics,
-    place: SourceSpan | None,
+    span: SourceSpan | None,
     diagnostics: Diagnostics,
 ) -> None:
     inertia, period_s = loop.inertias[gains.joint], loop.step_s * loop.period_steps
@@ -130,4 +130,4 @@ def _check_gains(
         fix = f"use at most p {gains.p * factor:.3g}, d {gains.d * factor:.3g}, or a smaller step"
         if factor < _ALL_UNSTABLE:
             fix = f"every p needs some d at this period: try d {gains.p * period_s:.3g}"
-        diagnostics.report("control.unstable-gains", text, place, fix=fix)
+        diagnostics.report("control.unstable-gains", text, span, fix=fix)

@@ -123,7 +123,7 @@ class ConfiguredController:
         joints: joints it names, in order, without repeats.
         gains: of controllers that command efforts.
         is_known: its type is one of Gazelle's, so that its words mean what they say.
-        place: where its joints stand, None when unknown.
+        span: where its joints stand, None when unknown.
     """
 
     name: str
@@ -131,7 +131,7 @@ class ConfiguredController:
     joints: tuple[str, ...]
     gains: tuple[Gains, ...] = ()
     is_known: bool = True
-    place: SourceSpan | None = field(default=None, compare=False)
+    span: SourceSpan | None = field(default=None, compare=False)
 
 
 def configured_controllers(source: ParameterSource) -> tuple[ConfiguredController, ...]:
@@ -145,7 +145,7 @@ def _controller(source: ParameterSource, name: str) -> ConfiguredController:
     names, key = _joint_names(tree)
     gains = tuple(_gains(tree, names, type_name)) if _commands_effort(tree, type_name) else ()
     is_known = controller_class(type_name) is not None
-    return ConfiguredController(name, type_name, names, gains, is_known, source.place(name, key))
+    return ConfiguredController(name, type_name, names, gains, is_known, source.span(name, key))
 
 
 def _joint_names(tree: Mapping[str, Any]) -> tuple[tuple[str, ...], str]:

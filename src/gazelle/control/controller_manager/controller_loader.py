@@ -147,7 +147,7 @@ class ControllerMaker:
             found.TABLE.parameters,
             self._diagnostics,
             full_name=lambda key: source.full_name(name, key),
-            place=lambda key: source.place(name, key),
+            span=lambda key: source.span(name, key),
         )
 
     def _searched(self, type_name: str) -> str:

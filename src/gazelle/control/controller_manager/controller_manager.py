@@ -301,7 +301,7 @@ class ControllerManager:
 
     def _fail(self, record: ControllerRecord, action: str, error: Exception) -> None:
         text = f"controller '{record.name}' ({record.type}) failed in {action} at "
-        text += f"{self.now_ns * 1e-9:.9f} s and is stopped: {_words(error)}"
+        text += f"{self.now_ns * 1e-9:.9f} s and is stopped: {_error_text(error)}"
         self.diagnostics.report("control.controller-failed", text)
         if record.ports is not None:
             record.ports.log("error", text)
@@ -350,8 +350,8 @@ class ControllerManager:
     def _report(self, name: str, key: str, text: str) -> None:
         full = self.source.full_name(name, key)
         message = f"controller '{name}': parameter '{full}' {text}"
-        self.diagnostics.report("control.update-rate", message, self.source.place(name, key))
+        self.diagnostics.report("control.update-rate", message, self.source.span(name, key))
 
 
-def _words(error: Exception) -> str:
+def _error_text(error: Exception) -> str:
     return str(error) if isinstance(error, ControllerError) else f"{type(error).__name__}: {error}"

@@ -68,12 +68,12 @@ def plan_switch(
     plan = planner.plan(tuple(dict.fromkeys(start)), tuple(dict.fromkeys(stop)))
     reason = check(plan.claims, plan.releases) if plan.start or plan.stop else ""
     if reason:
-        words = {
+        prefixes = {
             1: "Could not switch controllers. The hardware interface combination for the requested "
             "controllers is unfeasible.",
             2: "Could not switch controllers since prepare command mode switch was rejected.",
         }
-        raise ControllerError(f"{words[ros_version]} {reason}")
+        raise ControllerError(f"{prefixes[ros_version]} {reason}")
     return plan
 
 

@@ -59,11 +59,11 @@ class GpsSensorBroadcaster(Controller):
         parameters.require("frame_id")
         sensor, self._frame_id = parameters.text("sensor_name"), parameters.text("frame_id")
         self._reads_covariance = parameters.flag("read_covariance_from_interface")
-        words: tuple[str, ...] = _INTERFACES
+        interfaces: tuple[str, ...] = _INTERFACES
         if self._reads_covariance:
-            words = (*_INTERFACES, *(f"{axis}_covariance" for axis in _AXES))
-        self.states = tuple(f"{sensor}/{word}" for word in words)
-        self._indices = sensor_indices(context, sensor, words)
+            interfaces = (*_INTERFACES, *(f"{axis}_covariance" for axis in _AXES))
+        self.states = tuple(f"{sensor}/{word}" for word in interfaces)
+        self._indices = sensor_indices(context, sensor, interfaces)
         covariance = np.array(parameters.numbers("static_position_covariance"))
         if len(covariance) != 9:
             text = (

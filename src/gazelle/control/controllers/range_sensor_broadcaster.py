@@ -42,8 +42,8 @@ class RangeSensorBroadcaster(Controller):
         sensor, self._frame_id = parameters.text("sensor_name"), parameters.text("frame_id")
         self.states = (f"{sensor}/range",)
         self._index = int(sensor_indices(context, sensor, ("range",))[0])
-        words = ("field_of_view", "min_range", "max_range", "variance")
-        self._facts = {word: parameters.number(word) for word in words}
+        keys = ("field_of_view", "min_range", "max_range", "variance")
+        self._facts = {word: parameters.number(word) for word in keys}
         self._radiation_type = parameters.integer("radiation_type")
         self._publisher = context.ports.publisher("~/range", "sensor_msgs/Range")
 

@@ -103,8 +103,8 @@ def read_traction_limits(parameters: ParameterReader) -> TractionLimits:
     Raises:
         ControllerError: a limit is negative or a lower one above its upper one.
     """
-    words = ("velocity", "acceleration", "deceleration", "jerk")
-    velocity, increase, decrease, bend = (_read(parameters, f"traction.{w}") for w in words)
+    keys = ("velocity", "acceleration", "deceleration", "jerk")
+    velocity, increase, decrease, bend = (_read(parameters, f"traction.{w}") for w in keys)
     # The original does not limit braking unless acceleration is limited.
     if increase is None:
         return TractionLimits(velocity, None, None, bend)

@@ -281,10 +281,10 @@ def joints_to_hold(joints: Sequence[Ros1Joint], source: ParameterSource) -> froz
     named: set[str] = set()
     placed: set[str] = set()
     for controller in source.controllers():
-        words = set(_words(source.tree(controller)))
-        named |= words
+        texts = set(_texts(source.tree(controller)))
+        named |= texts
         if any(word in (source.controller_type(controller) or "") for word in _PLACING):
-            placed |= words
+            placed |= texts
     return frozenset(
         joint.name
         for joint in joints
@@ -293,14 +293,14 @@ def joints_to_hold(joints: Sequence[Ros1Joint], source: ParameterSource) -> froz
     )
 
 
-def _words(value: Any) -> Iterator[str]:
+def _texts(value: Any) -> Iterator[str]:
     """Yield every text in a tree of parameters, and every key: gains go by the joint's name."""
     if isinstance(value, str):
         yield value
     elif isinstance(value, Mapping):
         for key, inner in value.items():
             yield str(key)
-            yield from _words(inner)
+            yield from _texts(inner)
     elif isinstance(value, list | tuple):
         for inner in value:
-            yield from _words(inner)
+            yield from _texts(inner)

@@ -37,7 +37,7 @@ class ParameterSource(Protocol):
         """Return the name a user knows a parameter by."""
         ...
 
-    def place(self, controller: str, key: str) -> SourceSpan | None:
+    def span(self, controller: str, key: str) -> SourceSpan | None:
         """Return where a parameter stands, None when that is not known."""
         ...
 
@@ -93,7 +93,7 @@ class StoreSource:
         """Return the global name."""
         return "/".join((f"{self.namespace}/{controller}", *key.split("."))).rstrip("/")
 
-    def place(self, controller: str, key: str) -> SourceSpan | None:
+    def span(self, controller: str, key: str) -> SourceSpan | None:
         """Return None: the store does not know where its values come from."""
         return None
 

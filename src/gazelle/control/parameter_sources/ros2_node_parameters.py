@@ -44,7 +44,7 @@ class RosArguments:
     strange: tuple[str, ...] = ()
 
 
-def read_ros_arguments(words: Iterable[str]) -> RosArguments:
+def read_ros_arguments(arguments: Iterable[str]) -> RosArguments:
     """Read the words of a node's command line; each may hold several, parted by spaces.
 
     A rule without ``-r`` before it counts as one, and ``node:`` before a rule's name is left out.
@@ -53,7 +53,7 @@ def read_ros_arguments(words: Iterable[str]) -> RosArguments:
     files: list[str] = []
     values: dict[str, Any] = {}
     strange: list[str] = []
-    parts = (part for text in words for part in text.split() if part != _END)
+    parts = (part for text in arguments for part in text.split() if part != _END)
     for word in read_tokens(parts):
         found = word if word.option else RosToken(REMAP, word.written, "")
         if found.option == PARAMS_FILE and found.value is not None:
@@ -152,8 +152,8 @@ class FileSource:
         own = self.manager_tree().get(controller)
         if not isinstance(own, Mapping):
             return
-        files, words = (_listed(own.get(key)) for key in ("params_file", "node_options_args"))
-        given = read_ros_arguments(words)
+        files, arguments = (_listed(own.get(key)) for key in ("params_file", "node_options_args"))
+        given = read_ros_arguments(arguments)
         self._named[controller] = [
             section
             for file in (*files, *given.files)
@@ -174,13 +174,13 @@ class FileSource:
         """Return the name within the controller's node."""
         return key
 
-    def place(self, controller: str, key: str) -> SourceSpan | None:
+    def span(self, controller: str, key: str) -> SourceSpan | None:
         """Return where the value that counts stands."""
         if key in {name for name, _ in flattened(self._overrides.get(controller, {}))}:
             return None
         for section in reversed(self._matching(controller)):
-            if key in section.places:
-                return section.places[key]
+            if key in section.spans:
+                return section.spans[key]
         return None
 
     def strangers(self) -> tuple[str, ...]:

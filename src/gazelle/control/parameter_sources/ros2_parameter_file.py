@@ -43,12 +43,12 @@ class NodeSection:
     Attributes:
         node: name as the file writes it, absolute; may have the wildcards ``*`` and ``**``.
         values: nested parameters.
-        places: where each leaf stands, by its name with dots.
+        spans: where each leaf stands, by its name with dots.
     """
 
     node: str
     values: dict[str, Any]
-    places: dict[str, SourceSpan]
+    spans: dict[str, SourceSpan]
 
     def matches(self, full_name: str) -> bool:
         """Tell whether the section is for a node; ``*`` is one word, ``**`` any number."""
@@ -148,23 +148,23 @@ class _Reader:
                 self._walk(value, f"{name}/{key.text.strip('/')}")
 
     def _add(self, node: str, value: YamlMapping) -> None:
-        places: dict[str, SourceSpan] = {}
-        values = self._mapping(value, "", places)
-        self._sections.append(NodeSection(node, values, places))
+        spans: dict[str, SourceSpan] = {}
+        values = self._mapping(value, "", spans)
+        self._sections.append(NodeSection(node, values, spans))
 
     def _mapping(
-        self, node: YamlMapping, prefix: str, places: dict[str, SourceSpan]
+        self, node: YamlMapping, prefix: str, spans: dict[str, SourceSpan]
     ) -> dict[str, Any]:
         found: dict[str, Any] = {}
         doubles = duplicates(node)
         for key, value in self._pairs(node):
             name = f"{prefix}{key.text}"
-            places[name] = key.span
+            spans[name] = key.span
             if key in doubles:
                 text = f"key '{name}' is there twice; the last one counts"
                 self._diagnostics.report("control.double-parameter", text, key.span)
             if isinstance(value, YamlMapping):
-                found[key.text] = self._mapping(value, f"{name}.", places)
+                found[key.text] = self._mapping(value, f"{name}.", spans)
             else:
                 found[key.text] = self._value(value)
         return found

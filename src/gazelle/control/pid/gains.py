@@ -188,8 +188,8 @@ def _strategy(parameters: ParameterReader, prefix: str) -> AntiWindup | None:
     try:
         return AntiWindup(name)
     except ValueError:
-        words = ", ".join(sorted(strategy.value for strategy in AntiWindup))
-        text = f"parameter '{parameters.full_name(key)}' is '{name}', not one of {words}; "
+        strategies = ", ".join(sorted(strategy.value for strategy in AntiWindup))
+        text = f"parameter '{parameters.full_name(key)}' is '{name}', not one of {strategies}; "
         parameters.report("parameter.bad-value", text + "'none' is used", key=key)
         return AntiWindup.NONE
 

@@ -24,15 +24,15 @@ __all__ = ["PythonController", "adapted", "located"]
 
 def located(error: BaseException, folder: Path) -> str:
     """Return an error in words, with file and line of the last frame below a folder."""
-    words = f"{type(error).__name__}: {error}"
+    text = f"{type(error).__name__}: {error}"
     if isinstance(error, SyntaxError) and error.filename:
-        return f"{error.filename}:{error.lineno}: {words}"
+        return f"{error.filename}:{error.lineno}: {text}"
     frames = traceback.extract_tb(error.__traceback__)
     own = [frame for frame in frames if Path(frame.filename).is_relative_to(folder)]
     if not own:
-        return words
+        return text
     last = own[-1]
-    return f"{last.filename}:{last.lineno} in {last.name}(): {words}"
+    return f"{last.filename}:{last.lineno} in {last.name}(): {text}"
 
 
 _ARGUMENTS = {

@@ -63,7 +63,7 @@ def check_controllers(found: Iterable[FoundController], diagnostics: Diagnostics
             kind.TABLE.parameters,
             diagnostics,
             full_name=partial(_full, prefix),
-            place=partial(_place, item.nodes),
+            span=partial(_span, item.nodes),
         )
         parameters.report_unknown()
         if item.ros_version == 2:
@@ -104,13 +104,13 @@ class FoundControllers:
         """Return the name a user knows a parameter by."""
         return key
 
-    def place(self, controller: str, key: str) -> SourceSpan | None:
+    def span(self, controller: str, key: str) -> SourceSpan | None:
         """Return where a parameter stands; the controller's type when it is not there."""
         item = self._found.get(controller)
         return None if item is None else item.nodes.get(key, (None, item.span))[1]
 
 
-def _place(nodes: Mapping[str, tuple[YamlNode, SourceSpan]], key: str) -> SourceSpan | None:
+def _span(nodes: Mapping[str, tuple[YamlNode, SourceSpan]], key: str) -> SourceSpan | None:
     return nodes[key][1] if key in nodes else None
 
 

@@ -91,15 +91,15 @@ def _start_all(
         state = _start(controllers, item.name)
         if state not in ("running", "in use by another"):
             text = f"controller '{name}' ({item.type}) cannot be started: {state}"
-            diagnostics.report("probe.controller-start", text, item.place)
-            found.append(_Started(name, item.type, "failed", span=item.place))
+            diagnostics.report("probe.controller-start", text, item.span)
+            found.append(_Started(name, item.type, "failed", span=item.span))
             continue
         record = manager.controllers[item.name]
         commands = record.commands if record.is_active else ()
         joints = _full_names([one.rpartition("/")[0] for one in commands], robots)
         efforts = bool(commands) and all(one.endswith("/effort") for one in commands)
         holds = bool(joints) and not (efforts and not item.gains)
-        found.append(_Started(name, item.type, state, joints, holds, item.place))
+        found.append(_Started(name, item.type, state, joints, holds, item.span))
     return found
 
 

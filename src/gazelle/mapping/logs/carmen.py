@@ -39,24 +39,24 @@ def read_carmen(path: Path, diagnostics: Diagnostics) -> Iterator[LogRecord]:
         OSError: the file cannot be read, is damaged, or longer than is read.
     """
     for number, line in enumerate(lines_of(path), 1):
-        words = line.split()
-        parse = _PARSERS.get(words[0]) if words else None
+        fields = line.split()
+        parse = _PARSERS.get(fields[0]) if fields else None
         if parse is None:
             continue
         try:
-            record = parse(words)
+            record = parse(fields)
         except (IndexError, ValueError, OverflowError) as error:
-            _report(diagnostics, SourceSpan(str(path), number), words[0], error)
+            _report(diagnostics, SourceSpan(str(path), number), fields[0], error)
             continue
         yield record
 
 
-def _flaser(words: list[str]) -> LogRecord:
-    count = _count(words[1])
-    ranges = np.array(words[2 : 2 + count], dtype=np.float32)
-    lidar = _pose(words[2 + count : 5 + count])
-    robot = _pose(words[5 + count : 8 + count])
-    stamp = _stamp_ns(words[8 + count])
+def _flaser(fields: list[str]) -> LogRecord:
+    count = _count(fields[1])
+    ranges = np.array(fields[2 : 2 + count], dtype=np.float32)
+    lidar = _pose(fields[2 + count : 5 + count])
+    robot = _pose(fields[5 + count : 8 + count])
+    stamp = _stamp_ns(fields[8 + count])
     if len(ranges) != count:
         raise ValueError(f"{count} ranges are announced, {len(ranges)} are there")
     fov = math.pi
@@ -66,14 +66,14 @@ def _flaser(words: list[str]) -> LogRecord:
     return _record(stamp, ranges, (-fov / 2, step, _NOTHING_M), lidar, robot)
 
 
-def _robotlaser(words: list[str]) -> LogRecord:
-    start, fov, step, most = (float(word) for word in words[2:6])
-    count = _count(words[8])
-    ranges = np.array(words[9 : 9 + count], dtype=np.float32)
+def _robotlaser(fields: list[str]) -> LogRecord:
+    start, fov, step, most = (float(word) for word in fields[2:6])
+    count = _count(fields[8])
+    ranges = np.array(fields[9 : 9 + count], dtype=np.float32)
     after = 9 + count
-    after += 1 + _count(words[after])
-    lidar, robot = _pose(words[after : after + 3]), _pose(words[after + 3 : after + 6])
-    stamp = _stamp_ns(words[after + 11])
+    after += 1 + _count(fields[after])
+    lidar, robot = _pose(fields[after : after + 3]), _pose(fields[after + 3 : after + 6])
+    stamp = _stamp_ns(fields[after + 11])
     if len(ranges) != count:
         raise ValueError(f"{count} ranges are announced, {len(ranges)} are there")
     if not step > 0:
@@ -110,10 +110,12 @@ def _count(word: str) -> int:
     return count
 
 
-def _pose(words: list[str]) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    pose = np.array([float(word) for word in words])
+def _pose(fields: list[str]) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    pose = np.array([float(word) for word in fields])
     if len(pose) != 3 or not np.isfinite(pose).all():
-        raise ValueError(f"'{' '.join(words)}' is no pose" if words else "the line ends too early")
+        raise ValueError(
+            f"'{' '.join(fields)}' is no pose" if fields else "the line ends too early"
+        )
     return pose
 
 

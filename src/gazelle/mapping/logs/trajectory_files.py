@@ -37,11 +37,11 @@ def write_carmen(path: Path, records: Iterable[LogRecord], poses: Poses) -> None
         scan = record.scan
         lidar = compose(pose, scan.T_base_laser)
         seen = scan.hits()
-        words = [f"{r:.3f}" if ok else f"{scan.range_max_m + 1:.2f}"
+        ranges = [f"{r:.3f}" if ok else f"{scan.range_max_m + 1:.2f}"
                  for r, ok in zip(scan.ranges_m.tolist(), seen.tolist(), strict=True)]  # fmt: skip
-        places = [f"{value:.6f}" for value in (*lidar, *pose)]
+        numbers = [f"{value:.6f}" for value in (*lidar, *pose)]
         time_s = f"{scan.stamp_ns / 1e9:.6f}"
         lines.append(
-            " ".join(["FLASER", str(len(words)), *words, *places, time_s, "gazelle", time_s])
+            " ".join(["FLASER", str(len(ranges)), *ranges, *numbers, time_s, "gazelle", time_s])
         )
     path.write_text("\n".join(lines) + "\n")

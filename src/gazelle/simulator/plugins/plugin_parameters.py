@@ -134,7 +134,7 @@ class TagSource:
         """Return an element as it is written."""
         return f"<{name}>"
 
-    def place(self, name: str) -> SourceSpan | None:
+    def span(self, name: str) -> SourceSpan | None:
         """Return where the first element of a name stands."""
         found = self.tag.find(name)
         return None if found is None else found.span

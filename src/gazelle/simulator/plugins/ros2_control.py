@@ -274,6 +274,6 @@ def _rate(context: PluginContext, source: FileSource) -> float:
         return float(value)
     text = f"update_rate of the controller manager is {value!r}, not a number above 0;"
     text += f" {_UPDATE_RATE_HZ} Hz is used"
-    place = source.place("controller_manager", "update_rate") or context.plugin.span
+    place = source.span("controller_manager", "update_rate") or context.plugin.span
     context.host.diagnostics.report("parameter.bad-value", text, place)
     return float(_UPDATE_RATE_HZ)

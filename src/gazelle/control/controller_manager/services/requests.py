@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostic, Severity, brief
 
 __all__ = ["Actor"]
 
-_WORDS = {Severity.ERROR: "error", Severity.WARNING: "warn", Severity.INFO: "info"}
+_LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warn", Severity.INFO: "info"}
 _LISTED = "`gazelle doctor` on the package or launch"
 
 
@@ -36,7 +36,7 @@ class Actor:
             new = [item for item in list(diagnostics)[known:]
                    if item.code != "control.controller-failed"]  # fmt: skip
             for item in brief(new, _LISTED).shown:
-                self._ports.log(_WORDS[item.severity], _line(item))
+                self._ports.log(_LEVELS[item.severity], _line(item))
 
     def done(self, action: Callable[[], object]) -> bool:
         """Do something; a failure is logged and gives False."""

@@ -47,10 +47,10 @@ def result(code: ErrorCode, text: str = "") -> dict[str, Any]:
 
 def violation(error: Array, limits: Array) -> str:
     """Return what exceeds its limit: position, velocity and acceleration of one joint, (3,)."""
-    words = ("Position", "Velocity", "Acceleration")
+    quantities = ("Position", "Velocity", "Acceleration")
     return "; ".join(
         f"{word} Error: {value:f}, {word} Tolerance: {limit:f}"
-        for word, value, limit in zip(words, error, limits, strict=True)
+        for word, value, limit in zip(quantities, error, limits, strict=True)
         if abs(value) > limit
     )
 
