@@ -81,7 +81,7 @@ def _given(node: Node, context: LaunchContext) -> dict[str, Any]:
 
 
 def _files(node: Node, context: LaunchContext) -> list[str]:
-    words = node._Node__ros_words  # type: ignore[attr-defined]
+    words = node._Node__ros_arguments  # type: ignore[attr-defined]
     return [words[at + 1] for at, word in enumerate(words) if word == "--params-file"]
 
 
