@@ -67,7 +67,8 @@ def test_commands_and_fields_are_those_of_the_real_one(
 def _read(folder: Path) -> object:
     text = (folder / "CMakeLists.txt").read_text()
     commands = [
-        (command.name, [word.text for word in command.words]) for command in read_commands(text)[0]
+        (command.name, [argument.text for argument in command.arguments])
+        for command in read_commands(text)[0]
     ]
     manifest = read_manifest(folder / "package.xml")
     return [item for item in commands if item[0] != "cmake_minimum_required"], (

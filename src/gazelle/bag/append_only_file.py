@@ -89,8 +89,8 @@ class AppendedFile:
 
 
 def _rest(pieces: list[memoryview], written: int) -> list[memoryview]:
-    for place, piece in enumerate(pieces):
+    for index, piece in enumerate(pieces):
         if written < len(piece):
-            return [piece[written:], *pieces[place + 1 :]]
+            return [piece[written:], *pieces[index + 1 :]]
         written -= len(piece)
     return []

@@ -161,8 +161,8 @@ def _flatten(name: str, value: Any, row: dict[str, Any]) -> None:
         if len(value) > _MAX_ARRAY or isinstance(value, bytes | bytearray | memoryview):
             row[f"{name}.length"] = len(value)
             return
-        for place, item in enumerate(value):
-            _flatten(f"{name}.{place}", item, row)
+        for index, item in enumerate(value):
+            _flatten(f"{name}.{index}", item, row)
     else:
         fields = [item.name for item in type(value).FIELDS]
         if fields == ["sec", "nanosec"]:

@@ -21,7 +21,7 @@ from gazelle.bag.storage import BagError, BagReader, BagWriter
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, render
 from gazelle.documents.files import is_file, is_folder
 
-__all__ = ["create_bag", "open_bag", "storage_of", "tell_of_unindexed"]
+__all__ = ["create_bag", "open_bag", "storage_of", "warn_of_unindexed"]
 
 
 def open_bag(path: Path | str) -> BagReader:
@@ -87,7 +87,7 @@ def storage_of(path: Path | str) -> str | None:
     return None if found is None else found.name
 
 
-def tell_of_unindexed(bag: BagReader) -> None:
+def warn_of_unindexed(bag: BagReader) -> None:
     """Say on stderr that a bag was not closed, and what that means."""
     summary = bag.summary
     if summary.is_indexed:

@@ -10,7 +10,7 @@ from gazelle.bag import BagError, BagReader, create_bag, open_bag, storage_of
 from gazelle.bag.conversion import copy_bag
 from gazelle.bag.export import FORMATS, export_bag
 from gazelle.bag.formats import MCAP, OWN_FORMATS, storage_names
-from gazelle.bag.opening import tell_of_unindexed
+from gazelle.bag.opening import warn_of_unindexed
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.diagnostics import Diagnostics, render
 
@@ -59,7 +59,7 @@ def _export(options: argparse.Namespace) -> int:
 
 def _end(bag: BagReader, diagnostics: Diagnostics) -> int:
     sys.stdout.flush()
-    tell_of_unindexed(bag)
+    warn_of_unindexed(bag)
     render(diagnostics)
     return 0
 

@@ -113,25 +113,25 @@ def load_profile(folder: Path, *, may_make: bool = False) -> Profile:
     return Profile(root, values if isinstance(values, dict) else {})
 
 
-def init_or_config(words: list[str]) -> int:
+def init_or_config(argv: list[str]) -> int:
     """Run the verb that the first word names."""
-    parser = argparse.ArgumentParser(prog=f"catkin {words[0]}")
+    parser = argparse.ArgumentParser(prog=f"catkin {argv[0]}")
     parser.add_argument("-w", "--workspace", type=Path, help="the workspace")
-    if words[0] == "init":
-        folder = parser.parse_args(words[1:]).workspace or Path.cwd()
+    if argv[0] == "init":
+        folder = parser.parse_args(argv[1:]).workspace or Path.cwd()
         root = folder.absolute()
         made = _make_workspace(root)
         what = "Initializing" if made else "already initialized:"
         print(f"{what} catkin workspace in `{root}`.")
         print(_summary(load_profile(root)))
         return 0
-    return _config(parser, words[1:])
+    return _config(parser, argv[1:])
 
 
-def build(words: list[str]) -> int:
+def build(argv: list[str]) -> int:
     """Build the packages named, or all."""
-    options = _parser().parse_args([word for word in words[1:] if not word.startswith("-D")])
-    pairs = (word[2:].partition("=") for word in words if word.startswith("-D"))
+    options = _parser().parse_args([word for word in argv[1:] if not word.startswith("-D")])
+    pairs = (word[2:].partition("=") for word in argv if word.startswith("-D"))
     definitions = {name.partition(":")[0]: value for name, _, value in pairs}
     profile = load_profile(options.workspace or Path.cwd(), may_make=True)
     begin = time.monotonic()
@@ -161,13 +161,13 @@ def build(words: list[str]) -> int:
     return 1 if any(outcome.code for outcome in outcomes) else 0
 
 
-def clean(words: list[str]) -> int:
+def clean(argv: list[str]) -> int:
     """Ask, unless told not to, and remove the spaces."""
     parser = argparse.ArgumentParser(prog="catkin clean")
     parser.add_argument("-w", "--workspace", type=Path, help="the workspace")
     parser.add_argument("-y", "--yes", action="store_true", help="do not ask")
     parser.add_argument("-n", "--dry-run", action="store_true", help="say what would be removed")
-    options = parser.parse_args(words[1:])
+    options = parser.parse_args(argv[1:])
     profile = load_profile(options.workspace or Path.cwd())
     spaces = profile.spaces
     there = [path for path in (spaces.build, spaces.devel, spaces.install) if path.is_dir()]
@@ -191,25 +191,25 @@ def clean(words: list[str]) -> int:
     return 0
 
 
-def create_pkg(words: list[str]) -> int:
+def create_pkg(argv: list[str]) -> int:
     """Write packages with the options of ``catkin_create_pkg``."""
     from gazelle.cli import catkin_create_pkg
 
-    if words[1:2] != ["pkg"]:
+    if argv[1:2] != ["pkg"]:
         print("usage: catkin create pkg PKG_NAME [--catkin-deps DEP ...]", file=sys.stderr)
         return 2
     parser = argparse.ArgumentParser(prog="catkin create pkg")
     parser.add_argument("name", metavar="PKG_NAME")
     parser.add_argument("-c", "--catkin-deps", nargs="*", default=[], metavar="DEP")
-    options, rest = parser.parse_known_args(words[2:])
+    options, rest = parser.parse_known_args(argv[2:])
     return catkin_create_pkg.main([options.name, *options.catkin_deps, *rest])
 
 
-def list_or_locate(words: list[str]) -> int:
+def list_or_locate(argv: list[str]) -> int:
     """Run the verb that the first word names."""
-    parser = argparse.ArgumentParser(prog=f"catkin {words[0]}")
+    parser = argparse.ArgumentParser(prog=f"catkin {argv[0]}")
     parser.add_argument("-w", "--workspace", type=Path, help="the workspace")
-    return _list(parser, words[1:]) if words[0] == "list" else _locate(parser, words[1:])
+    return _list(parser, argv[1:]) if argv[0] == "list" else _locate(parser, argv[1:])
 
 
 def _make_workspace(root: Path) -> bool:
@@ -243,14 +243,14 @@ def _summary(profile: Profile) -> str:
     return "\n".join(lines)
 
 
-def _config(parser: argparse.ArgumentParser, words: list[str]) -> int:
+def _config(parser: argparse.ArgumentParser, argv: list[str]) -> int:
     installs = parser.add_mutually_exclusive_group()
     installs.add_argument("--install", action="store_true", default=None, dest="installs")
     installs.add_argument("--no-install", action="store_false", default=None, dest="installs")
     for name in _SPACE_NAMES:
         parser.add_argument(f"--{name}-space", metavar="FOLDER")
     parser.add_argument("--init", action="store_true", help="make the workspace first")
-    options = parser.parse_args(words)
+    options = parser.parse_args(argv)
     folder = options.workspace or Path.cwd()
     if options.init:
         _make_workspace(folder.absolute())
@@ -319,8 +319,8 @@ def _print_end(outcome: Outcome) -> None:
     if outcome.errors:
         lines = ["_" * 79, f"{'Errors' if outcome.code else 'Warnings'} << {outcome.name}"]
         print("\n".join([*lines, *outcome.errors, "." * 79]), file=sys.stderr, flush=True)
-    words = "Failed    << " if outcome.code else "Finished  <<<"
-    print(f"{words} {outcome.name:<{_WIDTH}} [ {outcome.duration_s:.1f} seconds ]", flush=True)
+    label = "Failed    << " if outcome.code else "Finished  <<<"
+    print(f"{label} {outcome.name:<{_WIDTH}} [ {outcome.duration_s:.1f} seconds ]", flush=True)
 
 
 def _write_spaces(profile: Profile) -> None:
@@ -339,10 +339,10 @@ def _print_summary(outcomes: Sequence[Outcome], left: Sequence[str], took_s: flo
     failed = [item.name for item in outcomes if item.code]
     good = len(outcomes) - len(failed)
     total = len(outcomes) + len(left)
-    words = f"All {total} packages succeeded!" if good == total else (
+    verdict = f"All {total} packages succeeded!" if good == total else (
         f"{good} of {total} packages succeeded.")  # fmt: skip
     warned = [item.name for item in outcomes if item.errors and not item.code]
-    print(f"[build] Summary: {words}")
+    print(f"[build] Summary: {verdict}")
     for label, names in (("Warnings", warned), ("Abandoned", left), ("Failed", failed)):
         print(f"[build]   {label + ':':<11}{', '.join(names) or 'None.'}")
     print(f"[build] Runtime: {took_s:.1f} seconds total.", flush=True)
@@ -353,10 +353,10 @@ def _agreed() -> bool:
     return sys.stdin.readline().strip().lower() in {"y", "yes"}
 
 
-def _list(parser: argparse.ArgumentParser, words: list[str]) -> int:
+def _list(parser: argparse.ArgumentParser, argv: list[str]) -> int:
     parser.add_argument("-u", "--unformatted", action="store_true", help="without '- '")
     parser.add_argument("--deps", action="store_true", help="with what they need")
-    options = parser.parse_args(words)
+    options = parser.parse_args(argv)
     for item in _packages(load_profile(options.workspace or Path.cwd())):
         print(item.name if options.unformatted else f"- {item.name}")
         for role in ("build", "run") if options.deps else ():
@@ -365,11 +365,11 @@ def _list(parser: argparse.ArgumentParser, words: list[str]) -> int:
     return 0
 
 
-def _locate(parser: argparse.ArgumentParser, words: list[str]) -> int:
+def _locate(parser: argparse.ArgumentParser, argv: list[str]) -> int:
     for letter, name in (("s", "src"), ("b", "build"), ("d", "devel"), ("i", "install")):
         parser.add_argument(f"-{letter}", f"--{name}", action="store_const", const=name, dest="of")
     parser.add_argument("package", nargs="?", help="a package of the workspace")
-    options = parser.parse_args(words)
+    options = parser.parse_args(argv)
     profile = load_profile(options.workspace or Path.cwd())
     spaces = profile.spaces
     places = {"src": spaces.source, "build": spaces.build, "devel": spaces.devel,

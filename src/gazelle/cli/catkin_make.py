@@ -41,9 +41,9 @@ def main(argv: list[str]) -> int:
         Path(definitions.get("CMAKE_INSTALL_PREFIX", base / "install")).absolute(),
     )
     _check(base, spaces)
-    for words, place in zip(("Source", "Build", "Devel", "Install"), spaces, strict=True):
-        print(f"{words} space: {place}" if words != "Source" else
-              f"Base path: {base}\nSource space: {place}")  # fmt: skip
+    for tokens, folder in zip(("Source", "Build", "Devel", "Install"), spaces, strict=True):
+        print(f"{tokens} space: {folder}" if tokens != "Source" else
+              f"Base path: {base}\nSource space: {folder}")  # fmt: skip
     packages = _packages(spaces, options, definitions)
     outcomes = _build(packages, spaces, definitions, installs="install" in targets)
     failed = [outcome.name for outcome in outcomes if outcome.code]
@@ -75,10 +75,10 @@ def _read(argv: Sequence[str]) -> tuple[argparse.Namespace, list[str], dict[str,
     for name in _WITHOUT_EFFECT:
         add("--" + name.replace("_", "-"), action="store_true", help=argparse.SUPPRESS)
     add("targets", nargs="*", help="all, install")
-    words = [word for word in argv if not word.startswith("-D")]
+    tokens = [word for word in argv if not word.startswith("-D")]
     pairs = (word[2:].partition("=") for word in argv if word.startswith("-D"))
     definitions = {name.partition(":")[0]: value for name, _, value in pairs}
-    options = parser.parse_intermixed_args(words)
+    options = parser.parse_intermixed_args(tokens)
     unknown = [name for name in options.targets if name not in _TARGETS]
     if unknown:
         hint = did_you_mean(unknown[0], _TARGETS) or f"there are {', '.join(_TARGETS)}"

@@ -25,14 +25,14 @@ def main(argv: list[str]) -> int:
     Returns:
         0 when urdfdom accepts the file, 255 when it does not; our findings change neither.
     """
-    words, mappings = mappings_of(argv)
-    if not words:
+    tokens, mappings = mappings_of(argv)
+    if not tokens:
         print("Expect URDF xml file to parse", file=sys.stderr)
         return REFUSED
-    if words[0] in {"-h", "--help"}:
+    if tokens[0] in {"-h", "--help"}:
         print(_USAGE, file=sys.stderr)
         return REFUSED
-    file = read_urdf_file(words[0], mappings)
+    file = read_urdf_file(tokens[0], mappings)
     robot = robot_in(file)
     code = REFUSED
     if robot is not None:

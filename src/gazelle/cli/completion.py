@@ -44,21 +44,21 @@ def main(argv: list[str]) -> int:
     if not argv:
         print("usage: gazelle complete COMMAND [WORD ...]")
         return 2
-    command, *words = argv
-    for one in candidates(Path(command).name, words or [""]):
+    command, *tokens = argv
+    for one in candidates(Path(command).name, tokens or [""]):
         print(one)
     return 0
 
 
-def named(kind: str, words: Sequence[str], *, ros2: bool) -> Iterable[str]:
+def named(kind: str, argv: Sequence[str], *, ros2: bool) -> Iterable[str]:
     """Return the names that may follow.
 
     Args:
         kind: what the command is about: ``topic``, ``node``, ``msg`` ….
-        words: the subcommand and those behind it; the last one is being typed.
+        argv: the subcommand and those behind it; the last one is being typed.
         ros2: types are shown as ROS 2 does.
     """
-    subcommand, position = words[0], len(words) - 1
+    subcommand, position = argv[0], len(argv) - 1
     if kind == "pack":
         return package_names() if subcommand != "list" else ()
     if kind in _PARTS and subcommand == "package":
@@ -80,10 +80,10 @@ def named(kind: str, words: Sequence[str], *, ros2: bool) -> Iterable[str]:
         return sorted(way(graph))
 
 
-def launch_arguments(words: Sequence[str]) -> Iterable[str]:
+def launch_arguments(argv: Sequence[str]) -> Iterable[str]:
     """Return ``name:=`` for every argument of a launch file: a file, or a package and a name."""
-    package = Workspace.discover().packages.get(words[0])
-    file = Path(words[0]) if package is None else next(package.path.rglob(words[1]), None)
+    package = Workspace.discover().packages.get(argv[0])
+    file = Path(argv[0]) if package is None else next(package.path.rglob(argv[1]), None)
     if file is None or not file.is_file():
         return ()
     workspace, ignored = Workspace.discover(), Diagnostics()
@@ -105,34 +105,34 @@ def package_names(ros_version: int | None = None) -> Iterable[str]:
     return [name for name, one in packages.items() if not (one.is_builtin and (name, "") in others)]
 
 
-def candidates(command: str, words: list[str]) -> list[str]:
+def candidates(command: str, argv: list[str]) -> list[str]:
     """Return what the last word may become, sorted.
 
     Args:
         command: such as ``rostopic``.
-        words: those behind it; the last one is being typed and may be empty.
+        argv: those behind it; the last one is being typed and may be empty.
     """
     if command == "gazelle":
-        if len(words) > 1:
-            return candidates(words[0], words[1:])
-        return _starting(COMMANDS, words[-1])
+        if len(argv) > 1:
+            return candidates(argv[0], argv[1:])
+        return _starting(COMMANDS, argv[-1])
     try:
-        found = _found(command, words)
+        found = _found(command, argv)
     except GazelleError:
         # A shell shows no errors while somebody types.
         return []
-    return _starting(found, words[-1])
+    return _starting(found, argv[-1])
 
 
-def subcommands(command: str, words: Iterable[str] = ()) -> list[str]:
-    """Return the subcommands of a command, or of ``ros2 COMMAND`` when `words` names one."""
+def subcommands(command: str, argv: Iterable[str] = ()) -> list[str]:
+    """Return the subcommands of a command, or of ``ros2 COMMAND`` when `argv` names one."""
     module = COMMANDS[command].module
-    for word in words:
+    for word in argv:
         module = f"{module}.{word}"
     with suppress(ModuleNotFoundError):
         if found := _table(vars(import_module(module))):
             return found
-    match = None if tuple(words) else _LISTED.fullmatch(COMMANDS[command].help)
+    match = None if tuple(argv) else _LISTED.fullmatch(COMMANDS[command].help)
     return match[1].split(", ") if match else []
 
 
@@ -150,46 +150,46 @@ def _table(names: Mapping[str, object]) -> list[str]:
     return [str(name) for name in tables[0]] if tables else []
 
 
-def _found(command: str, words: list[str]) -> Iterable[str]:
-    position = len(words)
+def _found(command: str, argv: list[str]) -> Iterable[str]:
+    position = len(argv)
     if command in _SHELL_FUNCTIONS:
         return package_names() if position == 1 else ()
     if command in {"rosrun", "roslaunch", "rosversion"}:
-        return _in_package(command, words, 1)
+        return _in_package(command, argv, 1)
     if command not in COMMANDS:
         return ()
     if command == "ros2":
-        return _ros2(words)
+        return _ros2(argv)
     if position == 1:
         return subcommands(command)
-    return named(command.removeprefix("ros"), words, ros2=False)
+    return named(command.removeprefix("ros"), argv, ros2=False)
 
 
-def _ros2(words: list[str]) -> Iterable[str]:
-    if len(words) == 1:
+def _ros2(argv: list[str]) -> Iterable[str]:
+    if len(argv) == 1:
         return subcommands("ros2")
-    if words[0] in {"run", "launch"}:
-        return _in_package({"run": "rosrun", "launch": "roslaunch"}[words[0]], words[1:], 2)
-    if len(words) == 2:
-        return subcommands("ros2", words[:1])
-    return named(words[0], words[1:], ros2=True)
+    if argv[0] in {"run", "launch"}:
+        return _in_package({"run": "rosrun", "launch": "roslaunch"}[argv[0]], argv[1:], 2)
+    if len(argv) == 2:
+        return subcommands("ros2", argv[:1])
+    return named(argv[0], argv[1:], ros2=True)
 
 
-def _in_package(command: str, words: list[str], ros_version: int) -> Iterable[str]:
-    if len(words) == 1:
+def _in_package(command: str, argv: list[str], ros_version: int) -> Iterable[str]:
+    if len(argv) == 1:
         return package_names(ros_version)
     if command == "rosversion":
         return ()
-    if len(words) > 2:
-        return launch_arguments(words[:2]) if command == "roslaunch" else ()
-    package = Workspace.discover().packages.get(words[0])
+    if len(argv) > 2:
+        return launch_arguments(argv[:2]) if command == "roslaunch" else ()
+    package = Workspace.discover().packages.get(argv[0])
     if command == "roslaunch":
         return {path.name for path in package.path.rglob("*.launch*")} if package else ()
     from gazelle.node_specs.registry import builtin_executables, names_of_other_ros
 
     files = package.executable_names if package else ()
     others = names_of_other_ros(ros_version)
-    builtin = [one for one in builtin_executables(words[0]) if (words[0], one) not in others]
+    builtin = [one for one in builtin_executables(argv[0]) if (argv[0], one) not in others]
     return {*files, *builtin}
 
 

@@ -7,7 +7,7 @@ import sys
 import threading
 
 from gazelle.cli.error_text import error_text
-from gazelle.cli.tool import ToolError, joined
+from gazelle.cli.tool import ToolError, join_graph
 from gazelle.graph.names import parse_command_line
 from gazelle.nodes.controller_manager.command import USAGE, command
 
@@ -22,7 +22,7 @@ def main(argv: list[str]) -> int:
         return 0
     namespace = line.namespace or os.environ.get("ROS_NAMESPACE") or "/"
     try:
-        with joined() as graph:
+        with join_graph() as graph:
             node = graph.create_node("controller_manager", namespace=namespace, anonymous=True)
             return command(node, line.rest, threading.Event())
     except ToolError as error:

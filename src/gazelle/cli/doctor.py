@@ -61,8 +61,8 @@ class Tables(Enum):
 def main(argv: list[str]) -> int:
     """Examine a target and print the report."""
     parser = _parser()
-    words = [word for word in argv if not _is_argument(word)]
-    options = parser.parse_args(words)
+    tokens = [word for word in argv if not _is_argument(word)]
+    options = parser.parse_args(tokens)
     arguments = dict(word.split(":=", 1) for word in argv if _is_argument(word))
     from gazelle.doctor import Options, examine
 
@@ -212,8 +212,8 @@ def _finding(item: Diagnostic) -> dict[str, Any]:
         "line": span.line if span else None,
         "column": span.column if span else None,
         "via": [
-            {"file": place.file, "line": place.line, "column": place.column}
-            for place in (span.via if span else ())
+            {"file": outer.file, "line": outer.line, "column": outer.column}
+            for outer in (span.via if span else ())
         ],
         "fix": item.fix,
         "phrase": item.phrase,
@@ -281,7 +281,7 @@ def _relative(span: SourceSpan) -> SourceSpan:
         file = str(Path(file).relative_to(Path.cwd()))
     except ValueError:
         file = span.file
-    return replace(span, file=file, via=tuple(_relative(place) for place in span.via))
+    return replace(span, file=file, via=tuple(_relative(outer) for outer in span.via))
 
 
 def _print_section(section: Section, console: Console) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.cli.text.fill_message import yaml_words
-from gazelle.cli.tool import Tool, ToolError, hint, joined, run_tool
+from gazelle.cli.tool import Tool, ToolError, hint, join_graph, run_tool
 from gazelle.graph import (
     Graph,
     Node,
@@ -61,16 +61,16 @@ def main(argv: list[str]) -> int:
     return run_tool(Tool("dynparam", commands, _USAGE, usage_code=1), line.rest)
 
 
-def _list(line: CommandLine, words: list[str]) -> int:
-    del words
+def _list(line: CommandLine, argv: list[str]) -> int:
+    del argv
     with _node(line) as (graph, _):
         for name in server_names(graph):
             print(name)
     return 0
 
 
-def _get(line: CommandLine, words: list[str]) -> int:
-    timeout_s, (name,) = _arguments(words, "get [options] node", (_NO_NODE,))
+def _get(line: CommandLine, argv: list[str]) -> int:
+    timeout_s, (name,) = _arguments(argv, "get [options] node", (_NO_NODE,))
     with _node(line) as (graph, node):
         found = _configuration(graph, node, name, timeout_s)
         if found is not None:
@@ -78,11 +78,11 @@ def _get(line: CommandLine, words: list[str]) -> int:
     return 0
 
 
-def _set(line: CommandLine, words: list[str]) -> int:
+def _set(line: CommandLine, argv: list[str]) -> int:
     usage = "set [options] node parameter value\n   or: %prog set [options] node values"
-    values, words = _split(words)
+    values, argv = _split(argv)
     parser = _parser(usage)
-    options, _ = parser.parse_args(words)
+    options, _ = parser.parse_args(argv)
     if len(values) > 3:
         parser.error("too many arguments")
     if len(values) < 2:
@@ -99,8 +99,8 @@ def _set(line: CommandLine, words: list[str]) -> int:
     return 0
 
 
-def _set_from_parameters(line: CommandLine, words: list[str]) -> int:
-    timeout_s, (name,) = _arguments(words, "set_from_parameters [options] node", (_NO_NODE,))
+def _set_from_parameters(line: CommandLine, argv: list[str]) -> int:
+    timeout_s, (name,) = _arguments(argv, "set_from_parameters [options] node", (_NO_NODE,))
     with _node(line) as (graph, node):
         found = node.parameters.get("~", None)
         if not isinstance(found, dict):
@@ -111,9 +111,9 @@ def _set_from_parameters(line: CommandLine, words: list[str]) -> int:
     return 0
 
 
-def _dump(line: CommandLine, words: list[str]) -> int:
+def _dump(line: CommandLine, argv: list[str]) -> int:
     problems = (_NO_NODE, "invalid arguments. Please specify an output file")
-    timeout_s, (name, path) = _arguments(words, "dump [options] node file", problems)
+    timeout_s, (name, path) = _arguments(argv, "dump [options] node file", problems)
     with _node(line) as (graph, node):
         found = _configuration(graph, node, name, timeout_s)
     if found is None:
@@ -126,35 +126,35 @@ def _dump(line: CommandLine, words: list[str]) -> int:
     return 0
 
 
-def _load(line: CommandLine, words: list[str]) -> int:
+def _load(line: CommandLine, argv: list[str]) -> int:
     problems = (_NO_NODE, "invalid arguments. Please specify an input file")
-    timeout_s, (name, path) = _arguments(words, "load [options] node file", problems)
+    timeout_s, (name, path) = _arguments(argv, "load [options] node file", problems)
     changes = _from_yaml(path)
     with _node(line) as (graph, node):
         _change(graph, node, name, changes, timeout_s)
     return 0
 
 
-def _split(words: list[str]) -> tuple[list[str], list[str]]:
+def _split(argv: list[str]) -> tuple[list[str], list[str]]:
     """Return values and options of ``set``; negative numbers are values."""
     values, options = [], []
-    rest = iter(words)
+    rest = iter(argv)
     for word in rest:
         if not word.startswith("-") or word[1:2].isdigit():
             values.append(word)
         else:
             options.append(word)
             if word in {"-t", "--timeout"}:
-                options += [next(rest)] if len(words) > len(values) + len(options) else []
+                options += [next(rest)] if len(argv) > len(values) + len(options) else []
     return values, options
 
 
 def _arguments(
-    words: list[str], usage: str, problems: tuple[str, ...]
+    argv: list[str], usage: str, problems: tuple[str, ...]
 ) -> tuple[float | None, list[str]]:
     """Return the timeout and the words, as many as there are texts for their absence."""
     parser = _parser(usage)
-    options, rest = parser.parse_args(words)
+    options, rest = parser.parse_args(argv)
     if len(rest) < len(problems):
         parser.error(problems[len(rest)])
     if len(rest) > len(problems):
@@ -173,7 +173,7 @@ def _parser(usage: str) -> OptionParser:
 @contextmanager
 def _node(line: CommandLine) -> Iterator[tuple[Graph, Node]]:
     """Join the graph as the node that a launch file names, or as an anonymous one."""
-    with joined() as graph:
+    with join_graph() as graph:
         node = graph.create_node(
             line.name or "dynparam",
             namespace=line.namespace,

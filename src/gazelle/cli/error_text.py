@@ -15,14 +15,14 @@ _HEAD = 400
 _TAIL = 100
 
 
-def printed_characters(words: Sequence[str]) -> list[str]:
+def printed_characters(argv: Sequence[str]) -> list[str]:
     """Return a line for each word that was most likely typed otherwise.
 
     Web pages turn ``-r`` into ``–r`` and quotation marks into curly ones; the shell and every
     command take them for letters. What a word is meant for is not known here, so this is for
     commands that have failed.
     """
-    return [line for word in words if (line := _about(word))]
+    return [line for word in argv if (line := _about(word))]
 
 
 def error_text(error: object) -> str:

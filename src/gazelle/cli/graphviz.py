@@ -29,8 +29,8 @@ def typeset(source: Path, target: Path, tool: str) -> bool:
         print(f"{tool}: {message}", file=sys.stderr)
         return False
     # Absolute, so that no name is taken for an option.
-    words = [dot, "-Tpdf", str(source.absolute()), "-o", str(target.absolute())]
-    done = subprocess.run(words, stdin=subprocess.DEVNULL, check=False)
+    command = [dot, "-Tpdf", str(source.absolute()), "-o", str(target.absolute())]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, check=False)
     if done.returncode:
         message = f"'{target}' was not made: dot ended with exit code {done.returncode}"
         print(f"{tool}: {message}", file=sys.stderr)

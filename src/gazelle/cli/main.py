@@ -25,31 +25,31 @@ def main(argv: Sequence[str] | None = None) -> int:
         Its exit code: 0 for success, 1 for a failure it explained, 2 for wrong usage,
         130 for Ctrl-C.
     """
-    words = list(sys.argv[1:] if argv is None else argv)
+    tokens = list(sys.argv[1:] if argv is None else argv)
     try:
-        return _main(words)
+        return _main(tokens)
     except BrokenPipeError:
         # The reader of our output has gone, as in `rostopic list | head`, which is no failure.
         drop_output(sys.stdout)
         return 0
 
 
-def _main(words: list[str]) -> int:
-    if not words or words[0] in {"-h", "--help", "help"}:
+def _main(argv: list[str]) -> int:
+    if not argv or argv[0] in {"-h", "--help", "help"}:
         print(_usage())
-        return 0 if words else 2
-    if words[0] == "--version":
+        return 0 if argv else 2
+    if argv[0] == "--version":
         print(f"gazelle {__version__}")
         return 0
     code: int | str | None = 1
     try:
-        code = _run(words[0], words[1:])
+        code = _run(argv[0], argv[1:])
     except SystemExit as stop:
         code = stop.code
         raise
     finally:
         if code:
-            _tell_of_printed_characters(words[0], words[1:])
+            _tell_of_printed_characters(argv[0], argv[1:])
     return code
 
 

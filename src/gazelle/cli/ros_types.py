@@ -88,10 +88,10 @@ def shown_type(name: str) -> str:
     return ros1_type_of(name) if name.count("/") == 2 else name
 
 
-def wanted_type(tool: str, words: list[str]) -> str:
+def wanted_type(tool: str, argv: list[str]) -> str:
     """Return the type that the words behind ``find`` name, as `shown_type`."""
     parser = option_parser(tool, "find msg-type")
-    _, args = parser.parse_args(words)
+    _, args = parser.parse_args(argv)
     if not args:
         parser.error("please specify a message type")
     if len(args) > 1:
@@ -129,9 +129,9 @@ def ros2_service_class(name: str) -> ServiceType:
         ToolError: nothing defines it, or it is no service.
         UserFileError: its definition has errors.
     """
-    words = name.split("/")
-    if len(words) == 3 and words[1] != "srv":
-        raise ToolError(f"The passed type is not a service\n  '{name}' is of {words[1]}/")
+    parts = name.split("/")
+    if len(parts) == 3 and parts[1] != "srv":
+        raise ToolError(f"The passed type is not a service\n  '{name}' is of {parts[1]}/")
     try:
         found: ServiceType = _found(service_type, name)
     except NotFoundError as error:

@@ -129,8 +129,8 @@ def _in_package(name: str, file: str, workspace: Workspace) -> Path:
 def _launch_options(options: argparse.Namespace) -> LaunchOptions:
     if options.pid:
         Path(options.pid).write_text(f"{os.getpid()}\n", encoding="utf-8")
-    words = [word for word in ("--fast", "--lockstep") if getattr(options, word[2:])]
-    words += ["--seed", str(options.seed)] if options.seed else []
+    simulator_args = [word for word in ("--fast", "--lockstep") if getattr(options, word[2:])]
+    simulator_args += ["--seed", str(options.seed)] if options.seed else []
     return LaunchOptions(
         screen=options.screen,
         log=options.log,
@@ -139,7 +139,7 @@ def _launch_options(options: argparse.Namespace) -> LaunchOptions:
         port=options.port,
         show_summary=not options.no_summary,
         run_id=options.run_id,
-        simulator_args=tuple(words),
+        simulator_args=tuple(simulator_args),
         lockstep=options.lockstep,
         iterations=options.iters,
         bridge=not options.no_bridge,

@@ -52,7 +52,7 @@ Type {0} <command> -h for more detailed usage
 
 def main(argv: list[str]) -> int:
     """Run a subcommand of ``rosmsg`` or ``rossrv``, which the first word says."""
-    mode, words = _MODES[argv[0]], argv[1:]
+    mode, tokens = _MODES[argv[0]], argv[1:]
     commands = {
         "info": partial(_show, mode),
         "list": partial(_list, mode),
@@ -62,16 +62,16 @@ def main(argv: list[str]) -> int:
         "show": partial(_show, mode),
     }
     usage = _USAGE.format(mode.tool, mode.word.capitalize(), mode.word)
-    tool = Tool(mode.tool, commands, usage, 64 if words else 0, takes_remappings=False)
+    tool = Tool(mode.tool, commands, usage, 64 if tokens else 0, takes_remappings=False)
     learn_workspace_types()
-    return run_tool(tool, words)
+    return run_tool(tool, tokens)
 
 
-def _show(mode: _Mode, words: list[str]) -> int:
+def _show(mode: _Mode, argv: list[str]) -> int:
     parser = option_parser(mode.tool, f"show [options] <{mode.word} type>")
     add_flag(parser, "-r", "--raw", dest="raw", text="show raw message text, including comments")
     parser.add_option("-b", "--bag", metavar="BAGFILE", help="show message from .bag file")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if options.bag:
         return _show_of_bag(options.bag, args, raw=options.raw)
     name = _one(parser, args, f"{mode.word} type").removesuffix(f".{mode.part}")
@@ -110,15 +110,15 @@ def _show_of_bag(path: str, args: list[str], *, raw: bool) -> int:
     return 0
 
 
-def _list(mode: _Mode, words: list[str]) -> int:
-    option_parser(mode.tool, "list").parse_args(words)
+def _list(mode: _Mode, argv: list[str]) -> int:
+    option_parser(mode.tool, "list").parse_args(argv)
     print("\n".join(_types(mode)))
     return 0
 
 
-def _md5(mode: _Mode, words: list[str]) -> int:
+def _md5(mode: _Mode, argv: list[str]) -> int:
     parser = option_parser(mode.tool, f"md5 <{mode.word} type>")
-    _, args = parser.parse_args(words)
+    _, args = parser.parse_args(argv)
     name = _one(parser, args, f"{mode.word} type")
     if "/" in name:
         try:
@@ -135,10 +135,10 @@ def _md5(mode: _Mode, words: list[str]) -> int:
     return 0
 
 
-def _package(mode: _Mode, words: list[str]) -> int:
+def _package(mode: _Mode, argv: list[str]) -> int:
     parser = option_parser(mode.tool, "package <package>")
     add_flag(parser, "-s", dest="single", text="list all on a single line")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     package = _one(parser, args, "package")
     types = _types(mode, package)
     if not types:
@@ -149,10 +149,10 @@ def _package(mode: _Mode, words: list[str]) -> int:
     return 0
 
 
-def _packages(mode: _Mode, words: list[str]) -> int:
+def _packages(mode: _Mode, argv: list[str]) -> int:
     parser = option_parser(mode.tool, "packages")
     add_flag(parser, "-s", dest="single", text="list all packages on a single line")
-    options, _ = parser.parse_args(words)
+    options, _ = parser.parse_args(argv)
     names = sorted({one.split("/")[0] for one in _types(mode)})
     print((" " if options.single else "\n").join(names))
     return 0

@@ -16,7 +16,7 @@ from gazelle.cli.tool import (
     add_flag,
     global_name,
     hint,
-    joined,
+    join_graph,
     option_parser,
     run_tool,
 )
@@ -48,15 +48,15 @@ def main(argv: list[str]) -> int:
     return run_tool(_TOOL, argv)
 
 
-def list_nodes(words: list[str]) -> int:
+def list_nodes(argv: list[str]) -> int:
     """Print the names of nodes, with ``-u`` or ``-a`` their addresses."""
     parser = option_parser("rosnode", "list")
     add_flag(parser, "-u", dest="uris", text="list URIs")
     add_flag(parser, "-a", "--all", dest="all", text="list all information")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if len(args) > 1:
         parser.error("invalid args: you may only specify one namespace")
-    with joined() as graph:
+    with join_graph() as graph:
         names = graph.node_names()
         if args:
             own = global_name(args[0], "rosnode")
@@ -72,13 +72,13 @@ def list_nodes(words: list[str]) -> int:
     return 0
 
 
-def machine(words: list[str]) -> int:
+def machine(argv: list[str]) -> int:
     """Print the machines there are nodes on, or the nodes on one machine."""
     parser = option_parser("rosnode", "machine [machine-name]")
-    _, args = parser.parse_args(words)
+    _, args = parser.parse_args(argv)
     if len(args) > 1:
         parser.error("please enter only one machine name")
-    with joined() as graph:
+    with join_graph() as graph:
         nodes = _nodes_by_machine(graph)
     if not args:
         print("\n".join(sorted(nodes)))
@@ -87,20 +87,20 @@ def machine(words: list[str]) -> int:
     return 0
 
 
-def info(words: list[str]) -> int:
+def info(argv: list[str]) -> int:
     """Print topics, services and connections of nodes."""
     parser = option_parser("rosnode", "info [options] node1 [node2...]")
     add_flag(parser, "-q", "--quiet", dest="quiet", text="print only topics and services")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if not args:
         parser.error("You must specify at least one node name")
-    with joined() as graph:
+    with join_graph() as graph:
         for arg in args:
             _print_node(graph, global_name(arg, "rosnode"), quiet=options.quiet)
     return 0
 
 
-def ping(words: list[str]) -> int:
+def ping(argv: list[str]) -> int:
     """Ask nodes whether they are alive, one again and again, or all of them once."""
     parser = option_parser("rosnode", "ping [options] <node>")
     add_flag(parser, "--all", "-a", dest="all", text="ping all nodes")
@@ -111,14 +111,14 @@ def ping(words: list[str]) -> int:
         metavar="COUNT",
         help="number of pings to send. Not available with --all",
     )
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if options.all and args:
         parser.error(f"Invalid arguments '{' '.join(args)}' used with --all")
     if options.all and options.count:
         parser.error("-c may not be used with --all")
     if len(args) > 1:
         parser.error("you may only specify one input node")
-    with joined() as graph:
+    with join_graph() as graph:
         if options.all:
             _ping_all(graph)
             return 0
@@ -131,11 +131,11 @@ def ping(words: list[str]) -> int:
     return 0
 
 
-def cleanup(words: list[str]) -> int:
+def cleanup(argv: list[str]) -> int:
     """Look for nodes that do not answer; what has ended leaves the graph by itself."""
     parser = option_parser("rosnode", "cleanup")
-    parser.parse_args(words)
-    with joined() as graph:
+    parser.parse_args(argv)
+    with join_graph() as graph:
         silent = [name for name in graph.node_names() if not Processes(graph).uri(name)]
     if silent:
         print("Unable to contact the following nodes:")
@@ -144,14 +144,14 @@ def cleanup(words: list[str]) -> int:
     return 0
 
 
-def kill(words: list[str]) -> int:
+def kill(argv: list[str]) -> int:
     """Ask nodes to shut down."""
     parser = option_parser("rosnode", "kill [node]...")
     add_flag(parser, "-a", "--all", dest="all", text="kill all nodes")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if options.all and args:
         parser.error("invalid arguments with kill all (-a) option")
-    with joined() as graph:
+    with join_graph() as graph:
         known = graph.node_names()
         names = list(known) if options.all else [global_name(arg, "rosnode") for arg in args]
         if not known and (options.all or not args):
@@ -320,7 +320,7 @@ def _asked(graph: Graph, name: str) -> bool:
 
 def _chosen(names: tuple[str, ...]) -> str:
     """Let the person at the terminal choose."""
-    print("\n".join(f"{place}. {name}" for place, name in enumerate(names, 1)))
+    print("\n".join(f"{number}. {name}" for number, name in enumerate(names, 1)))
     print("\nPlease enter the number of the node you wish to kill.\n> ", end="", flush=True)
     for line in sys.stdin:
         text = line.strip()

@@ -24,17 +24,17 @@ _USAGE = """USAGE: rospack <command> [options] [package]
 
 def main(argv: list[str]) -> int:
     """Run ``rospack`` or ``rosversion``, which the first word says."""
-    name, *words = argv
+    name, *tokens = argv
     workspace = Workspace.discover()
     if name == "rosversion":
-        return _version(words, workspace)
-    if not words or words[0] in {"help", "-h", "--help"}:
+        return _version(tokens, workspace)
+    if not tokens or tokens[0] in {"help", "-h", "--help"}:
         print(_USAGE)
         return 0
-    return _command(words[0], words[1:], workspace)
+    return _command(tokens[0], tokens[1:], workspace)
 
 
-def _command(command: str, words: list[str], workspace: Workspace) -> int:
+def _command(command: str, argv: list[str], workspace: Workspace) -> int:
     if command == "list":
         for package in _sorted(workspace):
             print(f"{package.name} {package.path}")
@@ -42,8 +42,8 @@ def _command(command: str, words: list[str], workspace: Workspace) -> int:
         print("\n".join(package.name for package in _sorted(workspace)))
     elif command == "profile":
         print(f"{len(workspace.packages)} packages")
-    elif command in {"find", "depends1", "deps1", "depends", "deps", "depends-on1"} and words:
-        return _about(command, words[-1], workspace)
+    elif command in {"find", "depends1", "deps1", "depends", "deps", "depends-on1"} and argv:
+        return _about(command, argv[-1], workspace)
     else:
         print(f"[rospack] Error: command {command} not supported", file=sys.stderr)
         print(_USAGE, file=sys.stderr)
@@ -87,17 +87,17 @@ def _sorted(workspace: Workspace) -> list[Package]:
     return sorted(workspace.packages.values(), key=lambda item: item.name)
 
 
-def _version(words: list[str], workspace: Workspace) -> int:
-    if words in (["-d"], ["--distro"]):
+def _version(argv: list[str], workspace: Workspace) -> int:
+    if argv in (["-d"], ["--distro"]):
         print("noetic")
         return 0
-    if not words or words[0].startswith("-"):
+    if not argv or argv[0].startswith("-"):
         print("usage: rosversion [-d] [package]")
-        return 0 if words and words[0] in {"-h", "--help"} else 2
-    if words[0] not in workspace.packages:
-        near = nearest_names(words[0], workspace.packages)
+        return 0 if argv and argv[0] in {"-h", "--help"} else 2
+    if argv[0] not in workspace.packages:
+        near = nearest_names(argv[0], workspace.packages)
         hint = f"; did you mean '{near[0]}'?" if near else ""
-        print(f"Cannot locate [{words[0]}]{hint}", file=sys.stderr)
+        print(f"Cannot locate [{argv[0]}]{hint}", file=sys.stderr)
         return 1
-    print(workspace.packages[words[0]].version or "<unversioned>")
+    print(workspace.packages[argv[0]].version or "<unversioned>")
     return 0

@@ -15,7 +15,7 @@ from gazelle.cli.tool import (
     add_flag,
     global_name,
     hint,
-    joined,
+    join_graph,
     option_parser,
     run_tool,
 )
@@ -50,26 +50,26 @@ def main(argv: list[str]) -> int:
     return run_tool(_TOOL, argv)
 
 
-def list_parameters(words: list[str]) -> int:
+def list_parameters(argv: list[str]) -> int:
     """Print the names of parameters."""
     parser = option_parser("rosparam", "list [namespace]")
-    _, args = parser.parse_args(words)
+    _, args = parser.parse_args(argv)
     if len(args) > 1:
         parser.error("too many arguments")
     namespace = global_name(args[0], "rosparam") if args else "/"
     start = namespace.rstrip("/") + "/"
-    with joined() as graph:
+    with join_graph() as graph:
         names = graph.parameters.names()
     print("\n".join(sorted(name for name in names if name.startswith(start))))
     return 0
 
 
-def get(words: list[str]) -> int:
+def get(argv: list[str]) -> int:
     """Print a parameter, or all below a namespace, as YAML."""
     parser = option_parser("rosparam", "get [options] parameter")
     add_flag(parser, "-p", dest="pretty", text="pretty print. WARNING: not YAML-safe")
     add_flag(parser, "-v", dest="verbose", text="turn on verbose output")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if len(args) != 1:
         parser.error(
             "too many arguments" if args else "invalid arguments. Please specify a parameter name"
@@ -77,7 +77,7 @@ def get(words: list[str]) -> int:
     name = global_name(args[0], "rosparam")
     if options.verbose:
         print(f"getting parameter [{name}]")
-    with joined() as graph:
+    with join_graph() as graph:
         value = _value(graph, name)
     if options.pretty and isinstance(value, str):
         print(value)
@@ -90,18 +90,18 @@ def get(words: list[str]) -> int:
     return 0
 
 
-def dump(words: list[str]) -> int:
+def dump(argv: list[str]) -> int:
     """Write all below a namespace to a YAML file, or to standard output."""
     parser = option_parser("rosparam", "dump [options] file [namespace]")
     add_flag(parser, "-v", dest="verbose", text="turn on verbose output")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if len(args) > 2:
         parser.error("too many arguments")
     file, namespace = [*args, "", ""][:2]
     if options.verbose:
         print(f"dumping namespace [{namespace}] to file [{file or None}]")
     name = global_name(namespace, "rosparam")
-    with joined() as graph:
+    with join_graph() as graph:
         value = _value(graph, name)
     if options.verbose:
         print("\n".join(f"{leaf}={item}" for leaf, item in values_only(leaves_at(name, value))))
@@ -116,14 +116,14 @@ def dump(words: list[str]) -> int:
     return 0
 
 
-def set_value(words: list[str]) -> int:
+def set_value(argv: list[str]) -> int:
     """Set a parameter to a YAML value, or to what a file holds."""
     parser = option_parser("rosparam", "set [options] parameter value")
     add = parser.add_option
     add("-t", "--textfile", metavar="TEXT_FILE", help="set parameters to contents of text file")
     add("-b", "--binfile", metavar="BINARY_FILE", help="set parameters to contents of binary file")
     add_flag(parser, "-v", dest="verbose", text="turn on verbose output")
-    options, args = _options(parser, words)
+    options, args = _options(parser, argv)
     if options.textfile and options.binfile:
         parser.error("you may only specify one of --textfile or --binfile")
     has_file = bool(options.textfile or options.binfile)
@@ -134,47 +134,48 @@ def set_value(words: list[str]) -> int:
     if len(args) > 2:
         parser.error("too many arguments")
     value = _file_value(parser, options) if has_file else _yaml(args[1], "<command line>")
-    with joined() as graph:
+    with join_graph() as graph:
         _set(graph, global_name(args[0], "rosparam"), value, verbose=options.verbose)
     return 0
 
 
-def load(words: list[str]) -> int:
+def load(argv: list[str]) -> int:
     """Set the parameters that a YAML file, or standard input, names."""
     parser = option_parser("rosparam", "load [options] file [namespace]")
     add_flag(parser, "-v", dest="verbose", text="turn on verbose output")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if not args:
         parser.error("invalid arguments. Please specify a file name or - for stdin")
     if len(args) > 2:
         parser.error("too many arguments")
     namespace = global_name(args[1] if len(args) > 1 else "", "rosparam")
     text = _text(args[0], verbose=options.verbose)
-    with joined() as graph:
-        for values, place in _trees(text, args[0], namespace):
+    with join_graph() as graph:
+        for values, own_namespace in _trees(text, args[0], namespace):
             if options.verbose:
-                if place != namespace:
-                    print(f"reading parameters into namespace [{place}]")
+                if own_namespace != namespace:
+                    print(f"reading parameters into namespace [{own_namespace}]")
                 print(
                     "\n".join(
-                        f"{name}={value}" for name, value in values_only(leaves_at(place, values))
+                        f"{name}={value}"
+                        for name, value in values_only(leaves_at(own_namespace, values))
                     )
                 )
-            _set(graph, place, values, verbose=False)
+            _set(graph, own_namespace, values, verbose=False)
     return 0
 
 
-def delete(words: list[str]) -> int:
+def delete(argv: list[str]) -> int:
     """Delete a parameter or all below a namespace."""
     parser = option_parser("rosparam", "delete [options] parameter")
     add_flag(parser, "-v", dest="verbose", text="turn on verbose output")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if len(args) != 1:
         parser.error(
             "too many arguments" if args else "invalid arguments. Please specify a parameter name"
         )
     name = global_name(args[0], "rosparam")
-    with joined() as graph:
+    with join_graph() as graph:
         if name == "/":
             graph.parameters.set("/", {})
             done = "deleted ENTIRE parameter server"
@@ -214,10 +215,10 @@ def _pretty(tree: dict[str, Any], indent: str = "") -> Iterator[str]:
             yield f"{indent}{key}: {text}"
 
 
-def _options(parser: OptionParser, words: list[str]) -> tuple[Values, list[str]]:
+def _options(parser: OptionParser, argv: list[str]) -> tuple[Values, list[str]]:
     """Parse options, and leave negative numbers what they are."""
-    numbers = {f"\0{place}": word for place, word in enumerate(words) if _NUMBER.match(word)}
-    hidden = [f"\0{place}" if _NUMBER.match(word) else word for place, word in enumerate(words)]
+    numbers = {f"\0{index}": word for index, word in enumerate(argv) if _NUMBER.match(word)}
+    hidden = [f"\0{index}" if _NUMBER.match(word) else word for index, word in enumerate(argv)]
     options, args = parser.parse_args(hidden)
     return options, [numbers.get(word, word) for word in args]
 

@@ -42,7 +42,7 @@ def main(argv: list[str]) -> int:
     if found is None:
         render(diagnostics)
         return 3
-    words = [*prefix, *found.command, *rest]
+    command = [*prefix, *found.command, *rest]
     # What it starts is ROS 1's, whichever ROS the shell was set up for.
     environment = node_environment({**os.environ, "ROS_VERSION": "1"}, workspace)
     sys.stdout.flush()
@@ -51,10 +51,10 @@ def main(argv: list[str]) -> int:
         from gazelle.launch.real_ros import start_bridges
 
         start_bridges(environment)
-    held = interrupts_held() if is_own_command(words, environment["PATH"]) else nullcontext()
+    held = interrupts_held() if is_own_command(command, environment["PATH"]) else nullcontext()
     try:
         with held:
-            os.execvpe(words[0], words, environment)  # noqa: S606 - running the node is the purpose
+            os.execvpe(command[0], command, environment)  # noqa: S606 - running the node is the purpose
     except OSError as error:
-        print(f"rosrun: cannot run '{words[0]}': {error.strerror}", file=sys.stderr)
+        print(f"rosrun: cannot run '{command[0]}': {error.strerror}", file=sys.stderr)
         return 126

@@ -16,7 +16,7 @@ from gazelle.cli.tool import (
     add_flag,
     global_name,
     hint,
-    joined,
+    join_graph,
     option_parser,
     run_tool,
 )
@@ -58,26 +58,26 @@ def main(argv: list[str]) -> int:
     return run_tool(_TOOL, argv)
 
 
-def list_services(words: list[str]) -> int:
+def list_services(argv: list[str]) -> int:
     """Print the names of services, with ``-n`` the nodes that answer them."""
     parser = option_parser("rosservice", "list [/namespace]")
     add_flag(parser, "-n", "--nodes", dest="nodes", text="print nodes that provide service(s)")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if len(args) > 1:
         parser.error("you may only specify one input namespace")
     own = global_name(args[0], "rosservice") if args else "/"
     start = own.rstrip("/") + "/"
-    with joined() as graph:
+    with join_graph() as graph:
         for one in graph.services():
             if one.name == own or one.name.startswith(start):
                 print(f"{one.name} {','.join(one.servers)}" if options.nodes else one.name)
     return 0
 
 
-def find(words: list[str]) -> int:
+def find(argv: list[str]) -> int:
     """Print the services of a type."""
-    wanted = wanted_type("rosservice", words)
-    with joined() as graph:
+    wanted = wanted_type("rosservice", argv)
+    with join_graph() as graph:
         names = [one.name for one in graph.services() if shown_type(one.type_name) == wanted]
         print("\n".join(names))
     return 0
@@ -97,10 +97,10 @@ def service_hint(name: str, offered: Collection[str]) -> str:
     return hint(name, [one for one in offered if is_hidden(name) or not is_hidden(one)])
 
 
-def info(words: list[str]) -> int:
+def info(argv: list[str]) -> int:
     """Print node, address, type and arguments of a service."""
-    name = _name(words, "info")
-    with joined() as graph:
+    name = _name(argv, "info")
+    with join_graph() as graph:
         service = find_service(graph, name)
         if service is None:
             print(f"ERROR: unknown service{_near_services(graph, name)}", file=sys.stderr)
@@ -112,10 +112,10 @@ def info(words: list[str]) -> int:
     return 0
 
 
-def show_type(words: list[str]) -> int:
+def show_type(argv: list[str]) -> int:
     """Print the type of a service."""
-    name = _name(words, "type")
-    with joined() as graph:
+    name = _name(argv, "type")
+    with join_graph() as graph:
         service = find_service(graph, name)
         if service is None:
             print(f"Unknown service [{name}]{_near_services(graph, name)}", file=sys.stderr)
@@ -124,10 +124,10 @@ def show_type(words: list[str]) -> int:
     return 0
 
 
-def args(words: list[str]) -> int:
+def args(argv: list[str]) -> int:
     """Print the names of the fields of a service's request."""
-    name = _name(words, "args")
-    with joined() as graph:
+    name = _name(argv, "args")
+    with join_graph() as graph:
         service = find_service(graph, name)
         if service is None:
             near = _near_services(graph, name)
@@ -136,10 +136,10 @@ def args(words: list[str]) -> int:
     return 0
 
 
-def uri(words: list[str]) -> int:
+def uri(argv: list[str]) -> int:
     """Print the address of the process that answers a service."""
-    name = _name(words, "uri")
-    with joined() as graph:
+    name = _name(argv, "uri")
+    with join_graph() as graph:
         service = find_service(graph, name)
         if service is None:
             return _unknown(graph, name)
@@ -147,10 +147,10 @@ def uri(words: list[str]) -> int:
     return 0
 
 
-def node(words: list[str]) -> int:
+def node(argv: list[str]) -> int:
     """Print the node that answers a service."""
-    name = _name(words, "node")
-    with joined() as graph:
+    name = _name(argv, "node")
+    with join_graph() as graph:
         service = find_service(graph, name)
         if service is None:
             return _unknown(graph, name)
@@ -158,18 +158,18 @@ def node(words: list[str]) -> int:
     return 0
 
 
-def call(words: list[str]) -> int:
+def call(argv: list[str]) -> int:
     """Call a service and print what it answers."""
     parser = option_parser("rosservice", "call /service [args...]")
     add_flag(parser, "-v", dest="verbose", text="print verbose output")
     add_flag(parser, "--nostr", dest="nostr", text="exclude string fields")
     add_flag(parser, "--noarr", dest="noarr", text="exclude arrays")
     add_flag(parser, "--wait", dest="wait", text="wait for service to be advertised")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if not args:
         parser.error("service must be specified")
     values = yaml_words(args[1:])
-    with joined() as graph:
+    with join_graph() as graph:
         name = global_name(args[0], "rosservice")
         kind = _kind(graph, name, wait=options.wait)
         requests: Iterable[Any] = [values]
@@ -186,9 +186,9 @@ def _near_services(graph: Graph, name: str) -> str:
     return service_hint(name, [one.name for one in graph.services(include_hidden=True)])
 
 
-def _name(words: list[str], command: str) -> str:
+def _name(argv: list[str], command: str) -> str:
     parser = option_parser("rosservice", f"{command} /service")
-    _, found = parser.parse_args(words)
+    _, found = parser.parse_args(argv)
     if len(found) != 1:
         parser.error(
             "you may only specify one input service" if found else "service must be specified"

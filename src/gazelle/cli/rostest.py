@@ -62,7 +62,7 @@ class _TestRun:
         self, file: Path, args: Mapping[str, str], *, has_nodes: bool, workspace: Workspace
     ) -> None:
         """Take over what to start; `has_nodes` says that there is more than tests."""
-        self._words = [str(file), *(f"{name}:={value}" for name, value in args.items())]
+        self._argv = [str(file), *(f"{name}:={value}" for name, value in args.items())]
         self._has_nodes = has_nodes
         self._workspace = workspace
         self._port = _free_port()
@@ -108,15 +108,15 @@ class _TestRun:
             why = "; ".join(item.message for item in diagnostics)
             return [_missing_result(test.test_name, f"Test node cannot be found: {why}")]
         own = [*node_argv(node), f"--gtest_output=xml:{result}"]
-        words = [*shlex.split(node.launch_prefix), *found.command, *own]
+        command = [*shlex.split(node.launch_prefix), *found.command, *own]
         cases: list[Case] = []
         for _ in range(test.retry + 1):
-            cases = self._run(words, test, result, show=show)
+            cases = self._run(command, test, result, show=show)
             if all(one.passed for one in cases):
                 break
         return cases
 
-    def _run(self, words: list[str], test: TestTag, result: Path, *, show: bool) -> list[Case]:
+    def _run(self, argv: list[str], test: TestTag, result: Path, *, show: bool) -> list[Case]:
         result.parent.mkdir(parents=True, exist_ok=True)
         result.unlink(missing_ok=True)
         namespace = test.node.namespace.rstrip("/") or "/"
@@ -128,7 +128,7 @@ class _TestRun:
         }
         output = None if show else subprocess.PIPE
         process = subprocess.Popen(
-            words,
+            argv,
             env=environment,
             cwd=_home(),
             stdout=output,
@@ -151,9 +151,9 @@ class _TestRun:
 
     def _start_nodes(self) -> None:
         """Start ``roslaunch`` beside, and wait until it has set its parameters."""
-        words = [sys.executable, "-m", "gazelle.cli", "roslaunch", "--no-summary", *self._words]
+        command = [sys.executable, "-m", "gazelle.cli", "roslaunch", "--no-summary", *self._argv]
         self._launch = subprocess.Popen(
-            words, env=self._environment, stdout=subprocess.PIPE, text=True, errors="replace"
+            command, env=self._environment, stdout=subprocess.PIPE, text=True, errors="replace"
         )
         ready = threading.Event()
         threading.Thread(target=_pump, args=(self._launch, ready), daemon=True).start()
@@ -229,13 +229,13 @@ def _print_summary(package: str, cases: Sequence[Case]) -> int:
 
 
 def _case(tag: Tag) -> Case:
-    words = tag.attributes
+    attributes = tag.attributes
     bad = next((child for child in tag.children if child.name in _PROBLEMS), None)
     try:
-        seconds = float(words.get("time", "0"))
+        seconds = float(attributes.get("time", "0"))
     except ValueError:
         seconds = 0.0
-    case = Case(words.get("classname", ""), words.get("name", ""), seconds)
+    case = Case(attributes.get("classname", ""), attributes.get("name", ""), seconds)
     if bad is None:
         return case
     text = bad.text or bad.attributes.get("message", "")

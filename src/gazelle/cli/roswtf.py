@@ -135,18 +135,20 @@ def _look_at_folder(folder: Path, found: Findings, *, everything: bool) -> None:
         _examine([name], found)
 
 
-def _examine(words: list[str], found: Findings) -> None:
+def _examine(argv: list[str], found: Findings) -> None:
     # The doctor is not needed for a look at the graph alone.
     from gazelle.doctor import examine
 
     try:
-        report = examine(words)
+        report = examine(argv)
     except GazelleError as error:
         found.errors.append(str(error))
         return
     for item in report.findings:
-        place = f"{item.span}: " if item.span else ""
-        text = f"{place}{item.message} [{item.code}]" + (f"\n  fix: {item.fix}" if item.fix else "")
+        location = f"{item.span}: " if item.span else ""
+        text = f"{location}{item.message} [{item.code}]" + (
+            f"\n  fix: {item.fix}" if item.fix else ""
+        )
         if item.severity is Severity.ERROR:
             found.errors.append(text)
         elif item.severity is Severity.WARNING:

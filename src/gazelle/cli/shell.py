@@ -13,9 +13,9 @@ __all__ = ["main"]
 def main(argv: list[str]) -> int:
     """Become the user's shell, or the command given."""
     environment = node_environment(os.environ, Workspace.discover())
-    words = argv or [os.environ.get("SHELL", "/bin/sh")]
+    command = argv or [os.environ.get("SHELL", "/bin/sh")]
     try:
-        os.execvpe(words[0], words, environment)  # noqa: S606 - running it is the purpose
+        os.execvpe(command[0], command, environment)  # noqa: S606 - running it is the purpose
     except OSError as error:
-        print(f"gazelle shell: cannot run '{words[0]}': {error.strerror}")
+        print(f"gazelle shell: cannot run '{command[0]}': {error.strerror}")
         return 127

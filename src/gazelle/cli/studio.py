@@ -48,8 +48,8 @@ def _warn_of_network(host: str) -> None:
 
 def _show_panels(studio: Studio, files: list[str]) -> None:
     """Have the first page open the panels of files; they are in its menu too."""
-    for words in files:
-        for source in studio.shown_panels.name_file(words):
+    for file in files:
+        for source in studio.shown_panels.name_file(file):
             studio.pages.show(f"plugin:{source.name}")
 
 

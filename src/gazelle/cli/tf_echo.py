@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gazelle.cli.error_text import error_text
-from gazelle.cli.tool import Tool, ToolError, joined, run_tool
+from gazelle.cli.tool import Tool, ToolError, join_graph, run_tool
 from gazelle.graph import Graph, Node, TimeJumpError
 from gazelle.graph.names import parse_command_line
 
@@ -91,14 +91,14 @@ def ros2_transform_text(found: StampedPose, precision: int = 3) -> str:
     return "\n".join(lines)
 
 
-def _client(words: list[str], params: Mapping[str, Any], text: _Text) -> int:
+def _client(argv: list[str], params: Mapping[str, Any], text: _Text) -> int:
     try:
-        source, target, rate_hz, precision = _settings(words, params)
+        source, target, rate_hz, precision = _settings(argv, params)
     except ToolError as error:
         print(error_text(error), file=sys.stderr)
         return _BAD_ARGUMENTS
     stop = threading.Event()
-    with joined() as graph:
+    with join_graph() as graph:
         node = graph.create_node("tf_echo", anonymous=True)
         graph.clock.follow(node)
         show = partial(text, precision=precision)
@@ -106,16 +106,16 @@ def _client(words: list[str], params: Mapping[str, Any], text: _Text) -> int:
     return 0
 
 
-def _settings(words: list[str], params: Mapping[str, Any]) -> tuple[str, str, float, int]:
+def _settings(argv: list[str], params: Mapping[str, Any]) -> tuple[str, str, float, int]:
     """Return source, target, rate in Hz and digits.
 
     Raises:
         ToolError: with the text to print.
     """
-    if not 2 <= len(words) <= 3:
+    if not 2 <= len(argv) <= 3:
         raise ToolError(_USAGE)
     try:
-        rate_hz = float(words[2] if len(words) == 3 else params.get("rate", 1.0))
+        rate_hz = float(argv[2] if len(argv) == 3 else params.get("rate", 1.0))
         precision = int(params.get("precision", 3))
     except (TypeError, ValueError):
         raise ToolError("Echo rate and precision must be numbers") from None
@@ -124,7 +124,7 @@ def _settings(words: list[str], params: Mapping[str, Any]) -> tuple[str, str, fl
     if precision < 1:
         raise ToolError("Precision must be > 0")
     # Frames of tf had a leading slash once; it means nothing.
-    return words[0].removeprefix("/"), words[1].removeprefix("/"), rate_hz, precision
+    return argv[0].removeprefix("/"), argv[1].removeprefix("/"), rate_hz, precision
 
 
 def _echo(

@@ -7,7 +7,7 @@ import threading
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.cli.tool import Tool, joined, run_tool
+from gazelle.cli.tool import Tool, join_graph, run_tool
 from gazelle.graph import Graph
 from gazelle.graph.names import parse_command_line
 from gazelle.graph.tf import TransformBuffer, TransformError, TransformListener
@@ -123,8 +123,8 @@ class _Monitor:
             self._print([])
 
     def _watch_chain(self, source: str, target: str) -> None:
-        words = f"between {source} and {target} "
-        print(f"Waiting for transform chain to become available {words}", flush=True)
+        frames_text = f"between {source} and {target} "
+        print(f"Waiting for transform chain to become available {frames_text}", flush=True)
         while not self._buffer.can_transform(source, target, timeout_s=_WAIT_S):
             if self._ended.is_set():
                 return
@@ -160,11 +160,11 @@ class _Monitor:
 
 def main(argv: list[str]) -> int:
     """Run until Ctrl-C; 255 for wrong arguments."""
-    words = parse_command_line(argv).rest
-    if len(words) not in {0, 2}:
+    tokens = parse_command_line(argv).rest
+    if len(tokens) not in {0, 2}:
         print(_USAGE, file=sys.stderr)
         return 255
-    frames = [word.removeprefix("/") for word in words]
+    frames = [word.removeprefix("/") for word in tokens]
     return run_tool(Tool("tf_monitor", {"watch": _watch}, _USAGE), ["watch", *frames])
 
 
@@ -202,7 +202,7 @@ def report(delays: FrameDelays, chain: list[str], net: NetDelay) -> tuple[str, s
 
 
 def _watch(frames: list[str]) -> int:
-    with joined() as graph:
+    with join_graph() as graph:
         _Monitor(graph, frames).run()
     return 0
 

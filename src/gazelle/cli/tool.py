@@ -22,7 +22,7 @@ __all__ = [
     "add_flag",
     "global_name",
     "hint",
-    "joined",
+    "join_graph",
     "option_parser",
     "run_tool",
 ]
@@ -56,7 +56,7 @@ class Tool(NamedTuple):
     takes_remappings: bool = True
 
 
-def run_tool(tool: Tool, words: list[str]) -> int:
+def run_tool(tool: Tool, argv: list[str]) -> int:
     """Run a subcommand; print what goes wrong as the original does.
 
     Returns:
@@ -64,12 +64,12 @@ def run_tool(tool: Tool, words: list[str]) -> int:
         64 (``EX_USAGE``) when the subcommand is missing or unknown.
     """
     if tool.takes_remappings:
-        words = parse_command_line(words).rest
-    target = tool.commands.get(words[0]) if words else None
+        argv = parse_command_line(argv).rest
+    target = tool.commands.get(argv[0]) if argv else None
     if target is None:
-        return _usage(tool, words)
+        return _usage(tool, argv)
     try:
-        return _load(target)(words[1:])
+        return _load(target)(argv[1:])
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else 1
     except KeyboardInterrupt:
@@ -81,7 +81,7 @@ def run_tool(tool: Tool, words: list[str]) -> int:
 
 
 @contextmanager
-def joined() -> Iterator[Graph]:
+def join_graph() -> Iterator[Graph]:
     """Join the graph as a client for the time of a ``with`` block.
 
     Raises:
@@ -126,12 +126,12 @@ def _load(target: str | Command) -> Command:
     return found
 
 
-def _usage(tool: Tool, words: list[str]) -> int:
+def _usage(tool: Tool, argv: list[str]) -> int:
     print(tool.usage)
-    if not words:
+    if not argv:
         return tool.usage_code
-    if words[0] in {"-h", "--help"}:
+    if argv[0] in {"-h", "--help"}:
         return 0
-    near = did_you_mean(words[0], tool.commands)
-    print(f"{tool.name}: no command '{words[0]}'; {near}".rstrip("; "), file=sys.stderr)
+    near = did_you_mean(argv[0], tool.commands)
+    print(f"{tool.name}: no command '{argv[0]}'; {near}".rstrip("; "), file=sys.stderr)
     return tool.usage_code

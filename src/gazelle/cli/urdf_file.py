@@ -35,10 +35,10 @@ class UrdfFile(NamedTuple):
     diagnostics: Diagnostics
 
 
-def mappings_of(words: list[str]) -> tuple[list[str], dict[str, str]]:
+def mappings_of(argv: list[str]) -> tuple[list[str], dict[str, str]]:
     """Part the words of a command from ``name:=value`` for xacro files."""
-    plain = [word for word in words if ":=" not in word]
-    pairs = (word.partition(":=") for word in words if ":=" in word)
+    plain = [word for word in argv if ":=" not in word]
+    pairs = (word.partition(":=") for word in argv if ":=" in word)
     return plain, {name: value for name, _, value in pairs}
 
 

@@ -30,15 +30,15 @@ def main(argv: list[str]) -> int:
     Returns:
         0 when urdfdom accepts the file, 255 when it does not or nothing could be written.
     """
-    words, mappings = mappings_of(argv)
-    if not 1 <= len(words) <= 2 or words[0] in {"-h", "--help"}:
+    tokens, mappings = mappings_of(argv)
+    if not 1 <= len(tokens) <= 2 or tokens[0] in {"-h", "--help"}:
         print(_USAGE, file=sys.stderr)
         return REFUSED
-    if len(words) == 1:
+    if len(tokens) == 1:
         print(f"{_DEPRECATED}{_USAGE}", file=sys.stderr)
-    file = read_urdf_file(words[0], mappings)
+    file = read_urdf_file(tokens[0], mappings)
     robot = robot_in(file)
-    output = words[1] if len(words) == 2 else ""
+    output = tokens[1] if len(tokens) == 2 else ""
     code = REFUSED if robot is None else _draw(robot, output)
     report_findings(file)
     return code

@@ -59,10 +59,10 @@ def robot_files(package: Package) -> tuple[Path, ...]:
     """Return the descriptions in a package that stand for themselves, likeliest first."""
     found: dict[Path, None] = {}
     for folder in _ROBOT_FOLDERS:
-        place = package.path / folder
-        if not place.is_dir():
+        here = package.path / folder
+        if not here.is_dir():
             continue
-        files = sorted(place.iterdir() if folder == "." else place.rglob("*"))
+        files = sorted(here.iterdir() if folder == "." else here.rglob("*"))
         for suffix in _ROBOT_SUFFIXES:
             found |= {path: None for path in files if path.name.endswith(suffix)}
     whole = [path for path in found if not _is_piece(path)]
@@ -71,7 +71,7 @@ def robot_files(package: Package) -> tuple[Path, ...]:
 
 
 def _find_viewed(
-    words: list[str],
+    argv: list[str],
     *,
     workspace: Workspace,
     diagnostics: Diagnostics,
@@ -84,11 +84,11 @@ def _find_viewed(
         NotFoundError: nothing has such a name; holds the nearest names there are.
         UserFileError: the file is no usable description.
     """
-    if len(words) == 2:
-        path = _file_in(workspace.package(words[0]), words[1])
+    if len(argv) == 2:
+        path = _file_in(workspace.package(argv[0]), argv[1])
         return _Viewed(load_world(path, workspace=workspace, diagnostics=diagnostics,
                                  mappings=mappings), _stem(path))  # fmt: skip
-    word = words[0]
+    word = argv[0]
     path = Path(word)
     if path.is_dir() and not _is_model(path):
         word = _package_at(path, workspace) or word
@@ -134,8 +134,8 @@ def _is_model(folder: Path) -> bool:
 
 def _package_at(folder: Path, workspace: Workspace) -> str:
     """Return the name of the package whose folder it is, empty when it is none's."""
-    place = folder.resolve()
-    found = (item.name for item in workspace.packages.values() if item.path.resolve() == place)
+    here = folder.resolve()
+    found = (item.name for item in workspace.packages.values() if item.path.resolve() == here)
     return next(found, "")
 
 

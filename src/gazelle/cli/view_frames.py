@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 from gazelle.cli.graphviz import typeset
-from gazelle.cli.tool import Tool, joined, run_tool
+from gazelle.cli.tool import Tool, join_graph, run_tool
 from gazelle.graph import Graph
 from gazelle.graph.names import parse_command_line
 from gazelle.graph.tf import TransformBuffer, TransformListener, frames_as_dot
@@ -28,19 +28,19 @@ def main(argv: list[str]) -> int:
     Returns:
         0; 1 without a graph or when no PDF was made.
     """
-    words = parse_command_line(argv).rest
-    return run_tool(Tool(_TOOL, {"draw": _draw}, ""), ["draw", *words])
+    tokens = parse_command_line(argv).rest
+    return run_tool(Tool(_TOOL, {"draw": _draw}, ""), ["draw", *tokens])
 
 
-def _draw(words: list[str]) -> int:
+def _draw(argv: list[str]) -> int:
     parser = argparse.ArgumentParser(prog=_TOOL, description="Draw the tree of frames.")
     parser.add_argument("--node", help="not offered: nodes answer no /tf_frames service here")
     parser.add_argument("--tf2", action="store_true", help="the log lines of tf2_tools")
     parser.add_argument("--wait-time", type=float, default=_LISTEN_S, help="seconds to listen")
-    options = parser.parse_args(words)
+    options = parser.parse_args(argv)
     if options.node:
         parser.error("--node is not offered: nodes answer no /tf_frames service here")
-    with joined() as graph:
+    with join_graph() as graph:
         if options.tf2:
             _say(f"Listening to tf data during {options.wait_time:g} seconds...")
         else:

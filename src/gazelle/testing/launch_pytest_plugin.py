@@ -186,14 +186,14 @@ def pytest_itemcollected(item: pytest.Item) -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put tests that come behind the launch's end behind its others."""
 
-    def place(item: pytest.Item) -> tuple[int, bool]:
+    def sort_key(item: pytest.Item) -> tuple[int, bool]:
         key = (str(item.path), _fixture_name(item))
         return first.setdefault(key, len(first)) if key[1] else -1, _is_behind(item)
 
     first: dict[tuple[str, str], int] = {}
     records = [(one, _record_of(one)) for one in items]
     wide = [one for one, record in records if record is not None and record.scope != "function"]
-    ordered = iter(sorted(wide, key=place))
+    ordered = iter(sorted(wide, key=sort_key))
     chosen = {id(one) for one in wide}
     items[:] = [next(ordered) if id(one) in chosen else one for one in items]
 

@@ -57,7 +57,7 @@ class Resolved:
         if self.nearest:
             text += "; did you mean " + " or ".join(f"'{name}'" for name in self.nearest) + "?"
         if self.tried:
-            text += "\n  looked in:\n" + "\n".join(f"    {place}" for place in self.tried)
+            text += "\n  looked in:\n" + "\n".join(f"    {path}" for path in self.tried)
         return text
 
 

@@ -62,12 +62,12 @@ def made_texts(folder: Path, name: str) -> Mapping[str, str]:
     """
     made = _made(folder, name)
     start = f"share/{name}/"
-    found = {place: text for place, text in made.items() if not place.startswith("${")}
+    found = {target: text for target, text in made.items() if not target.startswith("${")}
     for rule in _rules(folder, name):
         for target, text in rule.texts(made).items():
             if target.startswith(start):
                 found[target.removeprefix(start)] = text
-    return {place: text for place, text in found.items() if not exists(folder / place)}
+    return {target: text for target, text in found.items() if not exists(folder / target)}
 
 
 def installed_source(path: Path) -> Path | None:
@@ -82,8 +82,8 @@ def installed_source(path: Path) -> Path | None:
     inside = path.relative_to(package).as_posix()
     name = _name_of(package)
     found = _sources(install_rules(package, name), f"share/{name}/{inside}")
-    places = (Path(posixpath.normpath(package / source)) for source in found)
-    return next((place for place in places if place != path and exists(place)), None)
+    candidates = (Path(posixpath.normpath(package / source)) for source in found)
+    return next((one for one in candidates if one != path and exists(one)), None)
 
 
 def _sources(rules: Iterable[InstallRule], target: str) -> Iterable[str]:

@@ -49,16 +49,16 @@ def share_folder(folder: Path, name: str, *, has_devel_space: bool) -> Path:
         if target.startswith(start)
     }
     moved = {
-        place: source
-        for place, source in files.items()
-        if (not exists(folder / place) if has_devel_space else folder / place != source)
+        relative: source
+        for relative, source in files.items()
+        if (not exists(folder / relative) if has_devel_space else folder / relative != source)
     }
     if not moved and not texts:
         return folder
-    stay = {source for place, source in files.items() if folder / place == source}
+    stay = {source for relative, source in files.items() if folder / relative == source}
     left_out = frozenset() if has_devel_space else frozenset(moved.values()) - stay
-    links = {place: folder / place for place in _places_below(folder)}
-    links = {place: source for place, source in links.items() if source not in left_out}
+    links = {relative: folder / relative for relative in _places_below(folder)}
+    links = {relative: source for relative, source in links.items() if source not in left_out}
     return _linked(folder, name, {**links, **moved}, texts)
 
 
@@ -75,7 +75,9 @@ def _linked(folder: Path, name: str, files: Mapping[str, Path], texts: Mapping[s
     """Return the tree of links and texts for these places; made once, and never changed."""
     import hashlib
 
-    rows = "\n".join(f"{place}\t{source}" for place, source in sorted({**files, **texts}.items()))
+    rows = "\n".join(
+        f"{relative}\t{source}" for relative, source in sorted({**files, **texts}.items())
+    )
     digest = hashlib.sha256(f"{folder}\n{rows}".encode(errors="surrogateescape")).hexdigest()[:16]
     failure: OSError | None = None
     for top in _tops():
@@ -110,12 +112,12 @@ def _make(
     ) as new:
         share = Path(new) / made.name / "share" / name
         share.mkdir(parents=True)
-        for place, text in texts.items():
-            file = share / place
+        for relative, text in texts.items():
+            file = share / relative
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(text, encoding="utf-8")
-        for place, source in files.items():
-            link = share / place
+        for relative, source in files.items():
+            link = share / relative
             # A file where another rule wants a folder is a mistake that CMake's install tells.
             with contextlib.suppress(FileExistsError, NotADirectoryError):
                 link.parent.mkdir(parents=True, exist_ok=True)
@@ -135,6 +137,6 @@ def _forget_others(top: Path) -> None:
 
     trees = [item for item in top.iterdir() if not item.name.startswith(".")]
     trees.sort(key=lambda item: item.lstat().st_mtime, reverse=True)
-    for place, tree in enumerate(trees):
-        if place >= _KEPT or not exists(tree / SOURCE_LINK):
+    for index, tree in enumerate(trees):
+        if index >= _KEPT or not exists(tree / SOURCE_LINK):
             shutil.rmtree(tree, ignore_errors=True)

@@ -15,7 +15,7 @@ from tests.bridge.ros1.real import Ros1
 from tests.patience import stretched
 
 from gazelle.bag import open_bag
-from gazelle.bag.ros1.records import Op, read_place
+from gazelle.bag.ros1.records import Op, read_record
 from gazelle.bridge.ros1 import Bridge
 from gazelle.graph import Graph
 from gazelle.interfaces import md5sum
@@ -43,10 +43,10 @@ def connection_headers(path: Path) -> dict[str, bytes]:
     found: dict[str, bytes] = {}
     with path.open("rb") as file:
         end = file.seek(0, 2)
-        header = read_place(file, 13, end)
+        header = read_record(file, 13, end)
         assert header is not None
         place = int.from_bytes(header.fields["index_pos"], "little")
-        while place < end and (record := read_place(file, place, end)) is not None:
+        while place < end and (record := read_record(file, place, end)) is not None:
             if record.op == Op.CONNECTION:
                 file.seek(record.start)
                 found[record.fields["topic"].decode()] = file.read(record.size)

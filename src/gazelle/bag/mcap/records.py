@@ -68,17 +68,17 @@ def records_in(data: bytes) -> Iterator[Record]:
     Raises:
         BagError: the bytes are no records.
     """
-    place = 0
-    while place < len(data):
+    offset = 0
+    while offset < len(data):
         try:
-            op, size = HEAD.unpack_from(data, place)
+            op, size = HEAD.unpack_from(data, offset)
         except struct.error:
             raise BagError("a chunk ends in the middle of a record") from None
-        record = Record(op, place + HEAD.size, size)
+        record = Record(op, offset + HEAD.size, size)
         if record.end > len(data):
             raise BagError("a chunk ends in the middle of a record")
         yield record
-        place = record.end
+        offset = record.end
 
 
 class Cursor:

@@ -99,11 +99,11 @@ class McapWriter:
             position, start_ns, end_ns, self.compression, position + len(head), size, self._filled
         )
         chunk.length = len(head) + size
-        index, place = [], position + chunk.length
+        index, offset = [], position + chunk.length
         for number, entries in self._index.items():
             index.append(_message_index(number, entries))
-            chunk.indexes[number], chunk.counts[number] = place, len(entries) // 2
-            place += len(index[-1])
+            chunk.indexes[number], chunk.counts[number] = offset, len(entries) // 2
+            offset += len(index[-1])
         chunk.index_length = sum(map(len, index))
         self._file.append([head, *pieces, *index])
         self._chunks.append(chunk)
@@ -125,10 +125,10 @@ class McapWriter:
         )
         offsets = []
         for op, records in groups:
-            place = self._file.size
+            offset = self._file.size
             self._file.append(records)
             if records:
-                span = struct.pack("<BQQ", op, place, self._file.size - place)
+                span = struct.pack("<BQQ", op, offset, self._file.size - offset)
                 offsets.append(pack_record(Op.SUMMARY_OFFSET, span))
         footer = struct.pack("<QQI", start, self._file.size, 0)
         self._file.append([*offsets, pack_record(Op.FOOTER, footer), MAGIC])

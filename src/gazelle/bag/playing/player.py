@@ -36,7 +36,7 @@ _CLOCK = "rosgraph_msgs/msg/Clock"
 class _Outgoing(NamedTuple):
     """A message that is ready to be published."""
 
-    place: int
+    bag_number: int
     connection: Connection
     stamp_ns: int
     data: bytes
@@ -270,7 +270,7 @@ class Player:
         self._controls.wait(min(rest_ns / 1e9, _MAX_WAIT_S))
 
     def _publish(self, one: _Outgoing) -> None:
-        publisher = self._publishers.get((one.place, one.connection.id))
+        publisher = self._publishers.get((one.bag_number, one.connection.id))
         if publisher is not None:
             publisher.publish_raw(one.data)
         self._show(self, "PAUSED" if self.timeline.held else "RUNNING", one.stamp_ns)
@@ -279,12 +279,12 @@ class Player:
 
     def _announce(self) -> None:
         made: dict[tuple[str, str, str, bool], Publisher] = {}
-        for place, bag in enumerate(self._bags):
+        for bag_number, bag in enumerate(self._bags):
             for one in filter(self._wants, bag.connections):
                 latched = one.latching or read_qos(one.qos).latched
                 topic = f"{self._options.prefix}{one.topic}"
                 try:
-                    name, types = wire_name_of(one), self._types[place]
+                    name, types = wire_name_of(one), self._types[bag_number]
                     kind: Any = types.message_type(name)
                     # Bags may define a type of one name differently.
                     key = (topic, name, types.type_hash(name), latched)
@@ -295,7 +295,7 @@ class Player:
                 except GazelleError as error:
                     self._on_unread(one, error)
                 else:
-                    self._publishers[place, one.id] = made[key]
+                    self._publishers[bag_number, one.id] = made[key]
         if self._options.clock_hz:
             self._clock = self._node.create_publisher("/clock", message_type(_CLOCK))
 
@@ -329,9 +329,9 @@ def outgoing(
     """
     streams = [
         _converted(
-            place, bag.messages(wanted, start_ns, end_ns), on_error, types[place] if types else None
+            index, bag.messages(wanted, start_ns, end_ns), on_error, types[index] if types else None
         )
-        for place, bag in enumerate(bags)
+        for index, bag in enumerate(bags)
     ]
     return heapq.merge(*streams, key=lambda one: one.stamp_ns)
 
@@ -364,7 +364,7 @@ def ahead(items: Iterable[_Outgoing]) -> Iterator[_Outgoing]:
 
 
 def _converted(
-    place: int,
+    bag_number: int,
     messages: Iterable[BagMessage],
     on_error: Callable[[Connection, GazelleError], None],
     types: TypeStore | None,
@@ -377,7 +377,7 @@ def _converted(
                 converters[one.id] = converter(one, Encoding.CDR, types)
             convert = converters[one.id]
             if convert is not None:
-                yield _Outgoing(place, one, stamp_ns, convert(data))
+                yield _Outgoing(bag_number, one, stamp_ns, convert(data))
         except GazelleError as error:
             converters[one.id] = None
             on_error(one, error)

@@ -146,17 +146,17 @@ def _number(fields: dict[str, bytes], name: str) -> int:
 
 
 def _records(data: bytes) -> Iterator[tuple[int, dict[str, bytes], tuple[int, int]]]:
-    place = 0
-    while place < len(data):
+    offset = 0
+    while offset < len(data):
         try:
-            (header_size,) = _LENGTH.unpack_from(data, place)
-            fields = read_fields(data[place + 4 : place + 4 + header_size])
-            (size,) = _LENGTH.unpack_from(data, place + 4 + header_size)
+            (header_size,) = _LENGTH.unpack_from(data, offset)
+            fields = read_fields(data[offset + 4 : offset + 4 + header_size])
+            (size,) = _LENGTH.unpack_from(data, offset + 4 + header_size)
         except struct.error:
             raise BagError("a chunk ends in the middle of a record") from None
-        start = place + 8 + header_size
-        yield place, fields, (start, size)
-        place = start + size
+        start = offset + 8 + header_size
+        yield offset, fields, (start, size)
+        offset = start + size
 
 
 def _lz4() -> Any:

@@ -10,7 +10,7 @@ from typing import BinaryIO
 import numpy as np
 
 from gazelle.bag.ros1.chunks import Chunk, connection_of, connections_in, decompress, entries_in
-from gazelle.bag.ros1.records import MAGIC, Op, Place, read_place, unpack_stamp
+from gazelle.bag.ros1.records import MAGIC, Op, RecordHeader, read_record, unpack_stamp
 from gazelle.bag.storage import BagError, Connection
 
 __all__ = ["Structure", "read_structure"]
@@ -42,7 +42,7 @@ def read_structure(file: BinaryIO, path: Path) -> Structure:
         BagError: its header is damaged.
     """
     end = file.seek(0, 2)
-    header = read_place(file, len(MAGIC), end)
+    header = read_record(file, len(MAGIC), end)
     if header is None or header.op != Op.FILE:
         if header is None and end <= len(MAGIC) + 4096:
             return Structure(is_indexed=False, lost=end - len(MAGIC), end=len(MAGIC))
@@ -59,9 +59,9 @@ def read_structure(file: BinaryIO, path: Path) -> Structure:
 
 def _indexed(file: BinaryIO, position: int, end: int) -> Structure:
     found = Structure(end=position)
-    infos: list[Place] = []
+    infos: list[RecordHeader] = []
     while position < end:
-        record = read_place(file, position, end)
+        record = read_record(file, position, end)
         if record is None:
             raise BagError("the index ends in the middle")
         if record.op == Op.CONNECTION:
@@ -80,9 +80,9 @@ def _indexed(file: BinaryIO, position: int, end: int) -> Structure:
     return found
 
 
-def _chunk_of_info(file: BinaryIO, info: Place, end: int) -> Chunk:
+def _chunk_of_info(file: BinaryIO, info: RecordHeader, end: int) -> Chunk:
     position = int.from_bytes(info.fields.get("chunk_pos", b""), "little")
-    record = read_place(file, position, end)
+    record = read_record(file, position, end)
     if record is None or record.op != Op.CHUNK:
         raise BagError(f"there is no chunk at byte {position}, where the index says one is")
     chunk = _chunk(position, record)
@@ -98,7 +98,7 @@ def _scanned(file: BinaryIO, position: int, end: int) -> Structure:
     found = Structure(is_indexed=False, end=position)
     while position < end:
         try:
-            record = read_place(file, position, end)
+            record = read_record(file, position, end)
             if record is None:
                 break
             if record.op == Op.CHUNK:
@@ -130,15 +130,15 @@ def _scan_chunk(file: BinaryIO, found: Structure, chunk: Chunk, end: int) -> Non
     found.chunks.append(chunk)
 
 
-def _index_record(file: BinaryIO, position: int, end: int) -> Place | None:
+def _index_record(file: BinaryIO, position: int, end: int) -> RecordHeader | None:
     try:
-        record = read_place(file, position, end)
+        record = read_record(file, position, end)
     except BagError:
         return None
     return record if record is not None and record.op == Op.INDEX else None
 
 
-def _count_index(file: BinaryIO, chunk: Chunk, record: Place) -> None:
+def _count_index(file: BinaryIO, chunk: Chunk, record: RecordHeader) -> None:
     number = int.from_bytes(record.fields.get("conn", b""), "little")
     entries = np.frombuffer(_data(file, record)[: record.size // 12 * 12], "<u4").reshape(-1, 3)
     if not len(entries):
@@ -160,12 +160,12 @@ def _widen(chunk: Chunk, start_ns: int, end_ns: int) -> None:
     chunk.end_ns = max(chunk.end_ns, end_ns)
 
 
-def _chunk(position: int, record: Place) -> Chunk:
+def _chunk(position: int, record: RecordHeader) -> Chunk:
     compression = record.fields.get("compression", b"none").decode("ascii", "replace")
     size = int.from_bytes(record.fields.get("size", b""), "little")
     return Chunk(position, compression, record.start, record.size, size)
 
 
-def _data(file: BinaryIO, record: Place) -> bytes:
+def _data(file: BinaryIO, record: RecordHeader) -> bytes:
     file.seek(record.start)
     return file.read(record.size)

@@ -11,7 +11,7 @@ import numpy as np
 
 from gazelle.bag.ros1.chunks import Chunk, decompress, entries_in, message_at
 from gazelle.bag.ros1.index import Structure, read_structure
-from gazelle.bag.ros1.records import MAGIC, Op, read_place
+from gazelle.bag.ros1.records import MAGIC, Op, read_record
 from gazelle.bag.storage import (
     BagError,
     BagMessage,
@@ -95,8 +95,8 @@ class Ros1Bag:
             BagError: a chunk is damaged.
         """
         connections = self._structure.connections
-        for stamp, place, offset, number in self._rows(wanted, start_ns, end_ns).tolist():
-            data = self._chunk_data(place)
+        for stamp, chunk_number, offset, number in self._rows(wanted, start_ns, end_ns).tolist():
+            data = self._chunk_data(chunk_number)
             yield BagMessage(connections[number], stamp, message_at(data, offset))
 
     def close(self) -> None:
@@ -110,12 +110,12 @@ class Ros1Bag:
             if wanted is None or wanted(one)
         }
         tables = []
-        for place, chunk in enumerate(self._structure.chunks):
+        for index, chunk in enumerate(self._structure.chunks):
             outside = (start_ns is not None and chunk.end_ns < start_ns) or (
                 end_ns is not None and chunk.start_ns > end_ns
             )
             if not outside and numbers & chunk.counts.keys():
-                tables += self._chunk_rows(place, chunk, numbers)
+                tables += self._chunk_rows(index, chunk, numbers)
         rows = np.concatenate(tables) if tables else np.zeros(0, _ROW)
         if start_ns is not None:
             rows = rows[rows["stamp"] >= start_ns]
@@ -123,10 +123,10 @@ class Ros1Bag:
             rows = rows[rows["stamp"] <= end_ns]
         return rows[np.lexsort((rows["offset"], rows["chunk"], rows["stamp"]))]
 
-    def _chunk_rows(self, place: int, chunk: Chunk, numbers: set[int]) -> list[Any]:
+    def _chunk_rows(self, chunk_number: int, chunk: Chunk, numbers: set[int]) -> list[Any]:
         found, known, position = [], set(), chunk.start + chunk.size
         while position < chunk.end:
-            record = read_place(self._file, position, chunk.end)
+            record = read_record(self._file, position, chunk.end)
             if record is None or record.op != Op.INDEX:
                 break
             number = int.from_bytes(record.fields.get("conn", b""), "little")
@@ -134,37 +134,37 @@ class Ros1Bag:
             if number in numbers:
                 self._file.seek(record.start)
                 entries = np.frombuffer(self._file.read(record.size // 12 * 12), _ENTRY)
-                found.append(_table(place, number, entries))
+                found.append(_table(chunk_number, number, entries))
             position = record.end
         if known != set(chunk.counts):
-            return self._parsed_rows(place, numbers)
+            return self._parsed_rows(chunk_number, numbers)
         return found
 
-    def _parsed_rows(self, place: int, numbers: set[int]) -> list[Any]:
+    def _parsed_rows(self, chunk_number: int, numbers: set[int]) -> list[Any]:
         """Rows of a chunk whose index is not there."""
-        entries = [one for one in entries_in(self._chunk_data(place)) if one[0] in numbers]
+        entries = [one for one in entries_in(self._chunk_data(chunk_number)) if one[0] in numbers]
         rows = np.zeros(len(entries), _ROW)
         for row, (number, stamp, offset) in enumerate(entries):
-            rows[row] = (stamp, place, offset, number)
+            rows[row] = (stamp, chunk_number, offset, number)
         return [rows]
 
-    def _chunk_data(self, place: int) -> bytes:
-        data = self._kept.get(place)
+    def _chunk_data(self, chunk_number: int) -> bytes:
+        data = self._kept.get(chunk_number)
         if data is None:
-            chunk = self._structure.chunks[place]
+            chunk = self._structure.chunks[chunk_number]
             self._file.seek(chunk.start)
             packed = self._file.read(chunk.size)
             data = decompress(packed, chunk.compression, chunk.uncompressed)
-            self._kept[place] = data
+            self._kept[chunk_number] = data
             if len(self._kept) > _KEPT_CHUNKS:
                 self._kept.popitem(last=False)
         return data
 
 
-def _table(place: int, number: int, entries: Any) -> Any:
+def _table(chunk_number: int, number: int, entries: Any) -> Any:
     rows = np.empty(len(entries), _ROW)
     rows["stamp"] = entries["sec"].astype("i8") * 1_000_000_000 + entries["nsec"]
-    rows["chunk"], rows["offset"], rows["conn"] = place, entries["offset"], number
+    rows["chunk"], rows["offset"], rows["conn"] = chunk_number, entries["offset"], number
     return rows
 
 

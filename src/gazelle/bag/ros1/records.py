@@ -8,7 +8,7 @@ from typing import BinaryIO, NamedTuple
 
 from gazelle.bag.storage import BagError
 
-__all__ = ["MAGIC", "Op", "Place", "pack_fields", "pack_stamp", "read_fields", "read_place"]
+__all__ = ["MAGIC", "Op", "RecordHeader", "pack_fields", "pack_stamp", "read_fields", "read_record"]
 __all__ += ["unpack_stamp"]
 
 MAGIC = b"#ROSBAG V2.0\n"
@@ -28,7 +28,7 @@ class Op(enum.IntEnum):
     CONNECTION = 0x07
 
 
-class Place(NamedTuple):
+class RecordHeader(NamedTuple):
     """A record's header, and where its data lie."""
 
     fields: dict[str, bytes]
@@ -59,22 +59,22 @@ def read_fields(data: bytes) -> dict[str, bytes]:
     Raises:
         BagError: the bytes are not a header.
     """
-    fields, place = {}, 0
-    while place < len(data):
-        if place + 4 > len(data):
+    fields, offset = {}, 0
+    while offset < len(data):
+        if offset + 4 > len(data):
             raise BagError("a record's header ends in the middle of a field")
-        (length,) = _LENGTH.unpack_from(data, place)
-        pair = data[place + 4 : place + 4 + length]
+        (length,) = _LENGTH.unpack_from(data, offset)
+        pair = data[offset + 4 : offset + 4 + length]
         name, equals, value = pair.partition(b"=")
         if len(pair) != length or not equals:
             raise BagError("a record's header holds no field `name=value` where one must be")
         fields[name.decode("utf-8", "replace")] = value
-        place += 4 + length
+        offset += 4 + length
     return fields
 
 
-def read_place(file: BinaryIO, start: int, end: int) -> Place | None:
-    """Return the record that starts at a place; None when it is not there as a whole.
+def read_record(file: BinaryIO, start: int, end: int) -> RecordHeader | None:
+    """Return the record that starts at an offset; None when it is not there as a whole.
 
     Raises:
         BagError: the bytes are not a record.
@@ -90,8 +90,8 @@ def read_place(file: BinaryIO, start: int, end: int) -> Place | None:
     header, length = _exactly(file, header_size), _exactly(file, 4)
     if header is None or length is None:
         return None
-    place = Place(read_fields(header), start + 8 + header_size, _LENGTH.unpack(length)[0])
-    return place if place.end <= end else None
+    record = RecordHeader(read_fields(header), start + 8 + header_size, _LENGTH.unpack(length)[0])
+    return record if record.end <= end else None
 
 
 def pack_stamp(stamp_ns: int) -> bytes:

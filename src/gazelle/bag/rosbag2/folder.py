@@ -76,9 +76,9 @@ class Rosbag2:
         counts: dict[int, int] = {}
         packs: dict[str, Pack] = {}
         parts = [one.summary for one in self._readers]
-        for place, part in enumerate(parts):
+        for index, part in enumerate(parts):
             for number, count in part.counts.items():
-                own = self._own[place, number].id
+                own = self._own[index, number].id
                 counts[own] = counts.get(own, 0) + count
             packs |= part.packs
         filled = [one for one in parts if one.messages]
@@ -97,7 +97,8 @@ class Rosbag2:
     ) -> Iterator[BagMessage]:
         """Yield messages by time, those of `wanted` topics between two stamps."""
         streams = [
-            self._of_file(place, wanted, start_ns, end_ns) for place in range(len(self._readers))
+            self._of_file(file_number, wanted, start_ns, end_ns)
+            for file_number in range(len(self._readers))
         ]
         return heapq.merge(*streams, key=lambda message: message.stamp_ns)
 
@@ -107,18 +108,18 @@ class Rosbag2:
             one.close()
 
     def _of_file(
-        self, place: int, wanted: Wanted | None, start_ns: int | None, end_ns: int | None
+        self, file_number: int, wanted: Wanted | None, start_ns: int | None, end_ns: int | None
     ) -> Iterator[BagMessage]:
-        for message in self._readers[place].messages(wanted, start_ns, end_ns):
-            yield message._replace(connection=self._own[place, message.connection.id])
+        for message in self._readers[file_number].messages(wanted, start_ns, end_ns):
+            yield message._replace(connection=self._own[file_number, message.connection.id])
 
     def _merged(self) -> list[Connection]:
         found: dict[tuple[str, str], Connection] = {}
-        for place, reader in enumerate(self._readers):
+        for file_number, reader in enumerate(self._readers):
             for one in reader.connections:
                 key = (one.topic, one.type_name)
                 own = found.setdefault(key, replace(one, id=len(found) + 1))
-                self._own[place, one.id] = own
+                self._own[file_number, one.id] = own
         return list(found.values())
 
 

@@ -78,12 +78,12 @@ def _port(text: str) -> int:
 
 
 def _allowed(text: str) -> frozenset[Allow]:
-    words = [word.strip() for word in text.split(",") if word.strip()]
+    names = [word.strip() for word in text.split(",") if word.strip()]
     known = [one.value for one in Allow]
-    unknown = [word for word in words if word not in known]
+    unknown = [word for word in names if word not in known]
     if unknown:
         raise argparse.ArgumentTypeError(f"'{unknown[0]}' is none of {', '.join(known)}")
-    return frozenset(Allow(word) for word in words)
+    return frozenset(Allow(word) for word in names)
 
 
 def _say(options: argparse.Namespace, port: int) -> None:

@@ -18,16 +18,16 @@ __all__ = ["main"]
 def main(argv: list[str]) -> int:
     """Run until Ctrl-C."""
     options = _parser().parse_args(argv)
-    place = master_address(os.environ, options.port)
+    master = master_address(os.environ, options.port)
     address = own_address(os.environ)
     learn_workspace_types()
     stop = threading.Event()
     at_stop_signal(stop.set)
     with Graph.open() as graph:
-        bridge = Bridge(graph, place, address)
+        bridge = Bridge(graph, master, address)
         bridge.on_end(stop.set)
         try:
-            _say(bridge, place, address)
+            _say(bridge, master, address)
             stop.wait()
         finally:
             bridge.close()
@@ -55,7 +55,7 @@ def _port(text: str) -> int:
     return int(text)
 
 
-def _say(bridge: Bridge, place: MasterAddress, address: Address) -> None:
+def _say(bridge: Bridge, master: MasterAddress, address: Address) -> None:
     what = "is the master" if bridge.master.is_embedded else "has joined the master"
     print(f"the bridge {what} at {bridge.master.uri}", flush=True)
     print(
@@ -69,9 +69,9 @@ def _say(bridge: Bridge, place: MasterAddress, address: Address) -> None:
         )
         return
     print("  every user of this machine can reach it: ROS 1 asks nobody for a password", flush=True)
-    if not place.is_here:
+    if not master.is_here:
         print(
-            f"gazelle bridge ros1: nodes on {place.host} cannot reach this machine as "
+            f"gazelle bridge ros1: nodes on {master.host} cannot reach this machine as "
             f"{address.host}; export ROS_IP with its address in their network",
             file=sys.stderr,
         )

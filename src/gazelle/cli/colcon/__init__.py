@@ -32,8 +32,8 @@ def main(argv: list[str]) -> int:
     parser.add_argument("--log-base", type=Path, default=Path("log"))
     parser.add_argument("verb", nargs="?", default="")
     # argparse would take options of the verb for its own.
-    place = next((n for n, word in enumerate(argv) if word in _VERBS), len(argv))
-    options, rest = parser.parse_known_args(argv[: place + 1])
+    index = next((n for n, word in enumerate(argv) if word in _VERBS), len(argv))
+    options, rest = parser.parse_known_args(argv[: index + 1])
     if options.help or not options.verb:
         print(_usage())
         return 0
@@ -43,7 +43,7 @@ def main(argv: list[str]) -> int:
         print(f"colcon: error: invalid choice: '{wrong}' ({hint})", file=sys.stderr)
         return 2
     module, _, function = _VERBS[options.verb][0].partition(":")
-    return int(getattr(import_module(module), function)(argv[place:], options.log_base))
+    return int(getattr(import_module(module), function)(argv[index:], options.log_base))
 
 
 def _usage() -> str:

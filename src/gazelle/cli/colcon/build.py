@@ -35,11 +35,11 @@ _WITHOUT_EFFECT = {
 }
 
 
-def run(words: list[str], log_base: Path) -> int:
+def run(argv: list[str], log_base: Path) -> int:
     """Build a workspace."""
     begin = time.monotonic()
     parser = _parser()
-    rest, cmake = split_cmake_arguments(parser, words[1:])
+    rest, cmake = split_cmake_arguments(parser, argv[1:])
     options = parser.parse_args(rest)
     _say_without_effect(options)
     everything, chosen = chosen_packages(options)
@@ -114,10 +114,10 @@ def _say_without_effect(options: argparse.Namespace) -> None:
         print(text, file=sys.stderr)
 
 
-def _definitions(words: Sequence[str]) -> Mapping[str, str]:
+def _definitions(argv: Sequence[str]) -> Mapping[str, str]:
     """Return the variables of ``-DNAME=VALUE`` and ``-DNAME:TYPE=VALUE``."""
     found = {}
-    for word in words:
+    for word in argv:
         name, is_set, value = word.removeprefix("-D").partition("=")
         if word.startswith("-D") and is_set:
             found[name.partition(":")[0]] = value

@@ -22,13 +22,13 @@ in this row
 _COLOURS = {"build": "blue", "run": "red", "test": "tan"}
 
 
-def graph(words: list[str], _log_base: Path) -> int:
+def graph(argv: list[str], _log_base: Path) -> int:
     """Print the graph as text, or as dot."""
     parser = parser_for("graph", "Generate a visual representation of the dependency graph.")
     parser.add_argument("--legend", action="store_true", help="print a legend before the graph")
     parser.add_argument("--dot", action="store_true", help="print it for Graphviz' dot")
     add_package_options(parser)
-    options = parser.parse_args(words[1:])
+    options = parser.parse_args(argv[1:])
     everything, chosen = chosen_packages(options)
     if options.dot:
         print("\n".join(_dot(chosen)))
@@ -42,9 +42,9 @@ def graph(words: list[str], _log_base: Path) -> int:
     return 0
 
 
-def list_or_info(words: list[str], _log_base: Path) -> int:
+def list_or_info(argv: list[str], _log_base: Path) -> int:
     """Run the verb that the first word names."""
-    return _list(words[1:]) if words[0] == "list" else _info(words[1:])
+    return _list(argv[1:]) if argv[0] == "list" else _info(argv[1:])
 
 
 def _mark(row: SourcePackage, column: SourcePackage, packages: Sequence[SourcePackage]) -> str:
@@ -68,14 +68,14 @@ def _dot(packages: Sequence[SourcePackage]) -> list[str]:
     return [*lines, "}"]
 
 
-def _list(words: list[str]) -> int:
+def _list(argv: list[str]) -> int:
     parser = parser_for("list", "List packages, optionally in topological ordering.")
     add_package_options(parser)
     parser.add_argument("--topological-order", "-t", action="store_true")
     only = parser.add_mutually_exclusive_group()
     only.add_argument("--names-only", "-n", action="store_true")
     only.add_argument("--paths-only", "-p", action="store_true")
-    options = parser.parse_args(words)
+    options = parser.parse_args(argv)
     _, chosen = chosen_packages(options)
     shown = list(chosen)
     if not options.topological_order:
@@ -94,11 +94,11 @@ def _line(package: SourcePackage, options: argparse.Namespace) -> str:
     return f"{package.name}\t{path}\t(ros.{package.build_type})"
 
 
-def _info(words: list[str]) -> int:
+def _info(argv: list[str]) -> int:
     parser = parser_for("info", "Detailed information about packages.")
     parser.add_argument("package_names", nargs="*", metavar="PKG_NAME")
     add_package_options(parser)
-    options = parser.parse_args(words)
+    options = parser.parse_args(argv)
     everything, chosen = chosen_packages(options)
     known = {item.name: item for item in everything}
     missing = [name for name in options.package_names if name not in known]

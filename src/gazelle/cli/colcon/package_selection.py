@@ -71,7 +71,7 @@ def chosen_packages(
 
 
 def split_cmake_arguments(
-    parser: argparse.ArgumentParser, words: Sequence[str]
+    parser: argparse.ArgumentParser, argv: Sequence[str]
 ) -> tuple[list[str], list[str]]:
     """Take the words after ``--cmake-args`` and its like, up to the next option of colcon.
 
@@ -81,7 +81,7 @@ def split_cmake_arguments(
     rest: list[str] = []
     taken: list[str] = []
     inside = False
-    for word in words:
+    for word in argv:
         name = word.partition("=")[0]
         if word in _CMAKE_OPTIONS:
             inside = True

@@ -48,13 +48,13 @@ class _Counts(NamedTuple):
     skipped: int = 0
 
     def __str__(self) -> str:
-        words = [
+        counts = [
             f"{self.tests} test{'' if self.tests == 1 else 's'}",
             f"{self.errors} error{'' if self.errors == 1 else 's'}",
             f"{self.failures} failure{'' if self.failures == 1 else 's'}",
             f"{self.skipped} skipped",
         ]
-        return ", ".join(words)
+        return ", ".join(counts)
 
     @property
     def is_bad(self) -> bool:
@@ -108,11 +108,11 @@ def _test_package(
         errors.append("pytest is not installed for the Python of Gazelle: pip install pytest")
         code = 1
     elif paths:
-        words = [sys.executable, "-m", "pytest", f"--junit-xml={results / 'pytest.xml'}",
+        command = [sys.executable, "-m", "pytest", f"--junit-xml={results / 'pytest.xml'}",
                  "-p", "no:cacheprovider", "-o", "junit_family=xunit2",
                  *pytest_args, *map(str, paths)]  # fmt: skip
         done = subprocess.run(
-            words, cwd=package.path, env=dict(environ), text=True, check=False, errors="replace",
+            command, cwd=package.path, env=dict(environ), text=True, check=False, errors="replace",
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         )  # fmt: skip
         output = done.stdout.splitlines()
@@ -138,9 +138,9 @@ def _read_results(folder: Path) -> tuple[_Counts, tuple[_FileResult, ...]]:
     return total, tuple(results)
 
 
-def run(words: list[str], log_base: Path) -> int:
+def run(argv: list[str], log_base: Path) -> int:
     """Run the verb that the first word names."""
-    return _test(words[1:], log_base) if words[0] == "test" else _result(words[1:])
+    return _test(argv[1:], log_base) if argv[0] == "test" else _result(argv[1:])
 
 
 def _test_paths(package: SourcePackage, diagnostics: Diagnostics) -> list[Path]:
@@ -151,16 +151,20 @@ def _test_paths(package: SourcePackage, diagnostics: Diagnostics) -> list[Path]:
         return []
     paths = []
     for step in lists.called(*_PYTHON_CALLS, *_OTHER_CALLS):
-        place = _PYTHON_CALLS.get(step.name)
-        if place is not None and len(step.words) > place:
-            paths.append(package.path / step.folder / step.words[place])
-        elif place is None:
-            _report(step.name, step.words, step.span, diagnostics)
+        index = _PYTHON_CALLS.get(step.name)
+        if index is not None and len(step.arguments) > index:
+            paths.append(package.path / step.folder / step.arguments[index])
+        elif index is None:
+            _report(step.name, step.arguments, step.span, diagnostics)
     return paths
 
 
-def _report(call: str, words: Sequence[str], span: SourceSpan, diagnostics: Diagnostics) -> None:
-    text = f"test '{words[0] if words else ''}' of {call}() is not run: only Python tests are"
+def _report(
+    call: str, arguments: Sequence[str], span: SourceSpan, diagnostics: Diagnostics
+) -> None:
+    text = (
+        f"test '{arguments[0] if arguments else ''}' of {call}() is not run: only Python tests are"
+    )
     diagnostics.report("build.test-not-run", text, span)
 
 
@@ -173,15 +177,15 @@ def _cases(tag: Tag) -> list[Tag]:
 def _failures(cases: list[Tag]) -> list[str]:
     found = []
     for case in cases:
-        words = (case.attributes.get("classname", ""), case.attributes.get("name", ""))
+        names = (case.attributes.get("classname", ""), case.attributes.get("name", ""))
         for child in case.children:
             if child.name in {"error", "failure"}:
                 message = child.attributes.get("message", "").partition("\n")[0]
-                found.append(f"{' '.join(filter(None, words))}: {message}")
+                found.append(f"{' '.join(filter(None, names))}: {message}")
     return found
 
 
-def _test(words: Sequence[str], log_base: Path) -> int:
+def _test(argv: Sequence[str], log_base: Path) -> int:
     begin = time.monotonic()
     parser = parser_for("test", "Run the Python tests of packages.")
     add = parser.add_argument
@@ -192,7 +196,7 @@ def _test(words: Sequence[str], log_base: Path) -> int:
     add("--event-handlers", nargs="*", default=[], metavar="NAME+|NAME-")
     add("--pytest-args", nargs="*", default=[], metavar="ARG", help="arguments for pytest")
     add_package_options(parser)
-    options = parser.parse_args(words)
+    options = parser.parse_args(argv)
     everything, chosen = chosen_packages(options)
     console = Console(options.event_handlers)
     log = Log(log_base if console.writes_log else Path("/dev/null"), "test")
@@ -223,12 +227,12 @@ def _test(words: Sequence[str], log_base: Path) -> int:
     return 1 if bad or (failed and options.return_code_on_test_failure) else 0
 
 
-def _result(words: Sequence[str]) -> int:
+def _result(argv: Sequence[str]) -> int:
     parser = parser_for("test-result", "Show a summary of test results.")
     parser.add_argument("--test-result-base", type=Path, default=Path("build"))
     parser.add_argument("--all", action="store_true", help="files without failures too")
     parser.add_argument("--verbose", action="store_true", help="what failed")
-    options = parser.parse_args(words)
+    options = parser.parse_args(argv)
     if not options.test_result_base.is_dir():
         print(f"the test result base '{options.test_result_base}' does not exist", file=sys.stderr)
         return 1

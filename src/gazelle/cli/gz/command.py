@@ -31,8 +31,7 @@ _ROWS: tuple[tuple[GzCommand, Callable[[Mapping[str, str]], int]], ...] = (
     (topic.COMMAND, topic.run),
     (world.COMMAND, world.run),
 )
-_COMMANDS = {command.name: (command, action) for command, action in _ROWS}
-_WORLD_COMMANDS = tuple(_COMMANDS)
+_WORLD_COMMANDS = {command.name: (command, action) for command, action in _ROWS}
 _OLD = Release.V9
 _UNKNOWN = 255
 _HELP = """This tool modifies various aspects of a running Gazebo simulation.
@@ -113,11 +112,11 @@ def main(argv: list[str]) -> int:
         print("\n".join(sorted({*_WORLD_COMMANDS, *new_front.NEW_COMMANDS, "sdf"})))
         return 0
     if name == "sdf":
-        words, version = without_version(argv[1:])
-        release = sdformat_release(words, os.environ)
+        tokens, version = without_version(argv[1:])
+        release = sdformat_release(tokens, os.environ)
         if version and not release.is_new:
             release = Release.V12
-        return run_new_sdf(words, "gz", release) if release.is_new else _run_sdf(words)
+        return run_new_sdf(tokens, "gz", release) if release.is_new else _run_sdf(tokens)
     if name == "help" and argv[1:] == ["sdf"]:
         if _is_new_in_use():
             print(usage("gz", sdformat_release((), os.environ)))
@@ -144,25 +143,25 @@ def main(argv: list[str]) -> int:
     return 0 if name == "help" else _UNKNOWN
 
 
-def _run(name: str, words: list[str]) -> int:
+def _run(name: str, argv: list[str]) -> int:
     """Run a command on a running world; see `ended` for what it returns."""
-    command, action = _COMMANDS[name]
-    return ended(lambda: run_with_options(command, action, words))
+    command, action = _WORLD_COMMANDS[name]
+    return ended(lambda: run_with_options(command, action, argv))
 
 
 def _explain(name: str) -> None:
     """Print such a command's options, on standard error as Gazebo does."""
-    say([help_text(_COMMANDS[name][0])])
+    say([help_text(_WORLD_COMMANDS[name][0])])
 
 
 def _is_new_in_use() -> bool:
     return sdformat_release((), os.environ).is_new
 
 
-def _run_sdf(words: list[str]) -> int:
-    words, is_quiet = take_quiet(words)
+def _run_sdf(argv: list[str]) -> int:
+    argv, is_quiet = take_quiet(argv)
     try:
-        pairs, _rest = gnu_getopt(words, _SHORT, _LONG)
+        pairs, _rest = gnu_getopt(argv, _SHORT, _LONG)
     except GetoptError:
         say(["Invalid arguments"])
         return 0

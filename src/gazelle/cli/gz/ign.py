@@ -37,16 +37,16 @@ Use 'ign help <command>' to print help for a command."""
 
 def main(argv: list[str]) -> int:
     """Run a command of ``ign``; the exit code is the original's, 255 for what it refuses."""
-    words, version = without_version(argv)
+    tokens, version = without_version(argv)
     if version is not None and not _VERSION.startswith(version):
         print(f"Version error: I cannot find this command in version [{version}].")
         return _FAILED
-    name = words[0] if words else ""
-    if name == "help" and words[1:] == ["sdf"]:
+    name = tokens[0] if tokens else ""
+    if name == "help" and tokens[1:] == ["sdf"]:
         print(usage("ign"))
         return 0
-    if name == "help" and len(words) == 2 and words[1] in _OF_WORLD:
-        front.explain(_OF_WORLD[words[1]])
+    if name == "help" and len(tokens) == 2 and tokens[1] in _OF_WORLD:
+        front.explain(_OF_WORLD[tokens[1]])
         return 0
     if name in ("help", "--help", "-h"):
         print(_HELP)
@@ -54,13 +54,13 @@ def main(argv: list[str]) -> int:
     if name == "--commands":
         print("\n".join(sorted([*_OF_WORLD, "sdf"])))
         return 0
-    if name == "--versions" or (name == "sdf" and "--versions" in words):
+    if name == "--versions" or (name == "sdf" and "--versions" in tokens):
         print(_VERSION)
         return 0
     if name == "sdf":
-        return run_sdf(words[1:])
+        return run_sdf(tokens[1:])
     if name in _OF_WORLD:
-        return front.run(_OF_WORLD[name], words[1:])
+        return front.run(_OF_WORLD[name], tokens[1:])
     if name in IGN_INSTEAD:
         say([f"gazelle: ign {name} is not here; use {IGN_INSTEAD[name]}"])
         return _FAILED

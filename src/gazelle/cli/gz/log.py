@@ -22,7 +22,7 @@ from xml.sax.saxutils import quoteattr
 
 from gazelle.bag import BagError, Encoding, bag_types, open_bag, ros1_name_of
 from gazelle.bag.formats import ROS1
-from gazelle.bag.opening import tell_of_unindexed
+from gazelle.bag.opening import warn_of_unindexed
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number
 from gazelle.cli.gz.world_link import WorldLink, pose_line, world_link
 from gazelle.graph.gazebo_names import offered_name, world_names
@@ -101,7 +101,7 @@ def _state_texts(file: str, wanted: _Filter, rate_hz: float = 0.0) -> Iterator[s
         bag = open_bag(file)
     except BagError as error:
         raise GzError(str(error)) from None
-    tell_of_unindexed(bag)
+    warn_of_unindexed(bag)
     types = bag_types(bag.connections).store
     topics = {one.topic for one in bag.connections}
     if topics.isdisjoint(world_names(MODEL_STATES)):
@@ -215,9 +215,9 @@ def _start(link: WorldLink, word: str) -> None:
     path = path if path.suffix == ROS1.suffix else path.with_name(path.name + ROS1.suffix)
     path.parent.mkdir(parents=True, exist_ok=True)
     topics = [offered_name(link.graph, topic) for topic in STATE_TOPICS]
-    words = ["rosbag", "record", "-O", str(path), f"__name:={_NODE[1:]}", "-q", *topics]
+    command = ["rosbag", "record", "-O", str(path), f"__name:={_NODE[1:]}", "-q", *topics]
     process = subprocess.Popen(
-        [sys.executable, "-m", "gazelle.cli", *words],
+        [sys.executable, "-m", "gazelle.cli", *command],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -229,7 +229,7 @@ def _start(link: WorldLink, word: str) -> None:
     states = offered_name(link.graph, MODEL_STATES)
     while _NODE not in {one.node for one in link.graph.subscriptions_info(states)}:
         if process.poll() is not None or time.monotonic() > end_s:
-            raise GzError(f"the recorder did not start; try gazelle {' '.join(words)}")
+            raise GzError(f"the recorder did not start; try gazelle {' '.join(command)}")
         link.ended.wait(_PAUSE_S)
     print(f"recording to {path}; gz log -d 0 stops it")
 

@@ -60,7 +60,7 @@ def run(options: Mapping[str, str]) -> int:
             sys.stdout.write(protobuf_text(_facts(link, name)))
         elif "pose" in options:
             print(pose_line(_xyz_rpy(link.model_pose(name))))
-        elif any(place in options for place in _PLACES):
+        elif any(coordinate in options for coordinate in _PLACES):
             _move(link, name, options)
         else:
             raise GzError(f"nothing to do with model[{name}]; see gz help model")
@@ -78,7 +78,7 @@ def _spawn(link: WorldLink, name: str, options: Mapping[str, str]) -> None:
         text = sys.stdin.read()
     if not text.strip():
         raise GzError("the model's text is empty")
-    pose = _pose_of(tuple(number(options, place) for place in _PLACES))
+    pose = _pose_of(tuple(number(options, coordinate) for coordinate in _PLACES))
     kind = "gazebo_msgs/SpawnModel"
     link.call("spawn_sdf_model", kind, model_name=name, model_xml=text, initial_pose=pose)
 
@@ -86,7 +86,9 @@ def _spawn(link: WorldLink, name: str, options: Mapping[str, str]) -> None:
 def _move(link: WorldLink, name: str, options: Mapping[str, str]) -> None:
     # A place that is not given keeps its value.
     now = _xyz_rpy(link.model_pose(name))
-    wanted = tuple(number(options, place, value) for place, value in zip(_PLACES, now, strict=True))
+    wanted = tuple(
+        number(options, coordinate, value) for coordinate, value in zip(_PLACES, now, strict=True)
+    )
     state = message_type("gazebo_msgs/ModelState")(model_name=name, pose=_pose_of(wanted))
     link.call("set_model_state", "gazebo_msgs/SetModelState", model_state=state)
 
@@ -117,9 +119,9 @@ def _link(link: WorldLink, model: str, name: str) -> dict[str, Any]:
 
 
 def _pose_fields(pose: Any) -> dict[str, Any]:
-    place, turn = pose.position, pose.orientation
+    position, turn = pose.position, pose.orientation
     return {
-        "position": {axis: float(getattr(place, axis)) for axis in "xyz"},
+        "position": {axis: float(getattr(position, axis)) for axis in "xyz"},
         "orientation": {axis: float(getattr(turn, axis)) for axis in "xyzw"},
     }
 

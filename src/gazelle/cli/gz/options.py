@@ -73,7 +73,7 @@ class GzCommand(NamedTuple):
     options: tuple[GzOption, ...]
 
 
-def read_options(command: GzCommand, words: Iterable[str]) -> dict[str, str] | None:
+def read_options(command: GzCommand, argv: Iterable[str]) -> dict[str, str] | None:
     """Return long name → value (empty for options without one); None when help is wanted.
 
     Raises:
@@ -83,7 +83,7 @@ def read_options(command: GzCommand, words: Iterable[str]) -> dict[str, str] | N
     short = "h" + "".join(row.letter + (":" if row.takes else "") for row in rows if row.letter)
     long = ["help", *(row.name + ("=" if row.takes else "") for row in rows)]
     try:
-        pairs, rest = gnu_getopt(list(words), short, long)
+        pairs, rest = gnu_getopt(list(argv), short, long)
     except GetoptError as error:
         raise GzError(f"Invalid arguments: {error}; see gz help {command.name}") from None
     if rest:
@@ -142,10 +142,10 @@ def ended(work: Callable[[], int]) -> int:
 
 
 def run_with_options(
-    command: GzCommand, action: Callable[[Mapping[str, str]], int], words: Iterable[str]
+    command: GzCommand, action: Callable[[Mapping[str, str]], int], argv: Iterable[str]
 ) -> int:
     """Read a command's options and do what they say, or print them where help is wanted."""
-    options = read_options(command, words)
+    options = read_options(command, argv)
     if options is None:
         say([help_text(command)])
         return 0

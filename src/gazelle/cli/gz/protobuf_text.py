@@ -130,20 +130,20 @@ def number_text(value: float) -> str:
     return short if float(short) == value or math.isnan(value) else f"{value:.{_ALL_DIGITS}g}"
 
 
-def _error(problem: str, text: str, place: int) -> GzError:
-    near = text[max(place - _NEAR, 0) : place + _NEAR]
-    return GzError(f"{problem}: character {place + 1}, near {near!r}")
+def _error(problem: str, text: str, offset: int) -> GzError:
+    near = text[max(offset - _NEAR, 0) : offset + _NEAR]
+    return GzError(f"{problem}: character {offset + 1}, near {near!r}")
 
 
 def _tokens(text: str) -> Iterator[tuple[str, int]]:
-    place = 0
-    while rest := text[place:].strip():
-        found = _TOKEN.match(text, place)
+    offset = 0
+    while rest := text[offset:].strip():
+        found = _TOKEN.match(text, offset)
         if found is None:
-            start = text.index(rest[0], place)
+            start = text.index(rest[0], offset)
             raise _error(f"'{rest[0]}' is not understood", text, start)
         yield found["token"], found.start("token")
-        place = found.end()
+        offset = found.end()
     yield _END, len(text)
 
 

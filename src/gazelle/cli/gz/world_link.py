@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from gazelle.cli.gz.options import GzError
-from gazelle.cli.tool import joined
+from gazelle.cli.tool import join_graph
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import Graph, Node
 from gazelle.graph.gazebo_names import SHOWN_SPACE, offered_name
@@ -119,8 +119,8 @@ class WorldLink:
         Raises:
             GzError: there is no world.
         """
-        words = message_type("ros_gz_interfaces/WorldControl")(pause=pause, multi_step=steps)
-        self.call("control_world", "ros_gz_interfaces/ControlWorld", world_control=words)
+        control = message_type("ros_gz_interfaces/WorldControl")(pause=pause, multi_step=steps)
+        self.call("control_world", "ros_gz_interfaces/ControlWorld", world_control=control)
 
 
 @contextmanager
@@ -130,7 +130,7 @@ def world_link() -> Iterator[WorldLink]:
     Raises:
         ToolError: there is no graph.
     """
-    with joined() as graph:
+    with join_graph() as graph:
         yield WorldLink(graph)
 
 

@@ -45,26 +45,26 @@ def main(argv: list[str]) -> int:
     parser = _parser()
     options = parser.parse_intermixed_args(argv)
     mappings = [word for word in options.body if ":=" in word]
-    words = [word for word in options.body if ":=" not in word]
+    tokens = [word for word in options.body if ":=" not in word]
     if options.check:
-        foreign = [*words, *(f"--{name}" for name in _OF_BODIES if getattr(options, name))]
+        foreign = [*tokens, *(f"--{name}" for name in _OF_BODIES if getattr(options, name))]
         if foreign or any((*options.xyz, *options.rpy)):
             parser.error(f"--check FILE does not go with {' '.join(foreign) or '--xyz or --rpy'}")
         from gazelle.cli.inertia.check import check
 
         return check(options, dict(word.split(":=", 1) for word in mappings))
-    problem = _problem(options, words)
+    problem = _problem(options, tokens)
     if mappings:
         problem = f"'{mappings[0]}' belongs to --check FILE"
     if problem:
         parser.error(problem)
     from gazelle.cli.inertia.compute import compute
 
-    return compute(words, options)
+    return compute(tokens, options)
 
 
-def _problem(options: argparse.Namespace, words: Sequence[str]) -> str:
-    if not words:
+def _problem(options: argparse.Namespace, tokens: Sequence[str]) -> str:
+    if not tokens:
         return "name a body, a mesh file, or --check FILE"
     if options.fix or options.output:
         return "--fix and --output belong to --check FILE"

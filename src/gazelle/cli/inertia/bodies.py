@@ -63,8 +63,8 @@ class Body(NamedTuple):
     @property
     def usage(self) -> str:
         """Options as they are written, and what must be known about the frame."""
-        words = {"--size": "--size X Y Z", "--radii": "--radii X Y Z"}
-        text = " ".join(words.get(name, f"{name} M") for name in self.needs)
+        usages = {"--size": "--size X Y Z", "--radii": "--radii X Y Z"}
+        text = " ".join(usages.get(name, f"{name} M") for name in self.needs)
         return f"{text}  ({self.note})" if self.note else text
 
 
@@ -165,20 +165,20 @@ BODIES: Mapping[str, Body] = {
 }
 
 
-def body_named(words: str) -> tuple[str, Body]:
-    """Return the name and the body that words mean; case, spaces, ``_`` and ``-`` do not matter.
+def body_named(text: str) -> tuple[str, Body]:
+    """Return the name and the body that text mean; case, spaces, ``_`` and ``-`` do not matter.
 
     Raises:
         BodyError: no body is called so.
     """
-    wanted = "-".join(words.lower().replace("_", " ").replace("-", " ").split())
+    wanted = "-".join(text.lower().replace("_", " ").replace("-", " ").split())
     names = {name: name for name in BODIES}
     names |= {alias: name for name, body in BODIES.items() for alias in body.aliases}
     name = names.get(wanted)
     if name is None:
         hint = did_you_mean(wanted, names)
         known = ", ".join(item.replace("-", " ") for item in BODIES)
-        raise BodyError(f"no body is called '{words}'; {hint or f'known are {known}, mesh'}")
+        raise BodyError(f"no body is called '{text}'; {hint or f'known are {known}, mesh'}")
     return name, BODIES[name]
 
 
@@ -206,9 +206,9 @@ def solid_of(
     missing = [option for option in body.needs if values[option] is None]
     extra = [key for key, value in values.items() if value is not None and key not in body.needs]
     if missing or extra:
-        words = [f"needs {' and '.join(missing)}"] if missing else []
-        words += [f"has no {' and '.join(extra)}"] if extra else []
-        raise BodyError(f"a {name.replace('-', ' ')} {' and '.join(words)}: {name} {body.usage}")
+        problems = [f"needs {' and '.join(missing)}"] if missing else []
+        problems += [f"has no {' and '.join(extra)}"] if extra else []
+        raise BodyError(f"a {name.replace('-', ' ')} {' and '.join(problems)}: {name} {body.usage}")
     chosen = [values[option] for option in body.needs]
     mass = mass_kg if mass_kg is not None else (density or 0.0) * body.amount(*chosen)
     return body.properties(mass, *chosen)

@@ -185,11 +185,9 @@ def _write(patch: Patch, output: str | None) -> None:
     if not patch.text:
         print("there is nothing to patch", file=sys.stderr)
         return
-    place = "" if patch.folder == Path().resolve() else f" -d {patch.folder}"
-    print(
-        f"changes {', '.join(patch.links)}; apply with: patch -p0{place} < {output or 'THE_PATCH'}",
-        file=sys.stderr,
-    )
+    option = "" if patch.folder == Path().resolve() else f" -d {patch.folder}"
+    command = f"patch -p0{option} < {output or 'THE_PATCH'}"
+    print(f"changes {', '.join(patch.links)}; apply with: {command}", file=sys.stderr)
 
 
 def _json(

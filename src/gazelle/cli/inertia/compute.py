@@ -26,11 +26,11 @@ __all__ = ["compute"]
 _WORDS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
-def compute(words: list[str], options: argparse.Namespace) -> int:
+def compute(tokens: list[str], options: argparse.Namespace) -> int:
     """Print mass, centre, tensor and the blocks of a body.
 
     Args:
-        words: the body's name, or ``mesh`` and a file, or a file alone.
+        tokens: the body's name, or ``mesh`` and a file, or a file alone.
         options: as parsed.
 
     Returns:
@@ -41,11 +41,11 @@ def compute(words: list[str], options: argparse.Namespace) -> int:
         MassError: the mesh has no volume or area.
         MeshError: the mesh file cannot be read.
     """
-    uri = _mesh_uri(words)
+    uri = _mesh_uri(tokens)
     if uri:
         name, own = f"mesh {uri}", _mesh_properties(uri, options)
     else:
-        name, _ = body_named(" ".join(words))
+        name, _ = body_named(" ".join(tokens))
         own = _solid_properties(name, options)
     body = own.transformed(Pose.from_xyz_rpy(tuple(options.xyz), tuple(options.rpy)))
     writable = body
@@ -61,12 +61,12 @@ def compute(words: list[str], options: argparse.Namespace) -> int:
     return 0
 
 
-def _mesh_uri(words: list[str]) -> str:
-    last = words[-1]
+def _mesh_uri(tokens: list[str]) -> str:
+    last = tokens[-1]
     is_file = "://" in last or last.lower().endswith(MESH_SUFFIXES) or Path(last).is_file()
-    if words[0].lower() == "mesh" and len(words) == 2:
+    if tokens[0].lower() == "mesh" and len(tokens) == 2:
         return last
-    return last if len(words) == 1 and is_file else ""
+    return last if len(tokens) == 1 and is_file else ""
 
 
 def _mesh_properties(uri: str, options: argparse.Namespace) -> MassProperties:

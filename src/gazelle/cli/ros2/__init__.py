@@ -50,11 +50,11 @@ _ELSEWHERE = {
 
 def main(argv: list[str]) -> int:
     """Run ``ros2 COMMAND …``."""
-    words = list(argv)
-    buffered = bool(words) and words[0] == _BUFFERING
+    tokens = list(argv)
+    buffered = bool(tokens) and tokens[0] == _BUFFERING
     if buffered:
-        del words[0]
-    name = words[0] if words else ""
+        del tokens[0]
+    name = tokens[0] if tokens else ""
     if name in {"", "-h", "--help"}:
         print(_parser().format_help(), end="")
         return 0
@@ -63,7 +63,7 @@ def main(argv: list[str]) -> int:
         return _refuse(name)
     if not buffered:
         _buffer_lines()
-    return int(import_module(command.module).main(words[1:]))
+    return int(import_module(command.module).main(tokens[1:]))
 
 
 def _refuse(name: str) -> int:

@@ -123,11 +123,11 @@ def run_standalone(options: argparse.Namespace) -> int:
     )
 
 
-def instead_of(package: str, plugin: str, words: str = "") -> str:
+def instead_of(package: str, plugin: str, arguments: str = "") -> str:
     """Return lines that name the built-in node of a component's work, or what there is."""
     found, types = executable_of_component(package, plugin), builtin_executables(package)
     if found:
-        return f"\n  the built-in node does the same: ros2 run {package} {found}{words}"
+        return f"\n  the built-in node does the same: ros2 run {package} {found}{arguments}"
     if types:
         return f"\n  built-in nodes of the package: {', '.join(types)}"
     return "\n  write the node in Python and start it with ros2 run"
@@ -227,11 +227,11 @@ def run_unload(options: argparse.Namespace) -> int:
 
 def _words(options: argparse.Namespace) -> str:
     """What of the options ``ros2 run`` takes."""
-    words = [f"-r {rule}" for rule in options.remap_rules]
-    words += [f"-r __node:={options.node_name}"] if options.node_name else []
-    words += [f"-r __ns:={options.node_namespace}"] if options.node_namespace else []
-    words += [f"-p {one}" for one in options.parameters]
-    return f" --ros-args {' '.join(words)}" if words else ""
+    tokens = [f"-r {rule}" for rule in options.remap_rules]
+    tokens += [f"-r __node:={options.node_name}"] if options.node_name else []
+    tokens += [f"-r __ns:={options.node_namespace}"] if options.node_namespace else []
+    tokens += [f"-p {one}" for one in options.parameters]
+    return f" --ros-args {' '.join(tokens)}" if tokens else ""
 
 
 def _registered() -> dict[str, list[str]]:
@@ -269,7 +269,7 @@ def _call(node: Node, container: str, name: str, **fields: Any) -> Any:
     return call_service(node, f"{container}/{short}", _KINDS[short], **fields)
 
 
-def _parameters(words: list[str]) -> list[Any]:
+def _parameters(assignments: list[str]) -> list[Any]:
     kind = message_type("rcl_interfaces/msg/Parameter")
-    pairs = (word.partition(":=") for word in words)
+    pairs = (word.partition(":=") for word in assignments)
     return [kind(name=name, value=value_message(yaml_words([text])[0])) for name, _, text in pairs]

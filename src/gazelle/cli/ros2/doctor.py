@@ -120,9 +120,9 @@ def _packages(workspace: Workspace) -> _Result:
 def _topic(sight: _Sight) -> _Result:
     types = types_by_name(sight.entities, (Kind.PUBLISHER, Kind.SUBSCRIPTION))
     errors = tuple(
-        f"Topic {name} has several types: {', '.join(words)}; its ends do not hear each other."
-        for name, words in types.items()
-        if len(words) > 1
+        f"Topic {name} has several types: {', '.join(type_names)}; its ends do not hear each other."
+        for name, type_names in types.items()
+        if len(type_names) > 1
     )
     warnings = []
     for name, publishers, subscriptions in _counted_topics(sight):

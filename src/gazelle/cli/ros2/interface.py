@@ -183,12 +183,12 @@ def _checked_name(name: str) -> tuple[str, str, str]:
     Raises:
         ToolError: it is not written so, or nothing defines it.
     """
-    words = name.split("/")
-    if len(words) != 3:
+    parts = name.split("/")
+    if len(parts) != 3:
         raise ToolError(
             f"Invalid name '{name}'. Expected three parts separated by '/'{_spelled(name)}"
         )
-    package, part, bare = words
+    package, part, bare = parts
     learn_workspace_types()
     if part in _PARTS and name in known_types(part, package):
         return package, part, bare
@@ -239,11 +239,11 @@ def _is_users(package: str, part: str, name: str) -> bool:
 
 def _spelled(name: str) -> str:
     """``std_msgs/String`` is ROS 1's spelling; tell ROS 2's."""
-    words = name.split("/")
-    if len(words) != 2:
+    parts = name.split("/")
+    if len(parts) != 2:
         return ""
     learn_workspace_types()
-    full = [f"{words[0]}/{part}/{words[1]}" for part in _PARTS]
+    full = [f"{parts[0]}/{part}/{parts[1]}" for part in _PARTS]
     there = [one for one, part in zip(full, _PARTS, strict=True) if one in known_types(part)]
     return f"\n  did you mean '{there[0]}'?" if there else ""
 
@@ -271,5 +271,5 @@ def _nested_type(line: str, package: str) -> str:
     match = _FIELD.match(text)
     if match is None or match["type"] in _PRIMITIVES or text.strip() == _SEPARATOR:
         return ""
-    words = match["type"].split("/")
-    return "/".join([words[0] if len(words) > 1 else package, "msg", words[-1]])
+    parts = match["type"].split("/")
+    return "/".join([parts[0] if len(parts) > 1 else package, "msg", parts[-1]])

@@ -22,8 +22,8 @@ from gazelle.workspace.ament_index import (
 __all__ = [
     "launch_arguments",
     "main",
+    "prepare_launch_environment",
     "ros2_environment",
-    "surround_launch_files",
 ]
 
 _DISTRO = "humble"
@@ -36,9 +36,9 @@ _ASSIGN = ":="
 def main(argv: list[str]) -> int:
     """Run launch files of ROS 2: Python, XML and YAML."""
     # Arguments may stand before options, and look like neither.
-    words = [word for word in argv if _ASSIGN not in word]
+    tokens = [word for word in argv if _ASSIGN not in word]
     given = [word for word in argv if _ASSIGN in word]
-    return guarded(lambda: _run(_parser().parse_args(words), given))
+    return guarded(lambda: _run(_parser().parse_args(tokens), given))
 
 
 def ros2_environment(environ: Mapping[str, str]) -> dict[str, str]:
@@ -54,7 +54,7 @@ def ros2_environment(environ: Mapping[str, str]) -> dict[str, str]:
     return node_environment(given, known_workspace())
 
 
-def surround_launch_files() -> None:
+def prepare_launch_environment() -> None:
     """Let this process, in which launch files are run, have that environment and the modules."""
     from gazelle.compat.import_hooks import install
 
@@ -65,14 +65,14 @@ def surround_launch_files() -> None:
     install()
 
 
-def launch_arguments(words: Sequence[str]) -> list[tuple[str, str]]:
+def launch_arguments(argv: Sequence[str]) -> list[tuple[str, str]]:
     """Return the arguments of a command line; of several with one name the last counts.
 
     Raises:
         ToolError: one is not ``name:=value``.
     """
     found: dict[str, str] = {}
-    for word in words:
+    for word in argv:
         name, sign, value = word.partition(_ASSIGN)
         if not sign or not name or (not value and word.count(_ASSIGN) == 1):
             raise ToolError(
@@ -184,19 +184,19 @@ def _parser() -> argparse.ArgumentParser:
 def _run(options: argparse.Namespace, given: list[str]) -> int:
     if options.launch_prefix is None and options.launch_prefix_filter is not None:
         raise ToolError("--launch-prefix must be specified if --launch-prefix-filter is provided")
-    path, stray = _file_and_rest(options)
-    words = [*stray, *given]
+    path, misplaced = _file_and_rest(options)
+    tokens = [*misplaced, *given]
     for name in ("launch_prefix", "launch_prefix_filter"):
         value = getattr(options, name)
         if value:
-            words.append(f"{name.replace('_', '-')}{_ASSIGN}{value}")
-    arguments = launch_arguments(words)
+            tokens.append(f"{name.replace('_', '-')}{_ASSIGN}{value}")
+    arguments = launch_arguments(tokens)
     if options.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
-    surround_launch_files()
+    prepare_launch_environment()
     if options.print or options.show_args:
         return _show(path, with_arguments=options.show_args)
-    return _launch(path, arguments, words, options)
+    return _launch(path, arguments, tokens, options)
 
 
 def _file_and_rest(options: argparse.Namespace) -> tuple[Path, list[str]]:
@@ -252,7 +252,7 @@ def _show(path: Path, *, with_arguments: bool) -> int:
 def _launch(
     path: Path,
     arguments: list[tuple[str, str]],
-    words: list[str],
+    argv: list[str],
     options: argparse.Namespace,
 ) -> int:
     from gazelle.launch.ros2 import LaunchDescription, LaunchService
@@ -260,7 +260,7 @@ def _launch(
     from gazelle.launch.ros2.events import Shutdown
     from gazelle.launch.ros2.launch_description_sources import AnyLaunchDescriptionSource
 
-    service = LaunchService(argv=words, noninteractive=options.noninteractive, debug=options.debug)
+    service = LaunchService(argv=argv, noninteractive=options.noninteractive, debug=options.debug)
     source = AnyLaunchDescriptionSource(str(path))
     included = IncludeLaunchDescription(source, launch_arguments=arguments)
     service.include_launch_description(LaunchDescription([included]))

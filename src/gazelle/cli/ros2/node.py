@@ -107,4 +107,4 @@ def _actions_of(
 
 def _print_types(types: dict[str, tuple[str, ...]]) -> None:
     """An empty block is an empty line, as in the original."""
-    print("\n".join(f"    {name}: {', '.join(words)}" for name, words in types.items()))
+    print("\n".join(f"    {name}: {', '.join(type_names)}" for name, type_names in types.items()))

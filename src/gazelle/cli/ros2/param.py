@@ -11,7 +11,7 @@ from typing import Any
 
 from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
-from gazelle.cli.tool import ToolError, hint, joined
+from gazelle.cli.tool import ToolError, hint, join_graph
 from gazelle.graph import Graph, Node
 from gazelle.graph.ros2_parameter_values import (
     ParameterType,
@@ -110,7 +110,7 @@ def main(argv: list[str]) -> int:
 
 def run_list(options: argparse.Namespace) -> int:
     """Print the parameters of one node, or of all."""
-    with joined() as graph:
+    with join_graph() as graph:
         names = [options.node] if options.node else _nodes_with_parameters(graph)
         for node in names:
             parameters = _remote(graph, node)
@@ -120,15 +120,15 @@ def run_list(options: argparse.Namespace) -> int:
             if not options.node:
                 print(f"{parameters.node}:")
             types = parameters.types(found) if options.param_type else []
-            for place, name in enumerate(found):
-                kind = f" (type: {_type_word(types[place])})" if types else ""
+            for index, name in enumerate(found):
+                kind = f" (type: {_type_word(types[index])})" if types else ""
                 print(f"  {name}{kind}")
     return 0
 
 
 def run_get(options: argparse.Namespace) -> int:
     """Print one value."""
-    with joined() as graph:
+    with join_graph() as graph:
         parameters = _remote(graph, options.node)
         value = parameters.get(options.name)
         kind = parameter_type(value)
@@ -142,21 +142,21 @@ def run_get(options: argparse.Namespace) -> int:
 
 def run_set(options: argparse.Namespace) -> int:
     """Set one value; YAML tells its type."""
-    with joined() as graph:
+    with join_graph() as graph:
         reason = _remote(graph, options.node).set({options.name: _from_yaml(options.value)})[0]
     return _told(reason, "Set parameter successful", "Setting parameter failed")
 
 
 def run_delete(options: argparse.Namespace) -> int:
     """Delete a parameter: set it to nothing."""
-    with joined() as graph:
+    with join_graph() as graph:
         reason = _remote(graph, options.node).set({options.name: None})[0]
     return _told(reason, "Deleted parameter successfully", "Deleting parameter failed")
 
 
 def run_describe(options: argparse.Namespace) -> int:
     """Print what is said about parameters."""
-    with joined() as graph:
+    with join_graph() as graph:
         for row in _remote(graph, options.node).describe(options.names):
             print(f"Parameter name: {row.name}")
             print(f"  Type: {_type_word(ParameterType(row.type))}")
@@ -172,7 +172,7 @@ def run_dump(options: argparse.Namespace) -> int:
     """Print all parameters as a parameter file, or write one."""
     from gazelle.documents.yaml import dump_yaml
 
-    with joined() as graph:
+    with join_graph() as graph:
         parameters = _remote(graph, options.node)
         names = parameters.names([])
         values = dict(zip(names, parameters.get_all(names), strict=True))
@@ -199,7 +199,7 @@ def run_load(options: argparse.Namespace) -> int:
     if any(item.severity is Severity.ERROR for item in found):
         return 1
     failed = 0
-    with joined() as graph:
+    with join_graph() as graph:
         parameters = _remote(graph, options.node)
         for section in sections:
             if not section.matches(parameters.node):

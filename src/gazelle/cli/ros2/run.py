@@ -64,14 +64,14 @@ def _run(options: argparse.Namespace) -> int:
     return _run_words([*prefix, *found.command, *options.argv], environment)
 
 
-def _run_words(words: Sequence[str], environment: dict[str, str]) -> int:
+def _run_words(argv: Sequence[str], environment: dict[str, str]) -> int:
     sys.stdout.flush()
     signals = _SignalsPassedOn()
     try:
-        with interrupts_held() if is_own_command(words, None) else nullcontext():
-            process = subprocess.Popen(words, env=environment)
+        with interrupts_held() if is_own_command(argv, None) else nullcontext():
+            process = subprocess.Popen(argv, env=environment)
     except OSError as error:
-        return fail(f"cannot run '{words[0]}': {error.strerror}")
+        return fail(f"cannot run '{argv[0]}': {error.strerror}")
     signals.pass_to(process)
     while process.returncode is None:
         try:

@@ -22,10 +22,10 @@ __all__ = [
     "command_parser",
     "fail",
     "guarded",
+    "non_negative_int",
     "positive_float",
     "positive_int",
     "run_command",
-    "whole",
 ]
 
 Parser = argparse.ArgumentParser
@@ -147,7 +147,7 @@ def positive_int(text: str) -> int:
     return value
 
 
-def whole(text: str) -> int:
+def non_negative_int(text: str) -> int:
     """Read a whole number of zero or more."""
     if not text.strip().isdigit():
         raise argparse.ArgumentTypeError("Value must be positive or zero")

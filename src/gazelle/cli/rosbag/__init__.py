@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 
-from gazelle.cli.tool import Tool, joined, run_tool
+from gazelle.cli.tool import Tool, join_graph, run_tool
 from gazelle.graph import Graph, Node
 from gazelle.graph.names import CommandLine, parse_command_line
 from gazelle.process_lifetime import at_stop_signal
@@ -36,32 +36,32 @@ def main(argv: list[str]) -> int:
     return run_tool(_TOOL, argv)
 
 
-def play(words: list[str]) -> int:
+def play(argv: list[str]) -> int:
     """Play bags on the graph until they end, or until Ctrl-C."""
     from gazelle.bag.playing import Controls
     from gazelle.nodes.rosbag.play import play as play_bags
     from gazelle.nodes.rosbag.play import play_options
 
-    line = parse_command_line(words)
+    line = parse_command_line(argv)
     options, paths = play_options(line.rest)
     controls = Controls(paused=options.pause)
     at_stop_signal(controls.stop)
-    with joined() as graph:
+    with join_graph() as graph:
         node = _node(graph, line, "play")
         node.on_shutdown(lambda _reason: controls.stop())
         return play_bags(node, options, paths, controls)
 
 
-def record(words: list[str]) -> int:
+def record(argv: list[str]) -> int:
     """Record topics into a bag until Ctrl-C, or until a limit is reached."""
     from gazelle.nodes.rosbag.record import main_options
     from gazelle.nodes.rosbag.record import record as record_bag
 
-    line = parse_command_line(words)
+    line = parse_command_line(argv)
     options, args = main_options(line.rest)
     stop = threading.Event()
     at_stop_signal(stop.set)
-    with joined() as graph:
+    with join_graph() as graph:
         node = _node(graph, line, "record")
         graph.clock.follow(node)
         node.on_shutdown(lambda _reason: stop.set())

@@ -9,7 +9,7 @@ from pathlib import Path
 from gazelle.bag import BagReader, BagWriter, Connection, Encoding, create_bag, open_bag
 from gazelle.bag.conversion import copy_bag
 from gazelle.bag.formats import ROS1
-from gazelle.bag.opening import tell_of_unindexed
+from gazelle.bag.opening import warn_of_unindexed
 from gazelle.bag.type_migration import Change, Migration, migration_of
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.cli.tool import ToolError, add_flag, option_parser
@@ -21,11 +21,11 @@ __all__ = ["check", "fix"]
 _NO_RULES = "accepted: rule files are not read"
 
 
-def check(words: list[str]) -> int:
+def check(argv: list[str]) -> int:
     """Tell which types of a bag are defined differently in the current system."""
     parser = option_parser("rosbag", "check BAG")
     add_flag(parser, "-n", "--noplugins", dest="noplugins", text=_NO_RULES)
-    _, args = parser.parse_args(words)
+    _, args = parser.parse_args(argv)
     if not args:
         parser.error("You must specify a bag file to check.")
     _refuse_rules(args[1:])
@@ -42,13 +42,13 @@ def check(words: list[str]) -> int:
     return 0
 
 
-def fix(words: list[str]) -> int:
+def fix(argv: list[str]) -> int:
     """Write a bag anew, with an index and its messages in the types of the current system."""
     parser = option_parser("rosbag", "fix INBAG OUTBAG")
     add_flag(parser, "-n", "--noplugins", dest="noplugins", text=_NO_RULES)
     text = "proceed, and copy what cannot be migrated as it is"
     add_flag(parser, "--force", dest="force", text=text)
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if len(args) < 1:
         parser.error("You must pass input and output bag files.")
     if len(args) < 2:
@@ -85,7 +85,7 @@ def _refuse_rules(names: list[str]) -> None:
 def _migrations(bag: BagReader) -> dict[int, Migration | None]:
     """Return what has to happen to each connection of the bag."""
     learn_workspace_types()
-    tell_of_unindexed(bag)
+    warn_of_unindexed(bag)
     known: dict[tuple[str, str], Migration | None] = {}
     found: dict[int, Migration | None] = {}
     counts = bag.summary.counts

@@ -62,26 +62,26 @@ class ProgressMeter:
         sys.stdout.flush()
 
 
-def compress(words: list[str]) -> int:
+def compress(argv: list[str]) -> int:
     """Write bags with compressed chunks; what they were stays as ``NAME.orig.bag``."""
     parser = _parser("compress")
     add_flag(parser, "-j", "--bz2", dest="bz2", text="use BZ2 compression")
     add_flag(parser, "--lz4", dest="lz4", text="use lz4 compression")
-    options, args = _arguments(parser, words)
+    options, args = _arguments(parser, argv)
     if options.bz2 and options.lz4:
         parser.error("Can specify only one compression format.")
     return _rewrite(args, options, "lz4" if options.lz4 else "bz2")
 
 
-def decompress(words: list[str]) -> int:
+def decompress(argv: list[str]) -> int:
     """Write bags without compression; what they were stays as ``NAME.orig.bag``."""
-    options, args = _arguments(_parser("decompress"), words)
+    options, args = _arguments(_parser("decompress"), argv)
     return _rewrite(args, options, "none")
 
 
-def reindex(words: list[str]) -> int:
+def reindex(argv: list[str]) -> int:
     """Write bags with an index that were not closed; what they were stays as ``NAME.orig.bag``."""
-    options, args = _arguments(_parser("reindex"), words)
+    options, args = _arguments(_parser("reindex"), argv)
     return _rewrite(args, options, "")
 
 
@@ -95,8 +95,8 @@ def _parser(command: str) -> OptionParser:
     return parser
 
 
-def _arguments(parser: OptionParser, words: list[str]) -> tuple[Values, list[str]]:
-    options, args = parser.parse_args(words)
+def _arguments(parser: OptionParser, argv: list[str]) -> tuple[Values, list[str]]:
+    options, args = parser.parse_args(argv)
     if not args:
         parser.error("You must specify at least one bag file.")
     return options, args

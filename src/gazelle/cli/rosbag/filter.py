@@ -20,7 +20,7 @@ from gazelle.bag import (
     storage_of,
 )
 from gazelle.bag.conversion import copy_bag
-from gazelle.bag.opening import tell_of_unindexed
+from gazelle.bag.opening import warn_of_unindexed
 from gazelle.cli.rosbag.compress import ProgressMeter
 from gazelle.cli.tool import ToolError, option_parser
 from gazelle.diagnostics import Diagnostics, render
@@ -32,7 +32,7 @@ __all__ = ["run"]
 _SAME_FILE = 3
 
 
-def run(words: list[str]) -> int:
+def run(argv: list[str]) -> int:
     """Write the messages into another bag that a Python expression is true for."""
     usage = "filter [options] INBAG OUTBAG EXPRESSION"
     parser = option_parser("rosbag", usage)
@@ -42,7 +42,7 @@ def run(words: list[str]) -> int:
     )
     add = parser.add_option
     add("-p", "--print", dest="shown", metavar="PRINT-EXPRESSION", help="expression to print")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if not args:
         parser.error("You must specify an in bag, an out bag, and an expression.")
     if len(args) == 1:
@@ -75,7 +75,7 @@ def _filter(source_path: str, target_path: str, wanted: _Filter) -> int:
         target.close()
     meter.finish()
     sys.stdout.flush()
-    tell_of_unindexed(source)
+    warn_of_unindexed(source)
     render(diagnostics)
     return 0
 

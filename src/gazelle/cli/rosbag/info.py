@@ -11,7 +11,7 @@ from itertools import pairwise
 from statistics import median
 
 from gazelle.bag import BagError, BagReader, Summary, open_bag, ros1_name_of
-from gazelle.bag.opening import tell_of_unindexed
+from gazelle.bag.opening import warn_of_unindexed
 from gazelle.cli.tool import add_flag, option_parser
 from gazelle.interfaces import md5sum
 
@@ -125,24 +125,24 @@ def human_size(size: float) -> str:
     return f"{size:.1f} {unit}"
 
 
-def run(words: list[str]) -> int:
+def run(argv: list[str]) -> int:
     """Print what is in bags, as text or YAML."""
     parser = option_parser("rosbag", "info [options] BAGFILE1 [BAGFILE2 BAGFILE3 ...]")
     add_flag(parser, "-y", "--yaml", dest="yaml", text="print information in YAML format")
     parser.add_option("-k", "--key", metavar="KEY", help="print information on the given key")
     add_flag(parser, "--freq", dest="freq", text="display topic message frequency statistics")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if not args:
         parser.error("You must specify at least 1 bag file.")
     if options.key and not options.yaml:
         parser.error("You can only specify key when printing in YAML format.")
-    for place, path in enumerate(args):
+    for index, path in enumerate(args):
         try:
             _show(path, options.key, yaml=options.yaml, rates=options.freq)
         except BagError as error:
             print(f"ERROR reading {path}: {error}", file=sys.stderr)
             return 1
-        if place < len(args) - 1:
+        if index < len(args) - 1:
             print("---")
     return 0
 
@@ -172,24 +172,24 @@ def _date(stamp_ns: int) -> str:
 def _contents(summary: Summary) -> list[tuple[str, str]]:
     rows = [("size", human_size(summary.size)), ("messages", str(summary.messages))]
     total = sum(pack.pieces for pack in summary.packs.values())
-    words = []
+    texts = []
     for name, pack in sorted(
         summary.packs.items(), key=lambda item: (item[1].pieces, item[0]), reverse=True
     ):
         share = f"; {100 * pack.compressed / pack.uncompressed:.2f}%" if _packed(name) else ""
-        words.append(f"{name or 'none'} [{pack.pieces}/{total} chunks{share}]")
-    rows.append(("compression", ", ".join(words) or "none"))
+        texts.append(f"{name or 'none'} [{pack.pieces}/{total} chunks{share}]")
+    rows.append(("compression", ", ".join(texts) or "none"))
     if any(map(_packed, summary.packs)):
         rows += _compressed(summary)
     return rows
 
 
 def _compressed(summary: Summary) -> list[tuple[str, str]]:
-    sizes = [sum(pack[place] for pack in summary.packs.values()) for place in (1, 2)]
-    words = [human_size(size) for size in sizes]
-    width = max(map(len, words))
+    sizes = [sum(pack[index] for pack in summary.packs.values()) for index in (1, 2)]
+    texts = [human_size(size) for size in sizes]
+    width = max(map(len, texts))
     seconds = summary.duration_ns / 1e9
-    cells = [word.rjust(width) for word in words]
+    cells = [word.rjust(width) for word in texts]
     if seconds > 0:
         rates = [human_size(size / seconds) for size in sizes]
         rate_width = max(map(len, rates))
@@ -222,7 +222,7 @@ def _topic_cells(report: _BagReport) -> list[str]:
 
 
 def _named(name: str, cells: Iterable[str]) -> list[tuple[str, str]]:
-    return [(name if place == 0 else "", cell) for place, cell in enumerate(cells)]
+    return [(name if index == 0 else "", cell) for index, cell in enumerate(cells)]
 
 
 def _yaml_values(report: _BagReport) -> dict[str, str]:
@@ -295,5 +295,5 @@ def _show(path: str, key: str | None, *, yaml: bool, rates: bool) -> None:
     else:
         print(_report_yaml(report))
     sys.stdout.flush()
-    tell_of_unindexed(bag)
+    warn_of_unindexed(bag)
     bag.close()

@@ -73,11 +73,11 @@ def _parser(verb: str) -> argparse.ArgumentParser:
     add("-q", "--quiet", action="store_true", help="say only what is missing")
     add("-a", "--all", action="store_true", help="all packages of the workspace")
     # There is nothing to ask and nothing to install; scripts give these.
-    for words in (["-y", "--default-yes"], ["-r"], ["-s", "--simulate"], ["-v", "--verbose"],
+    for names in (["-y", "--default-yes"], ["-r"], ["-s", "--simulate"], ["-v", "--verbose"],
                   ["--reinstall"], ["--include-eol-distros"]):  # fmt: skip
-        add(*words, action="store_true", help=argparse.SUPPRESS)
-    for words in (["--rosdistro"], ["--os"], ["-t", "--dependency-types"]):
-        add(*words, action="append", help=argparse.SUPPRESS)
+        add(*names, action="store_true", help=argparse.SUPPRESS)
+    for names in (["--rosdistro"], ["--os"], ["-t", "--dependency-types"]):
+        add(*names, action="append", help=argparse.SUPPRESS)
     return parser
 
 
@@ -102,7 +102,7 @@ def _keys(options: argparse.Namespace) -> tuple[dict[str, list[str]], frozenset[
             problems.append(f"{text}\nMissing resource {name}\n{error}")
     if not needs and not problems:
         problems.append("Please enter packages, or --from-paths FOLDER")
-    skipped = {key for words in options.skip_keys for key in words.split()}
+    skipped = {key for names in options.skip_keys for key in names.split()}
     found: dict[str, list[str]] = {}
     for name, keys in sorted(needs.items()):
         for key in set(keys) - skipped:
@@ -131,8 +131,8 @@ def _tell(
     for item in missing:
         print(f"{_line(item)}  [{' '.join(keys[item.key])}]")
     if verb == "check":
-        words = "have not" if missing else "have"
-        print(f"All system dependencies {words} been satisfied")
+        verb = "have not" if missing else "have"
+        print(f"All system dependencies {verb} been satisfied")
         return 1 if missing else 0
     if missing:
         count = len(missing)

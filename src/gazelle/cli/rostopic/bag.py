@@ -16,7 +16,7 @@ from gazelle.bag import (
     open_bag,
     ros1_name_of,
 )
-from gazelle.bag.opening import tell_of_unindexed
+from gazelle.bag.opening import warn_of_unindexed
 from gazelle.cli.ros_types import learn_workspace_types, topic_class
 from gazelle.cli.rostopic.topics import FoundTopic, find_topic
 from gazelle.cli.text.fields import Step
@@ -51,7 +51,7 @@ def opened(path: str) -> BagReader:
         names = [one.name for one in folder.iterdir()] if folder.is_dir() else []
         raise ToolError(f"bag file [{path}] does not exist{hint(Path(path).name, names)}")
     bag = open_bag(path)
-    tell_of_unindexed(bag)
+    warn_of_unindexed(bag)
     learn_workspace_types()
     learn_definitions(bag.connections)
     return bag

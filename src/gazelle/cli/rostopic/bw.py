@@ -8,7 +8,7 @@ from collections import deque
 from typing import NamedTuple
 
 from gazelle.cli.rostopic.topics import join_as_node, wait_for_topic
-from gazelle.cli.tool import global_name, joined, option_parser
+from gazelle.cli.tool import global_name, join_graph, option_parser
 from gazelle.graph import RawMessage
 
 __all__ = ["Bandwidth", "BandwidthMeter", "run"]
@@ -64,12 +64,12 @@ class BandwidthMeter:
         )
 
 
-def run(words: list[str]) -> int:
+def run(argv: list[str]) -> int:
     """Print the bandwidth of a topic once a second."""
     parser = option_parser("rostopic", "bw /topic")
     parser.add_option("-w", "--window", metavar="WINDOW", help="window size, in # of messages")
     parser.add_option("-b", "--bag", metavar="BAGFILE", help="bandwidth of the topic of a bag")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if len(args) != 1:
         parser.error("you may only specify one input topic" if args else "topic must be specified")
     try:
@@ -88,7 +88,7 @@ def run(words: list[str]) -> int:
     def take(message: RawMessage) -> None:
         meter.add(time.monotonic(), len(message.data))
 
-    with joined() as graph:
+    with join_graph() as graph:
         node, ended = join_as_node(graph, clock=False)
         topic = wait_for_topic(graph, global_name(args[0], "rostopic"))
         node.create_subscription(topic.name, None, take, raw=True, inline=True)

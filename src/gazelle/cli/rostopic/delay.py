@@ -10,7 +10,7 @@ from typing import Any
 
 from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.topics import join_as_node, uses_sim_time, wait_for_topic
-from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
+from gazelle.cli.tool import ToolError, add_flag, global_name, join_graph, option_parser
 
 __all__ = ["DelayMeter", "run"]
 
@@ -57,7 +57,7 @@ class DelayMeter:
         )
 
 
-def run(words: list[str]) -> int:
+def run(argv: list[str]) -> int:
     """Print the delay of a topic once a second."""
     parser = option_parser("rostopic", "delay [options] /topic")
     parser.add_option(
@@ -66,11 +66,11 @@ def run(words: list[str]) -> int:
     add_flag(
         parser, "--tcpnodelay", dest="nodelay", text="accepted: nothing waits for full packets here"
     )
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if len(args) != 1:
         parser.error("you may only specify one input topic" if args else "topic must be specified")
     meter = DelayMeter(options.window)
-    with joined() as graph:
+    with join_graph() as graph:
         node, ended = join_as_node(graph)
         topic = wait_for_topic(graph, global_name(args[0], "rostopic"))
         kind = topic_class(topic.type_name)

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.topics import FoundTopic, join_as_node, uses_sim_time, wait_for_topic
 from gazelle.cli.text.fields import FieldError, field_type, field_value
-from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
+from gazelle.cli.tool import ToolError, add_flag, global_name, join_graph, option_parser
 from gazelle.interfaces import Time, strify
 
 __all__ = ["Echo", "expression", "run"]
@@ -25,10 +25,10 @@ _NO_CLOCK = (
 )
 
 
-def run(words: list[str]) -> int:
+def run(argv: list[str]) -> int:
     """Print the messages of a topic until there were enough."""
     parser = _parser()
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if options.all_topics and not options.bag:
         parser.error("Display all option is only valid when echoing from bag files")
     if len(args) != 1 and not (options.all_topics and not args):
@@ -46,7 +46,7 @@ def run(words: list[str]) -> int:
             return Echo(topic, options, clock, count=count, width=width, wanted=wanted)
 
         return echo_bag(options.bag, word, make, options)
-    with joined() as graph:
+    with join_graph() as graph:
         node, ended = join_as_node(graph)
         topic = wait_for_topic(graph, word)
         echo = Echo(topic, options, graph.clock, count=count, width=width, wanted=wanted)

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.echo import expression
 from gazelle.cli.rostopic.topics import join_as_node, uses_sim_time, wait_for_topic
-from gazelle.cli.tool import add_flag, global_name, joined, option_parser
+from gazelle.cli.tool import add_flag, global_name, join_graph, option_parser
 
 __all__ = ["Rate", "RateMeter", "rate_report", "rate_table", "run"]
 
@@ -90,7 +90,7 @@ def rate_report(meters: Mapping[str, RateMeter]) -> str:
     return rate_table(rows)
 
 
-def run(words: list[str]) -> int:
+def run(argv: list[str]) -> int:
     """Print the rate of topics once a second."""
     parser = option_parser("rostopic", "hz [options] /topic_0 [/topic_1 [topic_2 [..]]]")
     add = parser.add_option
@@ -103,7 +103,7 @@ def run(words: list[str]) -> int:
     add_flag(
         parser, "--tcpnodelay", dest="nodelay", text="accepted: nothing waits for full packets here"
     )
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if not args:
         parser.error("topic must be specified")
     try:
@@ -114,7 +114,7 @@ def run(words: list[str]) -> int:
     if options.bag:
         meters = {global_name(arg, "rostopic"): RateMeter(window) for arg in args}
         return _print_of_bag(options.bag, meters, options.filter_expr)
-    with joined() as graph:
+    with join_graph() as graph:
         node, ended = join_as_node(graph, clock=not options.wall_time)
         now_ns = time.time_ns if options.wall_time else graph.clock.now_ns
         for word in dict.fromkeys(global_name(arg, "rostopic") for arg in args):

@@ -11,7 +11,7 @@ from gazelle.cli.node_processes import Processes
 from gazelle.cli.ros_types import shown_type, wanted_type
 from gazelle.cli.rostopic.topics import find_topic
 from gazelle.cli.text.fields import field_type
-from gazelle.cli.tool import ToolError, add_flag, global_name, hint, joined, option_parser
+from gazelle.cli.tool import ToolError, add_flag, global_name, hint, join_graph, option_parser
 from gazelle.graph import Graph, TopicInfo
 
 __all__ = ["find", "info", "run", "show_type"]
@@ -25,16 +25,16 @@ class _Use(NamedTuple):
     nodes: tuple[str, ...]
 
 
-def info(words: list[str]) -> int:
+def info(argv: list[str]) -> int:
     """Print type, publishers and subscribers of a topic."""
     parser = option_parser("rostopic", "info /topic")
-    _, args = parser.parse_args(words)
+    _, args = parser.parse_args(argv)
     if not args:
         parser.error("you must specify a topic name")
     if len(args) > 1:
         parser.error("you may only specify one topic name")
     name = global_name(args[0], "rostopic")
-    with joined() as graph:
+    with join_graph() as graph:
         topics = {one.name: one for one in graph.topics(include_hidden=True)}
         topic = topics.get(name)
         if topic is None:
@@ -53,14 +53,14 @@ def info(words: list[str]) -> int:
     return 0
 
 
-def show_type(words: list[str]) -> int:
+def show_type(argv: list[str]) -> int:
     """Print the type of a topic, or of a field below it."""
     parser = option_parser("rostopic", "type /topic_or_field")
-    _, args = parser.parse_args(words)
+    _, args = parser.parse_args(argv)
     if len(args) != 1:
         parser.error("topic must be specified" if not args else "you may only specify one topic")
     word = global_name(args[0], "rostopic")
-    with joined() as graph:
+    with join_graph() as graph:
         entities = graph.entities()
         found = find_topic(entities, word)
         if found is None:
@@ -75,15 +75,15 @@ def show_type(words: list[str]) -> int:
     return 0
 
 
-def find(words: list[str]) -> int:
+def find(argv: list[str]) -> int:
     """Print the topics of a type."""
-    wanted = wanted_type("rostopic", words)
-    with joined() as graph:
+    wanted = wanted_type("rostopic", argv)
+    with join_graph() as graph:
         print("\n".join(one.name for one in graph.topics() if shown_type(one.type_name) == wanted))
     return 0
 
 
-def run(words: list[str]) -> int:
+def run(argv: list[str]) -> int:
     """Print the names of topics, or with ``-v`` their types and how many nodes use them."""
     parser = option_parser("rostopic", "list [/namespace]")
     add, flag = parser.add_option, partial(add_flag, parser)
@@ -92,7 +92,7 @@ def run(words: list[str]) -> int:
     flag("-p", dest="publishers", text="list only publishers")
     flag("-s", dest="subscribers", text="list only subscribers")
     flag("--host", dest="host", text="group by host name")
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     if len(args) > 1:
         parser.error("you may only specify one input topic")
     if options.publishers and options.subscribers:
@@ -101,7 +101,7 @@ def run(words: list[str]) -> int:
         from gazelle.cli.rostopic.bag import list_bag
 
         return list_bag(options.bag, global_name(args[0], "rostopic") if args else "")
-    with joined() as graph:
+    with join_graph() as graph:
         topics = graph.topics()
         if args:
             topics = _below(topics, global_name(args[0], "rostopic"))

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from gazelle.cli.ros_types import message_class, shown_type
 from gazelle.cli.rostopic.topics import join_as_node
 from gazelle.cli.text.fill_message import documents, fill_from_words, yaml_words
-from gazelle.cli.tool import ToolError, add_flag, global_name, joined, option_parser
+from gazelle.cli.tool import ToolError, add_flag, global_name, join_graph, option_parser
 from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import ANY_TYPE, Graph, Publisher, TimeJumpError
 from gazelle.interfaces import Ros1Message
@@ -51,10 +51,10 @@ class _Job(NamedTuple):
                 raise
 
 
-def run(words: list[str]) -> int:
+def run(argv: list[str]) -> int:
     """Publish messages on a topic."""
     parser = _parser()
-    options, args = parser.parse_args(words)
+    options, args = parser.parse_args(argv)
     rate_hz = _rate(parser, options)
     if len(args) < 2:
         parser.error("topic type must be specified" if args else "/topic must be specified")
@@ -62,7 +62,7 @@ def run(words: list[str]) -> int:
         parser.error("args conflict with -f setting")
     values = yaml_words(args[2:])
     topic, type_name = global_name(args[0], "rostopic"), args[1]
-    with joined() as graph:
+    with join_graph() as graph:
         kind = _kind(type_name)
         if not values and kind._names and not options.file and sys.stdin.isatty():
             parser.error("Please specify message values")

@@ -68,18 +68,18 @@ def version_of(release: Release) -> str:
     return _VERSIONS[release]
 
 
-def run_sdf(words: list[str], tool: str = "ign", release: Release = Release.V12) -> int:
+def run_sdf(argv: list[str], tool: str = "ign", release: Release = Release.V12) -> int:
     """Run ``ign sdf``, which gz calls ``gz sdf``, with the words behind ``sdf``.
 
     Returns:
         The exit code.
     """
-    words, is_quiet = take_quiet(words)
-    if "--versions" in words:
+    argv, is_quiet = take_quiet(argv)
+    if "--versions" in argv:
         print(version_of(release))
         return 0
     try:
-        pairs, rest = gnu_getopt(words, _SHORT, _LONG)
+        pairs, rest = gnu_getopt(argv, _SHORT, _LONG)
     except GetoptError:
         return _usage(tool, release)
     options = {_NAMES.get(name, name.lstrip("-")): value for name, value in pairs}

@@ -23,9 +23,9 @@ __all__ = ["QUIET", "read_for", "report_findings", "say", "take_quiet"]
 QUIET = "--no-findings"
 
 
-def take_quiet(words: list[str]) -> tuple[list[str], bool]:
+def take_quiet(argv: list[str]) -> tuple[list[str], bool]:
     """Return a command's words without our own option, and whether it was given."""
-    return [word for word in words if word != QUIET], QUIET in words
+    return [word for word in argv if word != QUIET], QUIET in argv
 
 
 def read_for(word: str, release: Release) -> Document:

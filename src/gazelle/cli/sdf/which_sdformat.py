@@ -46,31 +46,31 @@ _CLASSIC_OPTIONS = frozenset({"-c", "--convert", "-o", "--doc", "-v", "--version
 _MAX_SIZE = 1_000_000
 
 
-def sdformat_release(words: Iterable[str], environ: Mapping[str, str]) -> Release:
+def sdformat_release(argv: Iterable[str], environ: Mapping[str, str]) -> Release:
     """Return the sdformat that a command line means; Gazebo 11's where nothing speaks of gz.
 
     Args:
-        words: those behind ``gz sdf``; none ask for the surroundings alone.
+        argv: those behind ``gz sdf``; none ask for the surroundings alone.
         environ: environment variables.
     """
-    words = list(words)
-    options = {word.partition("=")[0] for word in words if word.startswith("-")}
+    argv = list(argv)
+    options = {word.partition("=")[0] for word in argv if word.startswith("-")}
     if options & _NEW_OPTIONS or options & _CLASSIC_OPTIONS:
-        return _newer(words, environ) if options & _NEW_OPTIONS else Release.V9
+        return _newer(argv, environ) if options & _NEW_OPTIONS else Release.V9
     if environ.get("ROS_DISTRO", "") in _NEW_DISTROS:
-        return _newer(words, environ)
+        return _newer(argv, environ)
     if any(_NEW_VARIABLES.fullmatch(name) for name in environ):
-        return _newer(words, environ)
+        return _newer(argv, environ)
     if any(environ.get(name) for name in _CLASSIC_VARIABLES):
         return Release.V9
-    files = [path for path in map(Path, words) if path.is_file()]
+    files = [path for path in map(Path, argv) if path.is_file()]
     if any(_speaks_of_gz(path) for path in files):
-        return _newer(words, environ)
+        return _newer(argv, environ)
     is_new = _knows_gz(Workspace.discover(environ=environ))
-    return _newer(words, environ) if is_new else Release.V9
+    return _newer(argv, environ) if is_new else Release.V9
 
 
-def _newer(words: Iterable[str], environ: Mapping[str, str]) -> Release:
+def _newer(argv: Iterable[str], environ: Mapping[str, str]) -> Release:
     """Return which of the newer ones: the distribution's, ``GZ_VERSION``'s, else the file's."""
     named = _OF_DISTRO.get(environ.get("ROS_DISTRO", ""))
     version = environ.get("GZ_VERSION") or environ.get("IGNITION_VERSION")
@@ -78,7 +78,7 @@ def _newer(words: Iterable[str], environ: Mapping[str, str]) -> Release:
         return Release.V12 if version in _OLD_RELEASES else Release.V14
     if named is not None:
         return named
-    files = (path for path in map(Path, words) if path.is_file())
+    files = (path for path in map(Path, argv) if path.is_file())
     is_newest = any(_NEWEST_TEXT.search(_start_of(path)) for path in files)
     return Release.V14 if is_newest else Release.V12
 

@@ -87,9 +87,9 @@ def _step(part: str) -> Step:
         return Step(name)
     if not rest.endswith("]"):
         raise ToolError(f"missing closing ']' in slice spec '{part}'")
-    words = rest[:-1].split(":")
+    parts = rest[:-1].split(":")
     try:
-        numbers = [int(word) if word else None for word in words]
+        numbers = [int(word) if word else None for word in parts]
     except ValueError:
         numbers = []
     if not 1 <= len(numbers) <= 3 or numbers == [None]:

@@ -78,8 +78,8 @@ def _labels(value: Any, label: str, keep: Filter | None) -> Iterable[str]:
         for name in _fields(value, keep):
             yield from _labels(getattr(value, name), f"{label}.{name}", keep)
     elif _is_sequence(value):
-        for place, item in enumerate(value):
-            yield from _labels(item, f"{label}{place}", keep)
+        for index, item in enumerate(value):
+            yield from _labels(item, f"{label}{index}", keep)
     elif not isinstance(value, bytes):
         yield label
 

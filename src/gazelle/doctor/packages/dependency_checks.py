@@ -154,9 +154,9 @@ def _found(source: SourcePackage, name: str, text: str, pattern: re.Pattern[str]
 def _of_cmake(source: SourcePackage) -> Iterator[Use]:
     lists = source.lists
     for step in lists.called("find_package") if lists is not None else ():
-        if not step.words or step.is_conditional:
+        if not step.arguments or step.is_conditional:
             continue
-        names = [step.words[0]]
+        names = [step.arguments[0]]
         if names == ["catkin"]:
             names = list(step.after("COMPONENTS", ("REQUIRED", "QUIET", "OPTIONAL_COMPONENTS")))
         for name in names:

@@ -69,7 +69,7 @@ def _check_ros2(
 ) -> None:
     listed: list[str] = []
     for step in steps:
-        words = step.words[1:]
+        words = step.arguments[1:]
         end = next((place for place, word in enumerate(words) if word in _KEYWORDS), len(words))
         root = str(source.folder) + "/"
         names = [word.removeprefix(root) for word in words[:end]]

@@ -9,7 +9,7 @@ from functools import partial
 from optparse import OptionParser, Values
 
 from gazelle.bag import BagReader, bag_types, open_bag
-from gazelle.bag.opening import tell_of_unindexed
+from gazelle.bag.opening import warn_of_unindexed
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.playing.controls import keyboard
 from gazelle.graph import Graph, Node
@@ -134,7 +134,7 @@ def _open(node: Node, path: str, *, quiet: bool) -> BagReader:
     if not quiet:
         node.log("info", f"Opening {path}")
     bag = open_bag(path)
-    tell_of_unindexed(bag)
+    warn_of_unindexed(bag)
     learn_workspace_types()
     for name in bag_types(bag.connections).differing:
         text = f"{path} defines {name} differently from this machine; it is played as it is"

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from gazelle.diagnostics import SourceSpan
 from gazelle.documents import read_limited
 from gazelle.documents.files import is_file, is_folder
-from gazelle.workspace.building.cmake_syntax import Command, SyntaxProblem, Word, read_commands
+from gazelle.workspace.building.cmake_syntax import Argument, Command, SyntaxProblem, read_commands
 
 __all__ = ["CMakeLists", "Step", "read_cmake_lists"]
 
@@ -51,18 +51,18 @@ class Step(NamedTuple):
     """
 
     name: str
-    words: tuple[str, ...]
+    arguments: tuple[str, ...]
     span: SourceSpan
     folder: str = ""
     is_conditional: bool = False
 
     def after(self, keyword: str, keywords: Iterable[str]) -> tuple[str, ...]:
         """Return the words after a keyword, up to the next one of `keywords`."""
-        if keyword not in self.words:
+        if keyword not in self.arguments:
             return ()
-        rest = self.words[self.words.index(keyword) + 1 :]
+        rest = self.arguments[self.arguments.index(keyword) + 1 :]
         known = set(keywords)
-        end = next((place for place, word in enumerate(rest) if word in known), len(rest))
+        end = next((index for index, argument in enumerate(rest) if argument in known), len(rest))
         return rest[:end]
 
 
@@ -97,7 +97,7 @@ class CMakeLists:
 
     def executables(self) -> tuple[str, ...]:
         """Return the names of the programs that a compiler would make, variables replaced."""
-        found = [step.words[0] for step in self.called(*_MAKE_PROGRAMS) if step.words]
+        found = [step.arguments[0] for step in self.called(*_MAKE_PROGRAMS) if step.arguments]
         for step in self.called("rclcpp_components_register_node"):
             found += step.after("EXECUTABLE", ("PLUGIN", "EXECUTOR", "RESOURCE_INDEX"))
         for step in self.called("set_target_properties"):
@@ -181,69 +181,73 @@ class _Walker:
         self._blocks -= 1
 
     def _follow_all(self, piece: _Piece, file: Path, folder: str) -> None:
-        place = piece.first
-        while place < piece.last and len(self.lists.steps) < _MAX_STEPS:
-            command = piece.commands[place]
+        index = piece.first
+        while index < piece.last and len(self.lists.steps) < _MAX_STEPS:
+            command = piece.commands[index]
             if command.name in _ENDS:
-                body = piece.body(place)
+                body = piece.body(index)
                 self._block(command, body, file, folder)
-                place = body.last + 1
+                index = body.last + 1
                 continue
             taken = self._is_taken(command)
             if taken is not None:
-                body = piece.body(place)
+                body = piece.body(index)
                 branches = _branches(body)
                 if branches is not None:
                     self._follow(branches[0 if taken else 1], file, folder)
-                    place = body.last + 1
+                    index = body.last + 1
                     continue
             self._command(command, file, folder)
-            place += 1
+            index += 1
 
     def _is_taken(self, command: Command) -> bool | None:
         """Decide an ``if`` that asks for an option of this file alone; None for all others."""
-        words = [word.text for word in command.words]
-        turned = words[:1] == ["NOT"]
-        if command.name != "if" or len(words) != 1 + turned or words[-1] not in self._options:
+        arguments = [argument.text for argument in command.arguments]
+        turned = arguments[:1] == ["NOT"]
+        if (
+            command.name != "if"
+            or len(arguments) != 1 + turned
+            or arguments[-1] not in self._options
+        ):
             return None
-        if words[-1] in self._doubtful:
+        if arguments[-1] in self._doubtful:
             return None
-        return (self._variables[words[-1]].upper() in _TRUE) is not turned
+        return (self._variables[arguments[-1]].upper() in _TRUE) is not turned
 
     def _block(self, command: Command, body: _Piece, file: Path, folder: str) -> None:
-        words = self._words(command.words)
+        arguments = self._arguments(command.arguments)
         if command.name != "foreach":
-            if words:
-                self._own[words[0].lower()] = _own_of(body)
+            if arguments:
+                self._own[arguments[0].lower()] = _own_of(body)
             return
-        if not words:
+        if not arguments:
             return
-        for item in self._looped(words[1:]):
-            self._variables[words[0]] = item
+        for item in self._looped(arguments[1:]):
+            self._variables[arguments[0]] = item
             self._follow(body, file, folder)
 
-    def _looped(self, words: Sequence[str]) -> list[str]:
-        if not words or words[0] not in {"IN", "RANGE"}:
-            return list(words)
+    def _looped(self, arguments: Sequence[str]) -> list[str]:
+        if not arguments or arguments[0] not in {"IN", "RANGE"}:
+            return list(arguments)
         found: list[str] = []
         is_list = False
-        for word in words[1:] if words[0] == "IN" else ():
-            if word in {"LISTS", "ITEMS"}:
-                is_list = word == "LISTS"
+        for argument in arguments[1:] if arguments[0] == "IN" else ():
+            if argument in {"LISTS", "ITEMS"}:
+                is_list = argument == "LISTS"
             elif is_list:
-                found += filter(None, self._variables.get(word, "").split(";"))
+                found += filter(None, self._variables.get(argument, "").split(";"))
             else:
-                found.append(word)
+                found.append(argument)
         return found
 
     def _command(self, command: Command, file: Path, folder: str) -> None:
         span = SourceSpan(str(file), command.line, command.column, len(command.name))
-        words = tuple(self._words(command.words))
+        arguments = tuple(self._arguments(command.arguments))
         self._ifs += {"if": 1, "endif": -1}.get(command.name, 0)
-        step = Step(command.name, words, span, folder, self._ifs > 0)
+        step = Step(command.name, arguments, span, folder, self._ifs > 0)
         self.lists.steps.append(step)
         handler = _HANDLERS.get(command.name)
-        if handler is not None and words:
+        if handler is not None and arguments:
             handler(self, step)
         elif command.name in self._own:
             own = self._own[command.name]
@@ -252,11 +256,11 @@ class _Walker:
             if own.compiles:
                 self.lists.compiling.append(step)
 
-    def _words(self, words: Iterable[Word]) -> list[str]:
+    def _arguments(self, arguments: Iterable[Argument]) -> list[str]:
         found: list[str] = []
-        for word in words:
-            text = self._replaced(word.text)
-            found += [text] if word.quoted else filter(None, text.split(";"))
+        for argument in arguments:
+            text = self._replaced(argument.text)
+            found += [text] if argument.quoted else filter(None, text.split(";"))
         return found
 
     def _replaced(self, text: str) -> str:
@@ -270,16 +274,16 @@ class _Walker:
     # -- commands that change what later ones mean ------------------------------------------
 
     def _project(self, step: Step) -> None:
-        self.lists.project = self.lists.project or step.words[0]
+        self.lists.project = self.lists.project or step.arguments[0]
         self.lists.project_span = self.lists.project_span or step.span
         for key in ("PROJECT_NAME", "CMAKE_PROJECT_NAME"):
-            self._variables[key] = step.words[0]
+            self._variables[key] = step.arguments[0]
 
     def _set(self, step: Step) -> None:
-        if step.words[0] in self._given and "CACHE" in step.words:
+        if step.arguments[0] in self._given and "CACHE" in step.arguments:
             return
-        values = step.after(step.words[0], ("CACHE", "PARENT_SCOPE"))
-        self._assign(step.words[0], ";".join(values), step)
+        values = step.after(step.arguments[0], ("CACHE", "PARENT_SCOPE"))
+        self._assign(step.arguments[0], ";".join(values), step)
 
     def _assign(self, name: str, value: str, step: Step) -> None:
         self._variables[name] = value
@@ -289,15 +293,15 @@ class _Walker:
             self._doubtful.discard(name)
 
     def _option(self, step: Step) -> None:
-        name = step.words[0]
+        name = step.arguments[0]
         self._options.add(name)
         if name not in self._variables:
-            self._assign(name, step.words[2] if len(step.words) > 2 else "OFF", step)
+            self._assign(name, step.arguments[2] if len(step.arguments) > 2 else "OFF", step)
 
     def _configure_file(self, step: Step) -> None:
-        if len(step.words) < 2:
+        if len(step.arguments) < 2:
             return
-        source, output = self._root / step.folder / step.words[0], step.words[1]
+        source, output = self._root / step.folder / step.arguments[0], step.arguments[1]
         if not output.startswith(("/", _BINARY)):
             output = f"{self._variables['CMAKE_CURRENT_BINARY_DIR']}/{output}"
         if output.startswith(f"{self._root}/"):
@@ -309,46 +313,46 @@ class _Walker:
             for name, value in self._variables.items()
             if name not in self._doubtful and "${" not in value
         }
-        text = _configured_text(source, known, frozenset(step.words[2:]))
+        text = _configured_text(source, known, frozenset(step.arguments[2:]))
         if text is not None:
             self.lists.made[output] = text
 
     def _list(self, step: Step) -> None:
-        if step.words[0] in {"APPEND", "PREPEND"} and len(step.words) > 1:
-            name = step.words[1]
-            parts = [self._variables.get(name, ""), *step.words[2:]]
+        if step.arguments[0] in {"APPEND", "PREPEND"} and len(step.arguments) > 1:
+            name = step.arguments[1]
+            parts = [self._variables.get(name, ""), *step.arguments[2:]]
             self._variables[name] = ";".join(part for part in parts if part)
             if step.is_conditional:
                 self._doubtful.add(name)
 
     def _file(self, step: Step) -> None:
-        if not step.words[0].startswith("GLOB") or len(step.words) < 2:
+        if not step.arguments[0].startswith("GLOB") or len(step.arguments) < 2:
             return
-        rest = [word for word in step.words[2:] if word != "CONFIGURE_DEPENDS"]
+        rest = [argument for argument in step.arguments[2:] if argument != "CONFIGURE_DEPENDS"]
         base = self._root / step.folder
         relative: Path | None = None
         if rest and rest[0] == "RELATIVE":
             relative, rest = Path(rest[1]) if len(rest) > 1 else base, rest[2:]
         found: list[str] = []
         for pattern in rest:
-            for path in _globbed(base, pattern, recursive=step.words[0] == "GLOB_RECURSE"):
+            for path in _globbed(base, pattern, recursive=step.arguments[0] == "GLOB_RECURSE"):
                 is_below = relative is not None and path.is_relative_to(relative)
                 found.append(
                     str(path.relative_to(relative)) if is_below and relative else str(path)
                 )
-        self._variables[step.words[1]] = ";".join(sorted(found))
+        self._variables[step.arguments[1]] = ";".join(sorted(found))
 
     def _subdirectory(self, step: Step) -> None:
-        folder = str(Path(step.folder) / step.words[0])
+        folder = str(Path(step.folder) / step.arguments[0])
         file = self._root / folder / "CMakeLists.txt"
         if is_file(file):
             self.read(file, folder)
 
     def _include(self, step: Step) -> None:
-        path = self._root / step.folder / step.words[0]
+        path = self._root / step.folder / step.arguments[0]
         if is_file(path):
             self.read(path, step.folder)
-        elif "/" in step.words[0] or step.words[0].endswith(".cmake"):
+        elif "/" in step.arguments[0] or step.arguments[0].endswith(".cmake"):
             self.lists.hidden.append(step)
 
 
@@ -450,11 +454,11 @@ def _ends_of(commands: Sequence[Command]) -> list[int]:
     """
     ends = [len(commands)] * len(commands)
     opened: dict[str, list[int]] = {name: [] for name in _CLOSED_BY.values()}
-    for place, command in enumerate(commands):
+    for index, command in enumerate(commands):
         if command.name in opened:
-            opened[command.name].append(place)
+            opened[command.name].append(index)
         elif (opening := _CLOSED_BY.get(command.name)) is not None and opened[opening]:
-            ends[opened[opening].pop()] = place
+            ends[opened[opening].pop()] = index
     return ends
 
 
@@ -475,13 +479,13 @@ def _branches(body: _Piece) -> tuple[_Piece, _Piece] | None:
 
 def _found_branches(body: _Piece) -> tuple[_Piece, _Piece] | None:
     depth = 0
-    for place in range(body.first, body.last):
-        name = body.commands[place].name
+    for index in range(body.first, body.last):
+        name = body.commands[index].name
         depth += {"if": 1, "endif": -1}.get(name, 0)
         if depth == 0 and name == "elseif":
             return None
         if depth == 0 and name == "else":
-            return body._replace(last=place), body._replace(first=place + 1)
+            return body._replace(last=index), body._replace(first=index + 1)
     return body, body._replace(first=body.last)
 
 
@@ -495,7 +499,7 @@ def _installs(body: Iterable[Command]) -> bool:
 
 
 def _is_of_targets(command: Command) -> bool:
-    return bool(command.words) and command.words[0].text == "TARGETS"
+    return bool(command.arguments) and command.arguments[0].text == "TARGETS"
 
 
 def _globbed(base: Path, pattern: str, *, recursive: bool) -> list[Path]:

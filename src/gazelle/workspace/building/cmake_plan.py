@@ -54,18 +54,18 @@ _INDEX = "share/ament_index/resource_index"
 
 
 def _add_environment_file(
-    package: SourcePackage, step: Step, word: str, folder: str, plan: Plan
+    package: SourcePackage, step: Step, argument: str, folder: str, plan: Plan
 ) -> None:
     """Plan a shell or ``.dsv`` file that the package has sourced with its own."""
-    if "${" in word:
+    if "${" in argument:
         # ament's own: the path of libraries, which nobody builds here, and PATH, which is set.
-        if not word.startswith("${ament_cmake_package_templates_"):
-            text = f"'{word}' is known to CMake only; it is left out"
+        if not argument.startswith("${ament_cmake_package_templates_"):
+            text = f"'{argument}' is known to CMake only; it is left out"
             plan.diagnostics.report("package.install-unread", text, step.span)
         return
-    file = package.path / step.folder / word
+    file = package.path / step.folder / argument
     if not is_file(file):
-        text = f"{step.name}() names '{word}', and there is no such file"
+        text = f"{step.name}() names '{argument}', and there is no such file"
         plan.diagnostics.report("package.install-missing", text, step.span)
         return
     name = file.name.removesuffix(".in")
@@ -98,8 +98,8 @@ def read_lists(
         plan.diagnostics.report("package.no-build-file", text, span, severity=Severity.ERROR)
         return None
     if lists.problem is not None:
-        problem, place = lists.problem
-        plan.diagnostics.report("package.cmake-syntax", f"CMake stops here: {problem.text}", place)
+        problem, span = lists.problem
+        plan.diagnostics.report("package.cmake-syntax", f"CMake stops here: {problem.text}", span)
         return None
     return lists
 
@@ -129,16 +129,18 @@ def plan_cmake(
 def compiled_targets(package: SourcePackage, lists: CMakeLists, plan: Plan) -> None:
     """Report executables and libraries that need a compiler, each with its line."""
     for step in lists.called(*_EXECUTABLES, *_LIBRARIES):
-        if len(step.words) < 2 or _NOT_COMPILED & set(step.words):
+        if len(step.arguments) < 2 or _NOT_COMPILED & set(step.arguments):
             continue
         kind = "executable" if step.name in _EXECUTABLES else "library"
-        sources = [word for word in step.words[1:] if PurePosixPath(word).suffix]
+        sources = [argument for argument in step.arguments[1:] if PurePosixPath(argument).suffix]
         code = f" ({', '.join(sources[:3])})" if sources else ""
-        text = f"{kind} '{step.words[0]}'{code} of package '{package.name}' is compiled code; it "
+        text = (
+            f"{kind} '{step.arguments[0]}'{code} of package '{package.name}' is compiled code; it "
+        )
         text += "is not built"
         plan.diagnostics.report("build.compiled-target", text, step.span)
     for step in lists.compiling:
-        text = f"{step.name}({' '.join(step.words[:2])} …) of package '{package.name}' makes "
+        text = f"{step.name}({' '.join(step.arguments[:2])} …) of package '{package.name}' makes "
         text += "compiled code; it is not built"
         plan.diagnostics.report("build.compiled-target", text, step.span)
 
@@ -147,10 +149,10 @@ def add_interfaces(package: SourcePackage, lists: CMakeLists, plan: Plan) -> Non
     """Install message, service and action files, from where Gazelle reads them itself."""
     names: list[str] = []
     for step in lists.called("rosidl_generate_interfaces"):
-        for word in step.words[1:]:
-            if word in _INTERFACE_WORDS:
+        for argument in step.arguments[1:]:
+            if argument in _INTERFACE_WORDS:
                 break
-            names += [word] if PurePosixPath(word).suffix in _KINDS else []
+            names += [argument] if PurePosixPath(argument).suffix in _KINDS else []
         _add_interface_files(package, names, step, plan)
     for step in lists.called(*_CATKIN_INTERFACES):
         folder = "".join(step.after("DIRECTORY", ("FILES",))[:1]) or _CATKIN_INTERFACES[step.name]
@@ -176,12 +178,12 @@ def _configured(file: Path, package: SourcePackage) -> str:
 
 def _add_hooks(package: SourcePackage, step: Step, folder: str, plan: Plan) -> None:
     """Plan the shell files of a ``catkin_add_env_hooks`` call."""
-    words = ("SHELLS", "DIRECTORY", "SKIP_INSTALL")
-    where = "".join(step.after("DIRECTORY", words)[:1]) or "env-hooks"
-    for shell in step.after("SHELLS", words):
-        if shell not in {"sh", "bash", "zsh"} or not step.words:
+    keywords = ("SHELLS", "DIRECTORY", "SKIP_INSTALL")
+    where = "".join(step.after("DIRECTORY", keywords)[:1]) or "env-hooks"
+    for shell in step.after("SHELLS", keywords):
+        if shell not in {"sh", "bash", "zsh"} or not step.arguments:
             continue
-        names = [f"{where}/{step.words[0]}.{shell}{ending}" for ending in ("", ".in")]
+        names = [f"{where}/{step.arguments[0]}.{shell}{ending}" for ending in ("", ".in")]
         found = [name for name in names if is_file(package.path / step.folder / name)]
         for name in found:
             _add_environment_file(package, step, name, folder, plan)
@@ -209,19 +211,19 @@ def _add_ament(package: SourcePackage, lists: CMakeLists, layout: Layout, plan: 
         _add_ament_python(package, step, layout, plan)
     for step in lists.called("ament_environment_hooks", "ament_package", "ament_auto_package"):
         if step.name == "ament_environment_hooks":
-            for word in step.words:
+            for argument in step.arguments:
                 _add_environment_file(
-                    package, step, word, f"share/{package.name}/environment", plan
+                    package, step, argument, f"share/{package.name}/environment", plan
                 )
     for step in lists.called("ament_index_register_resource"):
         _add_resource(package, step, plan)
     for step in lists.called("pluginlib_export_plugin_description_file"):
-        if len(step.words) > 1:
-            name = f"share/{package.name}/{PurePosixPath(step.words[1]).name}"
-            file = package.path / step.folder / step.words[1]
+        if len(step.arguments) > 1:
+            name = f"share/{package.name}/{PurePosixPath(step.arguments[1]).name}"
+            file = package.path / step.folder / step.arguments[1]
             if is_file(file):
                 plan.add(Item(name, file), step.span)
-            marker = f"{_INDEX}/{step.words[0]}__pluginlib__plugin/{package.name}"
+            marker = f"{_INDEX}/{step.arguments[0]}__pluginlib__plugin/{package.name}"
             plan.write(marker, f"{name}\n")
     _add_ament_markers(package, lists, plan)
 
@@ -244,14 +246,14 @@ def _add_ament_markers(package: SourcePackage, lists: CMakeLists, plan: Plan) ->
 
 
 def _add_ament_python(package: SourcePackage, step: Step, layout: Layout, plan: Plan) -> None:
-    if not step.words:
+    if not step.arguments:
         return
     name = "".join(step.after("PACKAGE_DIR", ("VERSION", "SETUP_CFG", "DESTINATION"))[:1])
-    source = package.path / step.folder / (name or step.words[0])
+    source = package.path / step.folder / (name or step.arguments[0])
     if step.name == "ament_python_install_module" and is_file(source):
         plan.add(Item(f"{layout.python}/{source.name}", source), step.span)
     elif is_folder(source):
-        target = f"{layout.python}/{PurePosixPath(step.words[0]).name}"
+        target = f"{layout.python}/{PurePosixPath(step.arguments[0]).name}"
         add_python_folder(plan, source, target, layout)
     else:
         text = f"{step.name}() wants '{source}', and it does not exist; CMake stops there"
@@ -259,13 +261,13 @@ def _add_ament_python(package: SourcePackage, step: Step, layout: Layout, plan: 
 
 
 def _add_resource(package: SourcePackage, step: Step, plan: Plan) -> None:
-    if not step.words:
+    if not step.arguments:
         return
-    words = ("CONTENT", "CONTENT_FILE", "PACKAGE_NAME", "SKIP_INSTALL")
-    name = "".join(step.after("PACKAGE_NAME", words)[:1]) or package.name
-    text = "".join(step.after("CONTENT", words)[:1])
-    file = "".join(step.after("CONTENT_FILE", words)[:1])
+    keywords = ("CONTENT", "CONTENT_FILE", "PACKAGE_NAME", "SKIP_INSTALL")
+    name = "".join(step.after("PACKAGE_NAME", keywords)[:1]) or package.name
+    text = "".join(step.after("CONTENT", keywords)[:1])
+    file = "".join(step.after("CONTENT_FILE", keywords)[:1])
     if file and is_file(package.path / file):
-        plan.add(Item(f"{_INDEX}/{step.words[0]}/{name}", package.path / file), step.span)
+        plan.add(Item(f"{_INDEX}/{step.arguments[0]}/{name}", package.path / file), step.span)
     else:
-        plan.write(f"{_INDEX}/{step.words[0]}/{name}", text)
+        plan.write(f"{_INDEX}/{step.arguments[0]}/{name}", text)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-__all__ = ["Command", "SyntaxProblem", "Word", "read_commands"]
+__all__ = ["Argument", "Command", "SyntaxProblem", "read_commands"]
 
 _TOKEN = re.compile(
     r"""(?P<space>[ \t\r\n]+)
@@ -22,7 +22,7 @@ _ESCAPE = re.compile(r"\\(\n|.)", re.DOTALL)
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "\n": ""}
 
 
-class Word(NamedTuple):
+class Argument(NamedTuple):
     """One argument of a command, its variables not replaced.
 
     Attributes:
@@ -41,7 +41,7 @@ class Command(NamedTuple):
     """A call such as ``install(…)``; its name in lower case, as CMake does not tell them apart."""
 
     name: str
-    words: tuple[Word, ...]
+    arguments: tuple[Argument, ...]
     line: int
     column: int
 
@@ -72,25 +72,25 @@ class _Reader:
         self.commands: list[Command] = []
         self.problem: SyntaxProblem | None = None
         self._breaks = [found.start() for found in re.finditer("\n", text)]
-        self._name: Word | None = None
-        self._words: list[Word] = []
+        self._name: Argument | None = None
+        self._arguments: list[Argument] = []
         self._depth = 0
 
     def take(self, found: re.Match[str]) -> None:
-        kind, place = found.lastgroup, self._place(found.start())
+        kind, position = found.lastgroup, self._place(found.start())
         match kind:
             case "open":
-                self._open(place)
+                self._open(position)
             case "close":
-                self._close(place)
+                self._close(position)
             case "quoted":
-                self._add(Word(_ESCAPE.sub(_unescaped, found["quoted"]), True, *place))
+                self._add(Argument(_ESCAPE.sub(_unescaped, found["quoted"]), True, *position))
             case "bracket":
-                self._add(Word(found["bracket"], True, *place))
+                self._add(Argument(found["bracket"], True, *position))
             case "word":
-                self._add(Word(found["word"], False, *place))
+                self._add(Argument(found["word"], False, *position))
             case "other":
-                self.problem = SyntaxProblem(f"unexpected '{found.group()}'", *place)
+                self.problem = SyntaxProblem(f"unexpected '{found.group()}'", *position)
 
     def finished(self) -> SyntaxProblem | None:
         if self.problem is None and self._depth and self._name is not None:
@@ -105,33 +105,33 @@ class _Reader:
         begin = self._breaks[line - 1] + 1 if line else 0
         return line + 1, start - begin + 1
 
-    def _open(self, place: tuple[int, int]) -> None:
+    def _open(self, position: tuple[int, int]) -> None:
         if self._name is None:
-            self.problem = SyntaxProblem("'(' without a command's name before it", *place)
+            self.problem = SyntaxProblem("'(' without a command's name before it", *position)
             return
         if self._depth:
-            self._words.append(Word("(", False, *place))
+            self._arguments.append(Argument("(", False, *position))
         self._depth += 1
 
-    def _close(self, place: tuple[int, int]) -> None:
+    def _close(self, position: tuple[int, int]) -> None:
         if not self._depth:
-            self.problem = SyntaxProblem("')' without a '('", *place)
+            self.problem = SyntaxProblem("')' without a '('", *position)
             return
         self._depth -= 1
         if self._depth:
-            self._words.append(Word(")", False, *place))
+            self._arguments.append(Argument(")", False, *position))
         elif self._name is not None:
             name = self._name
             self.commands.append(
-                Command(name.text.lower(), tuple(self._words), name.line, name.column)
+                Command(name.text.lower(), tuple(self._arguments), name.line, name.column)
             )
-            self._name, self._words = None, []
+            self._name, self._arguments = None, []
 
-    def _add(self, word: Word) -> None:
+    def _add(self, argument: Argument) -> None:
         if self._depth:
-            self._words.append(word)
+            self._arguments.append(argument)
         elif self._name is None:
-            self._name = word
+            self._name = argument
         else:
             text = f"'{self._name.text}' is followed by no '('"
             self.problem = SyntaxProblem(text, self._name.line, self._name.column)

@@ -68,9 +68,9 @@ class InstallRule:
         """
         below_build = self.source.startswith("${")
         found = {
-            self.target(place): text
-            for place, text in made.items()
-            if place.startswith("${") is below_build
+            self.target(relative): text
+            for relative, text in made.items()
+            if relative.startswith("${") is below_build
         }
         return {target: text for target, text in found.items() if target is not None}
 
@@ -129,29 +129,29 @@ def cmake_rules(lists: CMakeLists, share: str) -> InstallRules:
         else:
             rules += _rules_of(step, root)
     scripts = [
-        step for step in lists.called("install") if step.words[:1] in {("CODE",), ("SCRIPT",)}
+        step for step in lists.called("install") if step.arguments[:1] in {("CODE",), ("SCRIPT",)}
     ]
     return InstallRules(tuple(rules), tuple(step.span for step in (*lists.hidden, *scripts)))
 
 
 def _rules_of(step: Step, root: str) -> Iterator[InstallRule]:
     destination = "".join(step.after("DESTINATION", _KEYWORDS)[:1]).strip("/")
-    if step.words[:1] == ("DIRECTORY",):
+    if step.arguments[:1] == ("DIRECTORY",):
         yield from _folders(step.after("DIRECTORY", _KEYWORDS), destination, step, root)
         return
-    kind = next((word for word in ("PROGRAMS", "FILES") if word in step.words), "")
-    if step.name == "install" and step.words[:1] != (kind,):
+    kind = next((argument for argument in ("PROGRAMS", "FILES") if argument in step.arguments), "")
+    if step.name == "install" and step.arguments[:1] != (kind,):
         return
     renamed = "".join(step.after("RENAME", _KEYWORDS)[:1])
-    for word in step.after(kind, _KEYWORDS):
+    for argument in step.after(kind, _KEYWORDS):
         yield InstallRule(
-            _relative(word, step.folder, root),
+            _relative(argument, step.folder, root),
             destination,
             False,
             step.span,
             renamed=renamed,
             is_program=kind == "PROGRAMS",
-            is_optional="OPTIONAL" in step.words,
+            is_optional="OPTIONAL" in step.arguments,
             is_conditional=step.is_conditional,
         )
 
@@ -159,24 +159,24 @@ def _rules_of(step: Step, root: str) -> Iterator[InstallRule]:
 def _folders(
     sources: Sequence[str], destination: str, step: Step, root: str
 ) -> Iterator[InstallRule]:
-    matching, excluded = _patterns(step.words)
-    for word in sources:
+    matching, excluded = _patterns(step.arguments)
+    for argument in sources:
         yield InstallRule(
-            _relative(word, step.folder, root),
+            _relative(argument, step.folder, root),
             destination,
             True,
             step.span,
-            keeps_name=not word.endswith("/") and _relative(word, step.folder, root) != ".",
+            keeps_name=not argument.endswith("/") and _relative(argument, step.folder, root) != ".",
             matching=matching,
             excluded=excluded,
-            is_program="USE_SOURCE_PERMISSIONS" in step.words,
-            is_optional="OPTIONAL" in step.words,
+            is_program="USE_SOURCE_PERMISSIONS" in step.arguments,
+            is_optional="OPTIONAL" in step.arguments,
             is_conditional=step.is_conditional,
         )
 
 
 def _patterns(
-    words: Sequence[str],
+    arguments: Sequence[str],
 ) -> tuple[tuple[re.Pattern[str], ...], tuple[re.Pattern[str], ...]]:
     matching: list[re.Pattern[str]] = []
     excluded: list[re.Pattern[str]] = []
@@ -184,12 +184,12 @@ def _patterns(
         "PATTERN": _of_glob,
         "REGEX": _of_regex,
     }
-    for place, word in enumerate(words[:-1]):
-        made = makers[word](words[place + 1]) if word in makers else None
+    for index, argument in enumerate(arguments[:-1]):
+        made = makers[argument](arguments[index + 1]) if argument in makers else None
         if made is not None:
-            is_out = words[place + 2 : place + 3] == ("EXCLUDE",)
+            is_out = arguments[index + 2 : index + 3] == ("EXCLUDE",)
             (excluded if is_out else matching).append(made)
-    return (tuple(matching) if "FILES_MATCHING" in words else ()), tuple(excluded)
+    return (tuple(matching) if "FILES_MATCHING" in arguments else ()), tuple(excluded)
 
 
 def _of_glob(text: str) -> re.Pattern[str]:
@@ -204,9 +204,9 @@ def _of_regex(text: str) -> re.Pattern[str] | None:
         return None
 
 
-def _relative(word: str, folder: str, root: str) -> str:
+def _relative(argument: str, folder: str, root: str) -> str:
     """Return a source relative to the package, without a slash at its end."""
-    text = word.rstrip("/") or "."
+    text = argument.rstrip("/") or "."
     if text.startswith(root):
         return text[len(root) :].lstrip("/") or "."
     if text.startswith(("/", "${")):

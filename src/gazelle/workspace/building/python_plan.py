@@ -141,8 +141,8 @@ def _add_module(
                 plan.add(Item(f"{base}/{Path(name).as_posix()}", file), setup.span)
 
 
-def _report_no_module(module: str, place: Path, setup: SetupFile, plan: Plan) -> None:
-    text = f"module '{module}' is not there: '{place}' does not exist (error: package directory "
+def _report_no_module(module: str, path: Path, setup: SetupFile, plan: Plan) -> None:
+    text = f"module '{module}' is not there: '{path}' does not exist (error: package directory "
     text += "does not exist)"
     plan.diagnostics.report("package.module", text, setup.span)
 

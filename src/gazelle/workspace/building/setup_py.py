@@ -205,7 +205,7 @@ def cfg_arguments(folder: Path, find: Callable[..., Any]) -> dict[str, Any]:
             found[key] = find(where, exclude) if is_search else _lines(value)
         elif key == "package_dir":
             pairs = (line.partition("=") for line in _lines(value))
-            found[key] = {name.strip(): place.strip() for name, _, place in pairs}
+            found[key] = {name.strip(): folder.strip() for name, _, folder in pairs}
     for section, key in (("options.package_data", "package_data"),
                          ("options.entry_points", "entry_points")):  # fmt: skip
         if parser.has_section(section):
@@ -344,9 +344,9 @@ def _find_globs(found: SetupFile, node: ast.Call, evaluator: Evaluator, folder: 
             continue
         pattern = evaluator.value(item.args[0], evaluator.names)
         if isinstance(pattern, str) and evaluator.value(item, evaluator.names) == []:
-            place = item.args[0]
-            length = (place.end_col_offset or 0) - place.col_offset
-            span = SourceSpan(str(found.file), place.lineno, place.col_offset + 1, length)
+            argument = item.args[0]
+            length = (argument.end_col_offset or 0) - argument.col_offset
+            span = SourceSpan(str(found.file), argument.lineno, argument.col_offset + 1, length)
             found.empty_globs.append(EmptyGlob(pattern, span))
 
 

@@ -24,44 +24,44 @@ _SIGNS = {
 }
 
 
-def is_new(name: str, words: Iterable[str], *, in_use: Callable[[], bool]) -> bool:
+def is_new(name: str, argv: Iterable[str], *, in_use: Callable[[], bool]) -> bool:
     """Tell whether words behind ``gz NAME`` are the new Gazebo's and not Gazebo 11's.
 
     Args:
         name: the command.
-        words: those behind it.
+        argv: those behind it.
         in_use: tells whether the surroundings speak of the new Gazebo; asked where words are
             good for both.
     """
     if name not in _SIGNS:
         return name in NEW_COMMANDS
-    words = list(words)
-    if name == "model" and len(words) == 2 and words[0] in {"-m", "--model-name"}:
+    argv = list(argv)
+    if name == "model" and len(argv) == 2 and argv[0] in {"-m", "--model-name"}:
         # Gazebo 11 has nothing to do then.
         return True
     long, letters = _SIGNS[name]
     if any(
         word.partition("=")[0] in long or (word[:1] == "-" and word[1:2] and word[1] in letters)
-        for word in words
+        for word in argv
     ):
         return True
-    return _is_of_both(name, words) and in_use()
+    return _is_of_both(name, argv) and in_use()
 
 
-def _is_of_both(name: str, words: Sequence[str]) -> bool:
+def _is_of_both(name: str, argv: Sequence[str]) -> bool:
     """Tell whether both Gazebos have these words: none, ``--help``, or a model and ``--pose``."""
-    options = [word.partition("=")[0] for word in words if word.startswith("-")]
-    if not words or any(word in {"-h", "--help"} for word in options):
+    options = [word.partition("=")[0] for word in argv if word.startswith("-")]
+    if not argv or any(word in {"-h", "--help"} for word in options):
         return True
     return name == "model" and set(options) <= {"-m", "--pose", "-p"}
 
 
-def run(name: str, words: list[str]) -> int:
+def run(name: str, argv: list[str]) -> int:
     """Run a command; see `ended` for what it returns."""
     if name == "sim":
-        return ended(lambda: sim.run(words))
+        return ended(lambda: sim.run(argv))
     command, action = _COMMANDS[name]
-    given = _with_values(command, words) if words else ["--help"]
+    given = _with_values(command, argv) if argv else ["--help"]
     return ended(lambda: run_with_options(command, action, given))
 
 
@@ -73,13 +73,13 @@ def explain(name: str) -> None:
         say([help_text(_COMMANDS[name][0])])
 
 
-def _with_values(command: GzCommand, words: Iterable[str]) -> list[str]:
+def _with_values(command: GzCommand, argv: Iterable[str]) -> list[str]:
     """Give options whose value may be left out an empty one."""
     if command.name != "model":
-        return list(words)
+        return list(argv)
     spelled = {f"--{row.name}": row.name for row in command.options if row.name in model.OPTIONAL}
     spelled |= {f"-{row.letter}": row.name for row in command.options if row.name in model.OPTIONAL}
-    found, rest = [], list(words)
+    found, rest = [], list(argv)
     while rest:
         word = rest.pop(0)
         if word in spelled:

@@ -93,14 +93,14 @@ class SimStart:
     @property
     def server_words(self) -> list[str]:
         """The same in words of gzserver."""
-        words = [self.world] if self.world else []
-        words += [] if "-r" in self.flags else ["--pause"]
-        words += ["--verbose"] if self.level >= _LOUD else []
+        options = [self.world] if self.world else []
+        options += [] if "-r" in self.flags else ["--pause"]
+        options += ["--verbose"] if self.level >= _LOUD else []
         if "--iterations" in self.values:
-            words += ["--iters", str(self.values["--iterations"])]
+            options += ["--iters", str(self.values["--iterations"])]
         if "--seed" in self.values:
-            words += ["--seed", str(self.values["--seed"])]
-        return words
+            options += ["--seed", str(self.values["--seed"])]
+        return options
 
 
 def lets_world_go(world: str, gui_config: str, diagnostics: Diagnostics | None = None) -> bool:
@@ -134,7 +134,7 @@ def lets_world_go(world: str, gui_config: str, diagnostics: Diagnostics | None =
     return any(_starts(plugin) for gui in guis for plugin in _plugins(gui))
 
 
-def run(words: list[str]) -> int:
+def run(argv: list[str]) -> int:
     """Run a world in this process until Ctrl-C or the last iteration.
 
     Returns:
@@ -142,7 +142,7 @@ def run(words: list[str]) -> int:
     """
     from gazelle.cli import gzserver
 
-    start = read_sim(words)
+    start = read_sim(argv)
     if start.flags & {"-h", "--help"}:
         print(_HELP)
         return 0
@@ -162,13 +162,13 @@ def run(words: list[str]) -> int:
     return gzserver.main([*start.server_words, "--gz"])
 
 
-def read_sim(words: Iterable[str]) -> SimStart:
+def read_sim(argv: Iterable[str]) -> SimStart:
     """Read the words behind ``gz sim``.
 
     Raises:
         GzError: an option that is not Gazebo's, or a value that is none.
     """
-    start, rest = SimStart(), deque(_parted(words))
+    start, rest = SimStart(), deque(_parted(argv))
     while rest:
         word = rest.popleft()
         name, equals, value = word.partition("=")
@@ -219,9 +219,9 @@ def _is_let_go(start: SimStart) -> bool:
     return lets_go
 
 
-def _parted(words: Iterable[str]) -> Iterable[str]:
+def _parted(argv: Iterable[str]) -> Iterable[str]:
     """Letters may stand together: ``-sr``, ``-rv4``."""
-    for word in words:
+    for word in argv:
         found = _CLUSTER.fullmatch(word)
         if found:
             yield from (f"-{letter}" for letter in found["letters"])
@@ -258,9 +258,9 @@ def _next(rest: deque[str], name: str) -> str:
     return rest.popleft()
 
 
-def _idle(words: str) -> str:
-    why = _WHY.get(words.split(maxsplit=1)[0], "")
-    return f"{words} has no effect here" + (f": {why}" if why else "")
+def _idle(option: str) -> str:
+    why = _WHY.get(option.split(maxsplit=1)[0], "")
+    return f"{option} has no effect here" + (f": {why}" if why else "")
 
 
 def _found_world(word: str) -> str:

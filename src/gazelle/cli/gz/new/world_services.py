@@ -44,12 +44,12 @@ def _control(link: WorldLink, fields: Mapping[str, Any]) -> None:
     unknown = {"seed", "run_to_sim_time"} & fields.keys()
     if unknown:
         raise GzError(f"{', '.join(sorted(unknown))} of WorldControl is not here")
-    words = message_of("ros_gz_interfaces/msg/WorldControl", fields)
-    if words.reset.time_only:
+    control = message_of("ros_gz_interfaces/msg/WorldControl", fields)
+    if control.reset.time_only:
         raise GzError("time alone is not reset here; use reset: {all: true}")
-    if (words.step or words.multi_step) and not words.pause:
+    if (control.step or control.multi_step) and not control.pause:
         say(["gazelle: without pause: true the world runs on, in Gazebo too"])
-    link.call("control_world", "ros_gz_interfaces/ControlWorld", world_control=words)
+    link.call("control_world", "ros_gz_interfaces/ControlWorld", world_control=control)
 
 
 def _create(link: WorldLink, fields: Mapping[str, Any]) -> None:

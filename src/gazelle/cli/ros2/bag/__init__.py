@@ -11,7 +11,7 @@ from gazelle.cli.error_text import error_text
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError
 
-__all__ = ["main", "say"]
+__all__ = ["log_line", "main"]
 
 _PLUGINS = {
     "storage": (),
@@ -52,7 +52,7 @@ def main(argv: list[str]) -> int:
         return 1
 
 
-def say(logger: str, level: str, text: str) -> None:
+def log_line(logger: str, level: str, text: str) -> None:
     """Write a line; warnings and errors to stderr."""
     now_ns = time.time_ns()
     word = _WORDS.get(level, "INFO")

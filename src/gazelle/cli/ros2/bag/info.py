@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from gazelle.bag import BagReader, Summary, open_bag, wire_name_of
-from gazelle.bag.opening import tell_of_unindexed
+from gazelle.bag.opening import warn_of_unindexed
 
 __all__ = ["main"]
 
@@ -27,7 +27,7 @@ def main(argv: list[str]) -> int:
         return 0
     print(_text(bag))
     sys.stdout.flush()
-    tell_of_unindexed(bag)
+    warn_of_unindexed(bag)
     return 0
 
 

@@ -7,17 +7,17 @@ import re
 from functools import partial
 
 from gazelle.bag import Connection, bag_types, open_bag
-from gazelle.bag.opening import tell_of_unindexed
+from gazelle.bag.opening import warn_of_unindexed
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.playing.controls import keyboard
-from gazelle.cli.ros2.bag import say
+from gazelle.cli.ros2.bag import log_line
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.graph import Graph
 from gazelle.process_lifetime import at_stop_signal
 
 __all__ = ["main"]
 
-_say = partial(say, "rosbag2_player")
+_say = partial(log_line, "rosbag2_player")
 _FASTER, _SLOWER = 1.1, 0.9
 _KEYS = (
     "Adding keyboard callbacks.",
@@ -42,7 +42,7 @@ def _play(graph: Graph, options: argparse.Namespace, controls: Controls) -> int:
     node = graph.create_node("rosbag2_player", remappings=remaps)
     node.on_shutdown(lambda _reason: controls.stop())
     bag = open_bag(options.bag_path)
-    tell_of_unindexed(bag)
+    warn_of_unindexed(bag)
     learn_workspace_types()
     for name in bag_types(bag.connections).differing:
         text = f"{name} is defined differently on this machine; it is played as it is"

@@ -14,7 +14,7 @@ from gazelle.bag.formats import MCAP, ROS1, storage_names
 from gazelle.bag.playing.controls import keyboard
 from gazelle.bag.recording import Limits, Recorder, Selection
 from gazelle.bag.rosbag2 import Rosbag2Writer
-from gazelle.cli.ros2.bag import say
+from gazelle.cli.ros2.bag import log_line
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
@@ -22,7 +22,7 @@ from gazelle.process_lifetime import at_stop_signal
 
 __all__ = ["main"]
 
-_say = partial(say, "rosbag2_recorder")
+_say = partial(log_line, "rosbag2_recorder")
 
 
 def main(argv: list[str]) -> int:

@@ -7,7 +7,7 @@ import sys
 
 from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
-from gazelle.cli.tool import ToolError, joined
+from gazelle.cli.tool import ToolError, join_graph
 from gazelle.errors import GraphError
 from gazelle.nodes.controller_manager.client import ManagerClient
 from gazelle.ros_arguments import split_arguments
@@ -32,7 +32,7 @@ def main(argv: list[str]) -> int:
     modules = (list_verbs, state_verbs, view_controller_chains)
     module = next(one for one in modules if options.verb in one.__all__)
     try:
-        with joined() as graph:
+        with join_graph() as graph:
             node = graph.create_node("ros2control", anonymous=True, rosout=False)
             client = ManagerClient(node, options.controller_manager)
             others = options.controller_manager == _MANAGER

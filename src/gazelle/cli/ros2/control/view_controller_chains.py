@@ -44,8 +44,8 @@ def view_controller_chains(client: ManagerClient, options: argparse.Namespace) -
         print("graphviz is not installed, so it is no picture yet: dot -Tpdf draws one")
         return 0
     picture = source.with_suffix(".gv.pdf" if not options.save else ".pdf")
-    words = [dot, "-Tpdf", "-o", str(picture), str(source)]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=_RENDER_S, check=False)
+    command = [dot, "-Tpdf", "-o", str(picture), str(source)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=_RENDER_S, check=False)
     if done.returncode:
         raise ToolError(f"dot could not draw {source}: {done.stderr.strip()}")
     if options.save:

@@ -16,7 +16,7 @@ from gazelle.cli.ros2.topic.qos import (
     chosen_profile,
     warn_of_incompatible,
 )
-from gazelle.cli.ros2.verbs import add_strategy_arguments, positive_float, whole
+from gazelle.cli.ros2.verbs import add_strategy_arguments, non_negative_int, positive_float
 from gazelle.cli.ros_types import ros2_message_class, stated_message_class
 from gazelle.cli.rostopic.echo import expression
 from gazelle.cli.text.fields import FieldError, Step, field_value, parse_path
@@ -180,7 +180,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add(
         "--truncate-length",
         "-l",
-        type=whole,
+        type=non_negative_int,
         default=_LENGTH,
         help=f"The length to truncate arrays, bytes, and string to (default: {_LENGTH})",
     )

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from gazelle.cli.ros2.graph import cli_node, full_name, graph_of_ros2, types_by_name
 from gazelle.cli.ros2.topic.qos import add_qos_arguments, chosen_profile
-from gazelle.cli.ros2.verbs import add_direct_arguments, positive_float, whole
+from gazelle.cli.ros2.verbs import add_direct_arguments, non_negative_int, positive_float
 from gazelle.cli.ros_types import stated_message_class
 from gazelle.cli.text.fill_message import filled, yaml_values
 from gazelle.cli.text.ros2_text import message_repr
@@ -72,9 +72,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     group = parser.add_mutually_exclusive_group()
     group.add_argument("-1", "--once", action="store_true", help="Publish one message and exit")
     text = "Publish this number of times and then exit"
-    group.add_argument("-t", "--times", type=whole, default=0, help=text)
+    group.add_argument("-t", "--times", type=non_negative_int, default=0, help=text)
     text = "Wait until finding the specified number of matching subscriptions"
-    add("-w", "--wait-matching-subscriptions", type=whole, default=None, help=text)
+    add("-w", "--wait-matching-subscriptions", type=non_negative_int, default=None, help=text)
     text = "The maximum wait time in seconds for matching subscriptions"
     add("--max-wait-time-secs", type=positive_float, help=text)
     text = "Keep publishing node alive for N seconds after the last msg (default: 0.1)"
@@ -138,11 +138,11 @@ def _wait_for_subscriptions(job: _Job, wanted: int, limit_s: float | None) -> bo
     Raises:
         ToolError: time is up.
     """
-    looks, start_s = 0, time.monotonic()
+    attempts, start_s = 0, time.monotonic()
     while wanted and not _is_heard(job.publisher, wanted):
-        if looks % _TELL_EVERY == 0:
+        if attempts % _TELL_EVERY == 0:
             print(f"Waiting for at least {wanted} matching subscription(s)...", flush=True)
-        looks += 1
+        attempts += 1
         if limit_s is not None and time.monotonic() - start_s >= limit_s:
             raise ToolError(
                 f"Timed out waiting for subscribers: Expected {wanted} subcribers but only got "
