@@ -43,7 +43,7 @@ from gazelle.geometry.pose import (
     unit_quat_xyzw,
     yaw_from_quat_xyzw,
 )
-from gazelle.geometry.primitive_inertia import (
+from gazelle.geometry.shape_inertia import (
     box_mass_properties,
     capsule_mass_properties,
     cone_mass_properties,
@@ -58,7 +58,7 @@ from gazelle.geometry.primitive_inertia import (
     sphere_mass_properties,
     spherical_shell_mass_properties,
 )
-from gazelle.geometry.primitive_meshes import (
+from gazelle.geometry.shape_meshes import (
     box_mesh,
     capsule_mesh,
     cone_mesh,

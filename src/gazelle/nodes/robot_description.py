@@ -12,7 +12,7 @@ from gazelle.description.model import Joint, JointType, Model
 from gazelle.description.read_context import ReadContext
 from gazelle.description.robot_description import place_of_text, read_text
 from gazelle.description.sdf_reader import read_sdf
-from gazelle.description.sdf_reader.robot_frames import with_links_at_joints
+from gazelle.description.sdf_reader.sdformat_urdf import with_links_at_joints
 from gazelle.description.urdf_reader import read_urdf
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics

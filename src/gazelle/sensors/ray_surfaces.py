@@ -186,7 +186,7 @@ def _file_surface(
 
 
 def _made_part(shape: Heightmap | Polyline, diagnostics: Diagnostics) -> MeshPart | None:
-    from gazelle.geometry.primitive_meshes import heightmap_mesh, polyline_mesh
+    from gazelle.geometry.shape_meshes import heightmap_mesh, polyline_mesh
 
     try:
         if isinstance(shape, Polyline):

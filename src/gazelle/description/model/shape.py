@@ -15,7 +15,7 @@ from typing import Any, ClassVar, NamedTuple
 from gazelle.diagnostics import SourceSpan
 from gazelle.geometry.mass_properties import MassProperties
 from gazelle.geometry.mesh import MeshPart
-from gazelle.geometry.primitive_inertia import (
+from gazelle.geometry.shape_inertia import (
     box_mass_properties,
     capsule_mass_properties,
     cone_mass_properties,
@@ -23,7 +23,7 @@ from gazelle.geometry.primitive_inertia import (
     ellipsoid_mass_properties,
     sphere_mass_properties,
 )
-from gazelle.geometry.primitive_meshes import (
+from gazelle.geometry.shape_meshes import (
     box_mesh,
     capsule_mesh,
     cone_mesh,

@@ -12,7 +12,7 @@ from typing import Any
 from xml.parsers.expat import ExpatError
 
 from gazelle.description.xacro.error_explanations import Finding
-from gazelle.description.xacro.error_reports import (
+from gazelle.description.xacro.failure_reports import (
     found_failure,
     repaired,
     report_failure,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.errors import GazelleError
 from gazelle.geometry import Mesh, MeshMaterial, MeshPart, load_mesh
-from gazelle.geometry.primitive_meshes import heightmap_mesh, polyline_mesh
+from gazelle.geometry.shape_meshes import heightmap_mesh, polyline_mesh
 from gazelle.sensors.scene_json_types import (
     BodyValue,
     Floats3,

@@ -13,7 +13,7 @@ from gazelle.description.sdformat_emulation.parser_urdf.cpp_numbers import (
     exact_text,
 )
 from gazelle.description.sdformat_emulation.parser_urdf.elements import copied, set_value
-from gazelle.description.sdformat_emulation.parser_urdf.extensions import (
+from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import (
     Extension,
     Extensions,
     read_extensions,

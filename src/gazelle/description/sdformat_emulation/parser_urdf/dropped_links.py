@@ -13,7 +13,7 @@ from gazelle.description.sdformat_emulation.parser_urdf.conversion import (
     visits,
 )
 from gazelle.description.sdformat_emulation.parser_urdf.cpp_numbers import NumberCrashError
-from gazelle.description.sdformat_emulation.parser_urdf.extensions import (
+from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import (
     Extensions,
     read_extensions,
 )

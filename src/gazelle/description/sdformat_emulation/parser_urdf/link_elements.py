@@ -14,7 +14,7 @@ from gazelle.description.sdformat_emulation.parser_urdf.elements import (
     remove,
     set_value,
 )
-from gazelle.description.sdformat_emulation.parser_urdf.extensions import Extension, Extensions
+from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import Extension, Extensions
 from gazelle.description.sdformat_emulation.parser_urdf.robot import Inertial, Link, Part
 from gazelle.description.sdformat_emulation.release import Release
 from gazelle.description.urdfdom_emulation.values import Origin, rpy_from_quaternion

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from gazelle.description.sdformat_emulation.element import SdfElement
 from gazelle.description.sdformat_emulation.ignition_math import chained
 from gazelle.description.sdformat_emulation.parser_urdf.console import Console
-from gazelle.description.sdformat_emulation.parser_urdf.extensions import (
+from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import (
     Blob,
     Extension,
     Extensions,

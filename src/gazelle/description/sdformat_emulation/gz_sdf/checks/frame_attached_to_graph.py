@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.description.sdformat_emulation.gz_sdf.checks.entities import (
+from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
     Frame,
     ModelScope,
     WorldScope,

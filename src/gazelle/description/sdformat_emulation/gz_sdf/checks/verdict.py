@@ -9,7 +9,7 @@ from gazelle.description.sdformat_emulation.gz_sdf.checks.element_checks import 
     check_light,
     check_unique,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.entities import (
+from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
     Joint,
     Loader,
     ModelScope,
