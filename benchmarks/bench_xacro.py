@@ -48,7 +48,7 @@ def _row(file: Path) -> None:
     mine, other = _best(lambda: _expanded(file), lambda: _library(file))
     keep, find = _best(lambda: remember(expanded), lambda: source_map_of(expanded.text))
     times = f"{mine:>9.1f}{other:>9.1f}{mine / other:>7.2f}{keep:>7.1f}{find:>7.1f}"
-    print(f"{file.name:<24}{len(expanded.places):>9}{times}")
+    print(f"{file.name:<24}{len(expanded.spans):>9}{times}")
 
 
 def _expanded(file: Path) -> Expanded:

@@ -55,14 +55,14 @@ def expanded(tmp_path: Path, cache: Path) -> Expanded:
 
 def _places(found: SourceMap | None) -> list[str]:
     assert found is not None
-    return [_short(place) for place in found.places]
+    return [_short(span) for span in found.spans]
 
 
-def _short(place: SourceSpan | None) -> str:
-    if place is None:
+def _short(span: SourceSpan | None) -> str:
+    if span is None:
         return "-"
-    way = "".join(f" from {call.line}" for call in place.via)
-    return f"{Path(place.file).stem}:{place.line}{way}"
+    way = "".join(f" from {call.line}" for call in span.via)
+    return f"{Path(span.file).stem}:{span.line}{way}"
 
 
 ALL = [
@@ -78,7 +78,7 @@ def test_text_leads_back_to_the_xacro_lines(expanded: Expanded) -> None:
     found = source_map_of(expanded.text)
     assert _places(found) == ALL
     assert found is not None
-    assert found.places == expanded.places
+    assert found.spans == expanded.spans
 
 
 def test_other_layout_and_lost_comments_change_nothing(expanded: Expanded) -> None:

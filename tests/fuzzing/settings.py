@@ -165,10 +165,10 @@ def _heron() -> tuple[Model, Srdf]:
 
 
 def _moveit(above: str, path: Path, diagnostics: Diagnostics, _workspace: Workspace) -> None:
-    values, places = read_yaml(path, diagnostics, {})
+    values, spans = read_yaml(path, diagnostics, {})
     tree = {above: values} if above else values
-    inside = {((above, *key) if above else key): span for key, span in places.items()}
-    settings = MoveItSettings(tree, diagnostics, places=inside)
+    inside = {((above, *key) if above else key): span for key, span in spans.items()}
+    settings = MoveItSettings(tree, diagnostics, spans=inside)
     typed_config(settings, "robot_description", *_heron())
 
 

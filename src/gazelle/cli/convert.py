@@ -18,7 +18,7 @@ from gazelle.description.loader import load_world
 from gazelle.description.model import Model, World
 from gazelle.description.sdformat_emulation import Release
 from gazelle.description.sdformat_emulation.element import SdfElement
-from gazelle.description.writers import Beside, Converted, to_sdf, to_urdf
+from gazelle.description.writers import Converted, OutputFiles, to_sdf, to_urdf
 from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan, nearest_names, render
@@ -75,7 +75,7 @@ def main(argv: list[str]) -> int:
     target = _target(options, parser)
     diagnostics = Diagnostics()
     workspace = Workspace.discover()
-    beside = Beside(
+    output_files = OutputFiles(
         target.folder, target.stem, workspace, options.package, relative=target.format != "urdf"
     )
     path = _located(options.source, workspace)
@@ -86,8 +86,10 @@ def main(argv: list[str]) -> int:
         converted = _as_sdformat(path, release, workspace, diagnostics, mappings)
         what = f"SDF as sdformat {release.value} makes it"
     else:
-        world = _read_source_world(options.source, path, workspace, diagnostics, mappings, beside)
-        converted, what = _convert(world, target.format, options, diagnostics, beside)
+        world = _read_source_world(
+            options.source, path, workspace, diagnostics, mappings, output_files
+        )
+        converted, what = _convert(world, target.format, options, diagnostics, output_files)
     _check_free(target, converted, force=options.force)
     _write(target, converted)
     render(diagnostics)
@@ -125,7 +127,7 @@ def _read_source_world(
     workspace: Workspace,
     diagnostics: Diagnostics,
     mappings: Mapping[str, str],
-    beside: Beside,
+    output_files: OutputFiles,
 ) -> World:
     """Read a source.
 
@@ -135,7 +137,7 @@ def _read_source_world(
         workspace: finds packages, models and meshes.
         diagnostics: receives every finding.
         mappings: values of ``<xacro:arg>``.
-        beside: takes meshes that only MuJoCo can read.
+        output_files: takes meshes that only MuJoCo can read.
 
     Raises:
         UserFileError: there is nothing to convert; holds all findings.
@@ -143,7 +145,7 @@ def _read_source_world(
     if path is not None and _is_source_mjcf(path):
         from gazelle.engine.mjcf import read_mjcf
 
-        world = read_mjcf(path, diagnostics=diagnostics, beside=beside)
+        world = read_mjcf(path, diagnostics=diagnostics, output_files=output_files)
         if world is None:
             raise UserFileError(tuple(diagnostics))
         return world
@@ -320,11 +322,11 @@ def _convert(
     format_: str,
     options: argparse.Namespace,
     diagnostics: Diagnostics,
-    beside: Beside,
+    output_files: OutputFiles,
 ) -> tuple[Converted, str]:
     if format_ == "urdf":
         model = _chosen_model(world, options.model, diagnostics)
-        text = to_urdf(model, diagnostics=diagnostics, beside=beside)
+        text = to_urdf(model, diagnostics=diagnostics, output_files=output_files)
         return text, f"URDF of '{model.name}', {_counts(model)}"
     if options.model:
         world = World(
@@ -338,10 +340,12 @@ def _convert(
     if format_ == "mjcf":
         from gazelle.engine.mjcf import to_mjcf
 
-        return to_mjcf(world, diagnostics=diagnostics, beside=beside), f"MJCF of {shown}"
+        return to_mjcf(
+            world, diagnostics=diagnostics, output_files=output_files
+        ), f"MJCF of {shown}"
     release = Release(int(options.sdformat))
     source = world.models[0] if len(world.models) == 1 else world
-    text = to_sdf(source, diagnostics=diagnostics, beside=beside, release=release)
+    text = to_sdf(source, diagnostics=diagnostics, output_files=output_files, release=release)
     return text, f"SDF {'.'.join(map(str, release.spec))} of {shown}"
 
 

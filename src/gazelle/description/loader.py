@@ -11,7 +11,7 @@ from typing import TypeVar
 from gazelle.description.downgraded_errors import lenient_document, lenient_robot
 from gazelle.description.model import Model, World
 from gazelle.description.read_context import ReadContext
-from gazelle.description.robot_description import TEXT_NAME, place_of_text, read_text
+from gazelle.description.robot_description import TEXT_NAME, file_of_text, read_text
 from gazelle.description.sdf_reader import SdfDocument, read_model_file, read_sdf, read_world_file
 from gazelle.description.source_maps import placed
 from gazelle.description.urdf_reader import read_urdf
@@ -123,8 +123,8 @@ def _pass_on(found: Diagnostics, diagnostics: Diagnostics) -> None:
 def _world_of_text(
     text: str, workspace: Workspace | None, diagnostics: Diagnostics
 ) -> World | None:
-    place = place_of_text(text)
-    context = ReadContext(workspace, diagnostics, place, None)
+    span = file_of_text(text)
+    context = ReadContext(workspace, diagnostics, span, None)
     root = read_text(text, diagnostics)
     if root is None:
         return None
@@ -169,9 +169,9 @@ def _peek(path: Path) -> str:
 def _models_of_text(
     text: str, workspace: Workspace | None, diagnostics: Diagnostics, *, inserts: bool = True
 ) -> tuple[Model, ...]:
-    place = place_of_text(text)
+    span = file_of_text(text)
     root = read_text(text, diagnostics)
-    context = ReadContext(workspace, diagnostics, place, None, inserts=inserts)
+    context = ReadContext(workspace, diagnostics, span, None, inserts=inserts)
     return () if root is None else _models_of_root(root, context)
 
 

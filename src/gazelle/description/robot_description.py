@@ -13,14 +13,14 @@ from gazelle.description.source_maps import placed
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
 
-__all__ = ["TEXT_FILES_VARIABLE", "TEXT_NAME", "copy_name", "place_of_text", "read_text"]
+__all__ = ["TEXT_FILES_VARIABLE", "TEXT_NAME", "copy_name", "file_of_text", "read_text"]
 
 TEXT_NAME = "<robot_description>"
 TEXT_FILES_VARIABLE = "GAZELLE_TEXT_FILES"
 _COPY_SUFFIX = ".text.xml"
 
 
-def place_of_text(text: str, environ: Mapping[str, str] | None = None) -> str:
+def file_of_text(text: str, environ: Mapping[str, str] | None = None) -> str:
     """Return the file that holds exactly this text, or `TEXT_NAME`.
 
     A launcher lists the files whose text it put into parameters in ``GAZELLE_TEXT_FILES``; the
@@ -51,8 +51,8 @@ def read_text(text: str, diagnostics: Diagnostics) -> Tag | None:
     Returns:
         The outermost element; None (and an error reported) when it is not well-formed.
     """
-    place = place_of_text(text)
-    root = parse_xml(text, place, diagnostics)
+    span = file_of_text(text)
+    root = parse_xml(text, span, diagnostics)
     if root is None:
         return None
     return placed(root)

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from zlib import crc32
 
-from gazelle.description.xml import Tag, parse_xml, with_places
+from gazelle.description.xml import Tag, parse_xml, with_spans
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.user_folders import cache_folder
 
@@ -49,11 +49,11 @@ class SourceMap:
 
     Attributes:
         keys: `keys_of` the text's elements in document order.
-        places: where each was written, None where that is not known any more.
+        spans: where each was written, None where that is not known any more.
     """
 
     keys: tuple[int, ...]
-    places: tuple[SourceSpan | None, ...]
+    spans: tuple[SourceSpan | None, ...]
 
 
 def keys_of(root: Tag) -> tuple[int, ...]:
@@ -117,7 +117,7 @@ def source_map_of(text: str | Tag) -> SourceMap | None:
 def placed(root: Tag) -> Tag:
     """Return a tree with the places of the xacro files, where they are known."""
     found = source_map_of(root)
-    return root if found is None else with_places(root, found.places)
+    return root if found is None else with_spans(root, found.spans)
 
 
 def remember(expanded: Expanded) -> None:
@@ -126,11 +126,11 @@ def remember(expanded: Expanded) -> None:
     Args:
         expanded: what xacro made.
     """
-    if len(expanded.places) > _MAX_ELEMENTS:
+    if len(expanded.spans) > _MAX_ELEMENTS:
         return
     root = parse_xml(expanded.text, expanded.file, Diagnostics())
     if root is not None:
-        save_map(SourceMap(keys_of(root), expanded.places))
+        save_map(SourceMap(keys_of(root), expanded.spans))
 
 
 def _key(tag: Tag) -> int:
@@ -146,17 +146,17 @@ def _folder() -> Path:
 def _packed(source_map: SourceMap) -> dict[str, Any]:
     """Return a map as numbers that point into tables of files, places and ways there."""
     files: dict[str, int] = {}
-    places: dict[tuple[int, ...], int] = {}
+    spans: dict[tuple[int, ...], int] = {}
     ways: dict[tuple[int, ...], int] = {}
 
     def place_number(span: SourceSpan) -> int:
         # The folder a later process runs in is another one.
         file = files.setdefault(os.path.abspath(span.file), len(files))  # noqa: PTH100
         key = (file, span.line, span.column, span.length)
-        return places.setdefault(key, len(places))
+        return spans.setdefault(key, len(spans))
 
     elements: list[tuple[int, int]] = []
-    for span in source_map.places:
+    for span in source_map.spans:
         if span is None:
             elements.append((-1, -1))
             continue
@@ -164,7 +164,7 @@ def _packed(source_map: SourceMap) -> dict[str, Any]:
         elements.append((place_number(span), ways.setdefault(way, len(ways))))
     return {
         "files": [[name, *_state(name)] for name in files],
-        "places": list(places),
+        "places": list(spans),
         "ways": list(ways),
         "keys": source_map.keys,
         "elements": elements,
@@ -173,17 +173,17 @@ def _packed(source_map: SourceMap) -> dict[str, Any]:
 
 def _unpacked(data: dict[str, Any]) -> SourceMap:
     names = [name if [size, time] == _state(name) else "" for name, size, time in data["files"]]
-    spans = [
+    table = [
         SourceSpan(names[file], line, column, length)
         for file, line, column, length in data["places"]
     ]
-    ways = [tuple(spans[index] for index in way if spans[index].file) for way in data["ways"]]
-    places: list[SourceSpan | None] = []
+    ways = [tuple(table[index] for index in way if table[index].file) for way in data["ways"]]
+    spans: list[SourceSpan | None] = []
     for place, way in data["elements"]:
-        span = spans[place] if place >= 0 else None
+        span = table[place] if place >= 0 else None
         known = span is not None and span.file
-        places.append(_with_way(span, ways[way]) if span is not None and known else None)
-    return SourceMap(tuple(data["keys"]), tuple(places))
+        spans.append(_with_way(span, ways[way]) if span is not None and known else None)
+    return SourceMap(tuple(data["keys"]), tuple(spans))
 
 
 def _with_way(span: SourceSpan, way: tuple[SourceSpan, ...]) -> SourceSpan:

@@ -21,19 +21,19 @@ class CommandResult(NamedTuple):
     """What became of a command.
 
     Attributes:
-        words: program and arguments.
+        argv: program and arguments.
         returncode: its exit code, negative for a signal.
         stdout, stderr: what it printed; what is no UTF-8 is replaced.
     """
 
-    words: tuple[str, ...]
+    argv: tuple[str, ...]
     returncode: int
     stdout: str
     stderr: str
 
 
 def run_limited(
-    words: Sequence[str],
+    argv: Sequence[str],
     *,
     env: Mapping[str, str] | None = None,
     joined: bool = False,
@@ -41,7 +41,7 @@ def run_limited(
     """Run a command to its end.
 
     Args:
-        words: program and arguments.
+        argv: program and arguments.
         env: its environment, this process' when None.
         joined: what it says on standard error is among what it says on standard output.
 
@@ -51,7 +51,7 @@ def run_limited(
     """
     most = scaled(TEXT_BYTES)
     errors = subprocess.STDOUT if joined else subprocess.PIPE
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=errors, env=env) as process:
+    with subprocess.Popen(argv, stdout=subprocess.PIPE, stderr=errors, env=env) as process:
         kept: dict[str, bytes] = {}
         too_much = threading.Event()
 
@@ -81,9 +81,9 @@ def run_limited(
             process.kill()
             raise
     if too_much.is_set():
-        shown = shlex.join(words)
+        shown = shlex.join(argv)
         shown = shown if len(shown) <= _SHOWN else f"{shown[:_SHOWN]}…"
         text = f"'{shown}' prints more than {most / _MEBIBYTE:g} MiB and was ended"
         raise LimitError(f"{text} ({HOW_TO_RAISE})")
     texts = (kept.get(name, b"").decode("utf-8", "replace") for name in ("out", "err"))
-    return CommandResult(tuple(words), process.returncode, *texts)
+    return CommandResult(tuple(argv), process.returncode, *texts)

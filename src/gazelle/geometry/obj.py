@@ -34,15 +34,15 @@ def read_mtl(text: str, file: Path) -> tuple[dict[str, MeshMaterial], tuple[Mesh
     notes: list[MeshNote] = []
     current = ""
     for number, line in enumerate(text.splitlines(), start=1):
-        words = line.split()
-        if not words or words[0].startswith("#"):
+        tokens = line.split()
+        if not tokens or tokens[0].startswith("#"):
             continue
-        if words[0] == "newmtl":
-            current = " ".join(words[1:])
+        if tokens[0] == "newmtl":
+            current = " ".join(tokens[1:])
             materials[current] = MeshMaterial(current)
         elif current:
             try:
-                materials[current] = _with(materials[current], words, file, notes)
+                materials[current] = _with(materials[current], tokens, file, notes)
             except (ValueError, IndexError):
                 text_ = f"'{file.name}' line {number}: '{line.strip()}' cannot be understood"
                 notes.append(MeshNote("mesh.incomplete", text_))
@@ -60,37 +60,37 @@ def read_obj(data: bytes, file: Path) -> Mesh:
     """
     reader = _Reader(file)
     for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), start=1):
-        words = line.split()
-        if words and not words[0].startswith("#"):
-            reader.line(number, words)
+        tokens = line.split()
+        if tokens and not tokens[0].startswith("#"):
+            reader.line(number, tokens)
     return reader.mesh()
 
 
 def _with(
-    material: MeshMaterial, words: list[str], file: Path, notes: list[MeshNote]
+    material: MeshMaterial, tokens: list[str], file: Path, notes: list[MeshNote]
 ) -> MeshMaterial:
-    key = words[0].lower()
+    key = tokens[0].lower()
     if key == "ka":
-        return replace(material, ambient=(*_rgb(words), 1.0))
+        return replace(material, ambient=(*_rgb(tokens), 1.0))
     if key == "kd":
-        return replace(material, diffuse=(*_rgb(words), material.diffuse[3]))
+        return replace(material, diffuse=(*_rgb(tokens), material.diffuse[3]))
     if key == "ks":
-        return replace(material, specular=(*_rgb(words), 1.0))
+        return replace(material, specular=(*_rgb(tokens), 1.0))
     if key == "ke":
-        return replace(material, emissive=(*_rgb(words), 1.0))
+        return replace(material, emissive=(*_rgb(tokens), 1.0))
     if key in {"d", "tr"}:
-        value = float(words[-1])
+        value = float(tokens[-1])
         opacity = value if key == "d" else 1.0 - value
         return replace(material, diffuse=(*material.diffuse[:3], opacity))
     if key == "ns":
-        return replace(material, shininess=float(words[1]))
+        return replace(material, shininess=float(tokens[1]))
     if key == "map_kd":
-        return _textured(material, words[-1], file, notes)
+        return _textured(material, tokens[-1], file, notes)
     return material
 
 
-def _rgb(words: list[str]) -> tuple[float, float, float]:
-    return (float(words[1]), float(words[2]), float(words[3]))
+def _rgb(tokens: list[str]) -> tuple[float, float, float]:
+    return (float(tokens[1]), float(tokens[2]), float(tokens[3]))
 
 
 def _textured(material: MeshMaterial, name: str, file: Path, notes: list[MeshNote]) -> MeshMaterial:
@@ -125,27 +125,27 @@ class _Reader:
         self._materials: dict[str, MeshMaterial] = {}
         self._notes: dict[MeshNote, None] = {}
 
-    def line(self, number: int, words: list[str]) -> None:
-        key = words[0]
+    def line(self, number: int, tokens: list[str]) -> None:
+        key = tokens[0]
         try:
             if key in self._tables:
-                self._tables[key].append(_numbers(words))
+                self._tables[key].append(_numbers(tokens))
             elif key == "f":
-                self._face(words[1:])
+                self._face(tokens[1:])
             elif key in {"o", "g"}:
-                self._name = " ".join(words[1:])
+                self._name = " ".join(tokens[1:])
             elif key == "usemtl":
-                self._material = " ".join(words[1:])
+                self._material = " ".join(tokens[1:])
             elif key == "mtllib":
-                self._library(" ".join(words[1:]))
+                self._library(" ".join(tokens[1:]))
             elif key not in _IGNORED:
                 text = f"'{key}' is not supported and has no effect (line {number})"
                 self._notes.setdefault(MeshNote("mesh.incomplete", text))
         except (ValueError, IndexError) as error:
-            raise MeshError(self._file, f"line {number}: '{' '.join(words)}': {error}") from error
+            raise MeshError(self._file, f"line {number}: '{' '.join(tokens)}': {error}") from error
 
-    def _face(self, words: list[str]) -> None:
-        corners = [self._corner(word) for word in words]
+    def _face(self, tokens: list[str]) -> None:
+        corners = [self._corner(token) for token in tokens]
         if len(corners) < 3:
             raise ValueError("a face needs at least three corners")
         group = self._groups.setdefault(
@@ -154,8 +154,8 @@ class _Reader:
         for index in range(1, len(corners) - 1):
             group.corners += (corners[0], corners[index], corners[index + 1])
 
-    def _corner(self, word: str) -> Corner:
-        parts = word.split("/")
+    def _corner(self, token: str) -> Corner:
+        parts = token.split("/")
         tables = (self._tables["v"], self._tables["vt"], self._tables["vn"])
         found = [-1, -1, -1]
         for slot, (part, table) in enumerate(zip(parts, tables, strict=False)):
@@ -217,9 +217,9 @@ class _Reader:
         return None if (lengths < 1e-9).any() else normals / lengths
 
 
-def _numbers(words: list[str]) -> list[float]:
-    numbers = [float(word) for word in words[1:4]]
-    if words[0] == "vt":
+def _numbers(tokens: list[str]) -> list[float]:
+    numbers = [float(token) for token in tokens[1:4]]
+    if tokens[0] == "vt":
         return [*numbers, 0.0][:2] if numbers else [0.0, 0.0]
     if len(numbers) < 3:
         raise ValueError("three numbers are needed")

@@ -89,11 +89,11 @@ def _corners_ascii(data: bytes, file: Path) -> tuple[NDArray[np.float64], tuple[
             file,
             f"truncated ASCII STL: 'endsolid' is missing after {len(lines) // 3} triangles",
         )
-    words = [word for line in lines for word in line.split()[1:4]]
+    tokens = [token for line in lines for token in line.split()[1:4]]
     try:
-        if len(words) != 3 * len(lines):
+        if len(tokens) != 3 * len(lines):
             raise ValueError("a vertex line has fewer than three numbers")
-        values = np.array(words, dtype="S").astype(np.float64)
+        values = np.array(tokens, dtype="S").astype(np.float64)
     except ValueError as error:
         raise MeshError(file, f"{_first_bad_line(data)}: {error}") from error
     return values.reshape(-1, 3, 3), ()
@@ -101,14 +101,14 @@ def _corners_ascii(data: bytes, file: Path) -> tuple[NDArray[np.float64], tuple[
 
 def _first_bad_line(data: bytes) -> str:
     for number, line in enumerate(data.splitlines(), start=1):
-        words = line.split()
-        if words[:1] and words[0].lower() == b"vertex" and not _are_numbers(words[1:4]):
+        tokens = line.split()
+        if tokens[:1] and tokens[0].lower() == b"vertex" and not _are_numbers(tokens[1:4]):
             return f"line {number}: '{line.strip().decode('ascii', 'replace')}'"
     return "a vertex"
 
 
-def _are_numbers(words: list[bytes]) -> bool:
+def _are_numbers(tokens: list[bytes]) -> bool:
     try:
-        return len([float(word) for word in words]) == 3
+        return len([float(token) for token in tokens]) == 3
     except ValueError:
         return False

@@ -15,7 +15,7 @@ from gazelle.description.robot_description import (
     TEXT_FILES_VARIABLE,
     TEXT_NAME,
     copy_name,
-    place_of_text,
+    file_of_text,
 )
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.documents.yaml import dump_yaml
@@ -300,7 +300,7 @@ def _text_files(config: LaunchConfig, log_folder: Path) -> list[str]:
     for name, value in config.params.items():
         if not isinstance(value, str) or not value.lstrip().startswith("<"):
             continue
-        if place_of_text(value, {TEXT_FILES_VARIABLE: os.pathsep.join(files)}) == TEXT_NAME:
+        if file_of_text(value, {TEXT_FILES_VARIABLE: os.pathsep.join(files)}) == TEXT_NAME:
             path = log_folder / copy_name(name)
             path.write_text(value, encoding="utf-8")
             files.append(str(path))

@@ -10,7 +10,7 @@ from typing import Any
 
 from gazelle.description.model import Joint, JointType, Model
 from gazelle.description.read_context import ReadContext
-from gazelle.description.robot_description import place_of_text, read_text
+from gazelle.description.robot_description import file_of_text, read_text
 from gazelle.description.sdf_reader import read_sdf
 from gazelle.description.sdf_reader.sdformat_urdf import with_links_at_joints
 from gazelle.description.urdf_reader import read_urdf
@@ -78,7 +78,7 @@ def read_description(text: str) -> Model:
             loads the robot into a world reports all of them with their places.
     """
     diagnostics = Diagnostics()
-    context = ReadContext(None, diagnostics, place_of_text(text), None, inserts=False)
+    context = ReadContext(None, diagnostics, file_of_text(text), None, inserts=False)
     root = read_text(text, diagnostics)
     if root is not None and root.name == "sdf":
         model = _sdf_robot(root, context)

@@ -6,7 +6,7 @@ import pytest
 from tests.description.checks.pain import FIXTURES, finding, place
 
 from gazelle.description.checks.shape_volumes import Outlines
-from gazelle.description.checks.support_plane import stance_of
+from gazelle.description.checks.support_plane import support_plane_of
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, Severity
@@ -20,21 +20,21 @@ def _model(name: str) -> Model:
 def test_rover_rests_on_two_wheels_and_its_caster() -> None:
     model = _model("pain_15_contact/clean/rover.urdf")
     outlines = Outlines(model)
-    stance = stance_of(model, outlines)
-    assert stance is not None
+    plane = support_plane_of(model, outlines)
+    assert plane is not None
     gaps = {
-        item.link.name: gap for item, gap in zip(outlines.collisions, stance.gaps_m, strict=True)
+        item.link.name: gap for item, gap in zip(outlines.collisions, plane.gaps_m, strict=True)
     }
     assert gaps["left_wheel"] == pytest.approx(0.0, abs=1e-3)
     assert gaps["right_wheel"] == pytest.approx(0.0, abs=1e-3)
     assert gaps["caster"] == pytest.approx(0.0, abs=1e-3)
     # The chassis' underside is 4 cm above the ground.
     assert gaps["base_link"] == pytest.approx(0.04, abs=2e-3)
-    assert stance.tilt_deg < 1.0
+    assert plane.tilt_deg < 1.0
 
 
 def test_model_without_mass_has_no_stance() -> None:
-    assert stance_of(Model("ghost"), Outlines(Model("ghost"))) is None
+    assert support_plane_of(Model("ghost"), Outlines(Model("ghost"))) is None
 
 
 def test_low_chassis_lifts_the_wheels() -> None:

@@ -26,7 +26,7 @@ from gazelle.description.model import (
 from gazelle.description.read_context import ReadContext
 from gazelle.description.sdf_reader.shapes import read_shape
 from gazelle.description.writers.geometry_elements import add_sdf_geometry
-from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.output_files import OutputFiles
 from gazelle.description.writers.xml_markup import Markup
 from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
@@ -73,7 +73,7 @@ def test_a_solid_that_is_written_as_sdf_is_read_again(kind: type[Solid], tmp_pat
         for row in kind.lengths()
     )
     visual = Markup("visual")
-    add_sdf_geometry(visual, kind.of_lengths(lengths), Beside())
+    add_sdf_geometry(visual, kind.of_lengths(lengths), OutputFiles())
     owner = parse_xml(visual.to_text(), "a.sdf", diagnostics)
     assert owner is not None
     assert read_shape(owner.find("geometry"), context, owner=owner) == kind.of_lengths(lengths)

@@ -12,7 +12,7 @@ from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.forward_kinematics import posed_model
 from gazelle.description.sdformat_emulation import Release
-from gazelle.description.writers import Beside, to_urdf
+from gazelle.description.writers import OutputFiles, to_urdf
 from gazelle.description.writers.single_axis_joints import CARRIER_SHARE
 from gazelle.diagnostics import Diagnostics
 
@@ -53,7 +53,7 @@ def convert(reading, tmp_path):
     def run(text: str):
         model = reading.model(text)
         found = Diagnostics()
-        converted = to_urdf(model, diagnostics=found, beside=Beside(tmp_path, "robot"))
+        converted = to_urdf(model, diagnostics=found, output_files=OutputFiles(tmp_path, "robot"))
         for name, data in converted.files.items():
             (tmp_path / name).parent.mkdir(exist_ok=True)
             (tmp_path / name).write_bytes(data)
@@ -422,7 +422,9 @@ def test_meshes_are_named_by_package_where_they_lie_in_one(tmp_path, reading) ->
 
     def address(**words) -> tuple[str, Diagnostics]:
         found = Diagnostics()
-        text = to_urdf(model, diagnostics=found, beside=Beside(tmp_path, "r", **words)).text
+        text = to_urdf(
+            model, diagnostics=found, output_files=OutputFiles(tmp_path, "r", **words)
+        ).text
         return text.split('filename="')[1].split('"')[0], found
 
     assert address(workspace=workspace)[0] == "package://bot/meshes/m.stl"

@@ -71,11 +71,11 @@ Fail = Callable[..., Diagnostic]
     ],
 )
 def test_failures_are_explained_at_their_place(
-    text: str, code: str, words: str, place: tuple[int, int, int], fail: Fail
+    text: str, code: str, words: str, span: tuple[int, int, int], fail: Fail
 ) -> None:
     error = fail(text)
     assert words in error.message
-    assert (error.code, error.span) == (code, SourceSpan("one.xacro", *place))
+    assert (error.code, error.span) == (code, SourceSpan("one.xacro", *span))
 
 
 def test_expression_names_the_values_in_it(fail: Fail) -> None:
@@ -482,7 +482,7 @@ BROKEN = [
     ids=lambda item: str(item)[:20],
 )
 def test_robots_broken_in_two_ways_each(
-    robot: str, file: str, good: str, bad: str, place: str, code: str, calls: int,
+    robot: str, file: str, good: str, bad: str, span: str, code: str, calls: int,
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
     folder = tmp_path / robot
@@ -495,5 +495,5 @@ def test_robots_broken_in_two_ways_each(
     diagnostics = Diagnostics()
     expand_xacro(main.name, workspace=None, diagnostics=diagnostics)
     found = diagnostics.by_code(f"xacro.{code}")
-    assert [(str(item.span), len(item.span.via)) for item in found] == [(place, calls)]
+    assert [(str(item.span), len(item.span.via)) for item in found] == [(span, calls)]
     assert len(diagnostics.errors) == (code != "decimal-comma")

@@ -52,8 +52,8 @@ def test_tags_without_prefix_are_told_in_a_file_that_expands(
     assert _place(told) == "old.urdf.xacro:2:3"
     monkeypatch.setenv("ROS_VERSION", "2")
     found = _findings("broken", "old.urdf.xacro")
-    places = [_place(item) for item in found if item.code == "xacro.not-expanded"]
-    assert places == ["old.urdf.xacro:2:3", "old.urdf.xacro:12:3"]
+    spans = [_place(item) for item in found if item.code == "xacro.not-expanded"]
+    assert spans == ["old.urdf.xacro:2:3", "old.urdf.xacro:12:3"]
 
 
 @pytest.mark.parametrize("file", ["cart.urdf.xacro", "old.urdf.xacro"])

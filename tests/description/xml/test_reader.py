@@ -65,12 +65,12 @@ def test_the_declared_encoding_counts_for_bytes_only():
         ("<a>&undefined;</a>", "undefined entity", "a.urdf:1:4"),
     ],
 )
-def test_malformed_text_is_one_error_with_its_place(text, reason, place):
+def test_malformed_text_is_one_error_with_its_place(text, reason, span):
     root, diagnostics = parse(text)
     assert root is None
     (found,) = diagnostics.by_code("xml.malformed")
     assert reason in found.message
-    assert str(found.span) == place
+    assert str(found.span) == span
     assert found.phrase == "XML parsing error"
 
 

@@ -11,7 +11,7 @@ from gazelle.description.xml import (
     attribute_span,
     parse_xml,
     text_span,
-    with_places,
+    with_spans,
     written_attributes,
 )
 from gazelle.diagnostics import Diagnostics, SourceSpan
@@ -76,8 +76,8 @@ def test_place_that_is_no_tag_any_more_stays(tag: Tag, tmp_path: Path) -> None:
 
 
 def test_places_are_given_in_document_order(tag: Tag) -> None:
-    places = [None, SourceSpan("other", 7)]
-    moved = with_places(tag, places)
+    spans = [None, SourceSpan("other", 7)]
+    moved = with_spans(tag, spans)
     assert moved.span == tag.span
     assert moved.children[0].span == SourceSpan("other", 7)
     assert moved.attributes == tag.attributes

@@ -11,7 +11,7 @@ import pytest
 from gazelle.description.forward_kinematics import posed_model
 from gazelle.description.loader import load_models, load_world
 from gazelle.description.model import Box, Capsule, JointType, MeshShape, Model, World
-from gazelle.description.writers import Beside, to_sdf, to_urdf
+from gazelle.description.writers import OutputFiles, to_sdf, to_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf import is_mjcf, read_mjcf
 
@@ -79,7 +79,9 @@ def read(tmp_path):
         file = tmp_path / "robot.xml"
         file.write_text(text, encoding="utf-8")
         found = Diagnostics()
-        world = read_mjcf(file, diagnostics=found, beside=Beside(tmp_path, "robot", relative=True))
+        world = read_mjcf(
+            file, diagnostics=found, output_files=OutputFiles(tmp_path, "robot", relative=True)
+        )
         own = mujoco.MjModel.from_xml_path(str(file)) if world is not None else None
         return world, found, own
 
@@ -92,13 +94,13 @@ def robot(world: World) -> Model:
 
 
 def as_urdf(model: Model, folder: Path) -> Model:
-    text = to_urdf(model, diagnostics=Diagnostics(), beside=Beside(folder, "r")).text
+    text = to_urdf(model, diagnostics=Diagnostics(), output_files=OutputFiles(folder, "r")).text
     [again] = load_models(text, workspace=None, diagnostics=Diagnostics())
     return again
 
 
 def as_sdf(model: Model, folder: Path) -> Model:
-    text = to_sdf(model, diagnostics=Diagnostics(), beside=Beside(folder, "r")).text
+    text = to_sdf(model, diagnostics=Diagnostics(), output_files=OutputFiles(folder, "r")).text
     [again] = load_models(text, workspace=None, diagnostics=Diagnostics())
     return again
 

@@ -25,7 +25,7 @@ from gazelle.description.model import (
     Visual,
     World,
 )
-from gazelle.description.writers import Beside
+from gazelle.description.writers import OutputFiles
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
 from gazelle.engine.mjcf import to_mjcf
@@ -58,8 +58,8 @@ def workspace() -> Workspace:
 def written(world: World, folder: Path) -> tuple[mujoco.MjModel, Diagnostics, str]:
     """Write a world's MJCF and load it with plain MuJoCo."""
     found = Diagnostics()
-    beside = Beside(folder, "world", relative=True)
-    converted = to_mjcf(world, diagnostics=found, beside=beside)
+    output_files = OutputFiles(folder, "world", relative=True)
+    converted = to_mjcf(world, diagnostics=found, output_files=output_files)
     for name, data in converted.files.items():
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_bytes(data)

@@ -14,7 +14,7 @@ from typing import Any
 
 from gazelle.description.source_maps import remember
 from gazelle.description.xacro import expand_xacro
-from gazelle.description.xacro.library_run import run_session
+from gazelle.description.xacro.library_run import run_library
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import YamlError, problem_of, read_yaml
@@ -158,7 +158,7 @@ def load_xacro(file_path: Path, mappings: Mapping[str, Any] | None = None) -> st
         raise UserFileError(tuple(diagnostics))
     remember(expanded)
     # What the library says goes where the original lets it: on standard error of the launch.
-    with run_session(workspace, arguments=arguments, console=_to_stderr) as (library, session):
+    with run_library(workspace, arguments=arguments, console=_to_stderr) as (library, session):
         document: Any = library.process_file(str(file_path), mappings=session.arguments)
         return str(document.toxml())
 

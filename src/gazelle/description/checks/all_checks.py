@@ -16,7 +16,7 @@ from gazelle.description.checks.self_collisions import check_overlaps
 from gazelle.description.checks.shape_sizes import check_sizes
 from gazelle.description.checks.shape_volumes import Outlines
 from gazelle.description.checks.source_elements import CheckedSource, links_below
-from gazelle.description.checks.support_plane import check_stance
+from gazelle.description.checks.support_plane import check_support_plane
 from gazelle.description.checks.wheels import check_wheel_shapes, check_wheels
 from gazelle.description.checks.written_inertials import joint_records_of, records_of
 from gazelle.description.model import Model
@@ -51,9 +51,9 @@ def check_description(
 
 
 def _check(model: Model, diagnostics: Diagnostics, root: Tag | None, step_s: float) -> None:
-    unheard = Diagnostics()
+    discarded = Diagnostics()
     source = CheckedSource((model,), {} if root is None else links_below(root))
-    records = records_of((model,), source.find_tag, unheard)
+    records = records_of((model,), source.find_tag, discarded)
     for finding in check_inertia(records):
         item = finding.diagnostic
         harmless = finding.is_placeholder
@@ -71,7 +71,7 @@ def _check(model: Model, diagnostics: Diagnostics, root: Tag | None, step_s: flo
     check_wheels(model, diagnostics)
     check_wheel_shapes(model, diagnostics)
     check_surfaces(model, outlines, diagnostics, step_s=step_s)
-    check_stance(model, outlines, diagnostics)
+    check_support_plane(model, outlines, diagnostics)
     check_overlaps(model, outlines, diagnostics)
 
 

@@ -57,8 +57,8 @@ def _check_named_frame(
     if isinstance(sensor.spec, CameraSpec):
         names.add(sensor.spec.optical_frame_id)
     for plugin in sensor.plugins:
-        words = ("frameName", "frame_name", "frame_id")
-        names |= {plugin.parameters.text_of(word).strip().lstrip("/") for word in words}
+        parameter_names = ("frameName", "frame_name", "frame_id")
+        names |= {plugin.parameters.text_of(word).strip().lstrip("/") for word in parameter_names}
     for name in sorted(names & set(optical)):
         frame = optical[name]
         if name == link.name and _is_turned(frame, model):
@@ -73,8 +73,8 @@ def _check_named_frame(
         )
         joint = next((item for item in model.joints if item.child == name), None)
         fix = f"turn it by its joint: <origin {_RPY}/>, on a parent with x forward"
-        place = joint.span if joint is not None else frame.span
-        diagnostics.report("robot.optical-frame-not-turned", text, place, fix=fix)
+        span = joint.span if joint is not None else frame.span
+        diagnostics.report("robot.optical-frame-not-turned", text, span, fix=fix)
 
 
 def _looks(link: Link, sensor: Sensor, frame: Link) -> tuple[float, float, float]:

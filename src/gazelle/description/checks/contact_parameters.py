@@ -53,7 +53,7 @@ def _check_stiffness(
 ) -> None:
     surface = collision.surface
     kp, kd = surface.kp, surface.kd
-    place = surface.span or collision.span or link.span
+    span = surface.span or collision.span or link.span
     if kp is not None and kp > 0.0 and math.isfinite(mass_kg):
         depth = mass_kg * _G_M_S2 / (_POINTS * kp)
         if depth > _MAX_M_DEPTH:
@@ -63,7 +63,7 @@ def _check_stiffness(
             )
             enough = 10 ** math.ceil(math.log10(mass_kg * _G_M_S2 / (_POINTS * 1e-4)))
             fix = f"write kp {enough:.0e}, or leave it out"
-            diagnostics.report("robot.soft-contact", text, place, fix=fix)
+            diagnostics.report("robot.soft-contact", text, span, fix=fix)
     if kd is not None and kd > 0.0:
         stiff = step_s * (1e12 if kp is None or kp <= 0.0 else kp)
         if stiff / (stiff + kd) < _MIN_ERP:
@@ -73,21 +73,21 @@ def _check_stiffness(
                 f"{100 * stiff / (stiff + kd):.2g} % of a penetration, the link sinks slowly"
             )
             fix = f"write kd {min(100.0, stiff):g}, or leave it out"
-            diagnostics.report("robot.damped-contact", text, place, fix=fix)
+            diagnostics.report("robot.damped-contact", text, span, fix=fix)
 
 
 def _check_correction(link: Link, collision: Collision, diagnostics: Diagnostics) -> None:
     surface = collision.surface
-    place = surface.span or collision.span or link.span
+    span = surface.span or collision.span or link.span
     if surface.min_depth_m is not None and surface.min_depth_m > _MAX_MIN_DEPTH_M:
         text = (
             f"link '{link.name}' has a minDepth of {surface.min_depth_m:g} m: it sinks in that "
             "deep before any contact pushes it out"
         )
-        diagnostics.report("robot.contact-depth", text, place, fix="write minDepth 0.001")
+        diagnostics.report("robot.contact-depth", text, span, fix="write minDepth 0.001")
     if surface.max_vel_m_s is not None and surface.max_vel_m_s <= 0.0:
         text = (
             f"link '{link.name}' has a maxVel of {surface.max_vel_m_s:g} m/s: contacts never push "
             "it out of what it has sunk into"
         )
-        diagnostics.report("robot.contact-depth", text, place, fix="write maxVel 0.01 or more")
+        diagnostics.report("robot.contact-depth", text, span, fix="write maxVel 0.01 or more")

@@ -109,8 +109,8 @@ def _tell_replaced(
         f"Gazebo changes links in plug-in '{plugin.name}', since it lumps them: {words}, and its "
         "data comes in that frame; here they stay"
     )
-    place, name = replaced[0][0].span, replaced[0][1]
-    _report("robot.lumped-frame", text, place, model, name, diagnostics)
+    span, name = replaced[0][0].span, replaced[0][1]
+    _report("robot.lumped-frame", text, span, model, name, diagnostics)
 
 
 def _check_joint_sensors(model: Model, diagnostics: Diagnostics) -> None:
@@ -120,8 +120,8 @@ def _check_joint_sensors(model: Model, diagnostics: Diagnostics) -> None:
                 f"sensor '{sensor.name}' measures at the fixed joint '{joint.name}', which Gazebo "
                 "lumps: the sensor is lost with it; here it works"
             )
-            place = sensor.span or joint.span
-            _report("robot.lumped-name", text, place, model, joint.child, diagnostics)
+            span = sensor.span or joint.span
+            _report("robot.lumped-name", text, span, model, joint.child, diagnostics)
 
 
 def _check_gravity(model: Model, heads: dict[str, str], diagnostics: Diagnostics) -> None:
@@ -187,13 +187,13 @@ def _named(plugin: PluginTag, names: set[str]) -> Iterator[tuple[Tag, str]]:
 def _report(
     code: str,
     text: str,
-    place: SourceSpan | None,
+    span: SourceSpan | None,
     model: Model,
     child: str,
     diagnostics: Diagnostics,
 ) -> None:
     fix = f"for Gazebo preserve the joint: {_preserve(model, child)}"
-    diagnostics.report(code, text, place, fix=fix)
+    diagnostics.report(code, text, span, fix=fix)
 
 
 def _preserve(model: Model, child: str) -> str:

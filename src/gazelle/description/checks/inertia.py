@@ -262,11 +262,11 @@ def _box_message(record: LinkRecord, fit: Fit) -> str:
 def _unit_finding(record: LinkRecord, guess: UnitGuess) -> InertiaFinding:
     message = f"link '{record.name}' is in the wrong unit: {'; '.join(guess.reasons)}"
     if guess.body is not None:
-        place = record.written.span if record.written else record.span
-        return _finding("inertia.units", message, record, place, guess.body)
+        span = record.written.span if record.written else record.span
+        return _finding("inertia.units", message, record, span, guess.body)
     scale = " ".join([f"{guess.mesh_scale:g}"] * 3)
-    words = f'scale="{scale}"' if record.source_format == "urdf" else f"<scale>{scale}</scale>"
-    fix = f"write {words} into every <mesh> of the link"
+    scale_text = f'scale="{scale}"' if record.source_format == "urdf" else f"<scale>{scale}</scale>"
+    fix = f"write {scale_text} into every <mesh> of the link"
     diagnostics = Diagnostics()
     diagnostics.report("inertia.units", message, record.unscaled_meshes[0], fix=fix)
     return InertiaFinding(next(iter(diagnostics)), record)

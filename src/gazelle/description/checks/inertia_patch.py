@@ -58,7 +58,7 @@ class _Edit:
     text: bytes
 
 
-class _NoPlaceError(Exception):
+class _NoSpanError(Exception):
     """The element cannot be changed in its file."""
 
 
@@ -82,7 +82,7 @@ def make_patch(findings: Iterable[InertiaFinding], *, folder: Path | None = None
     for record, body in wanted.values():
         try:
             file, edit = _edit_of(record, body)
-        except _NoPlaceError as error:
+        except _NoSpanError as error:
             notes.append(f"{record.span or record.name}: link '{record.name}' stays: {error}")
             continue
         if edit not in edits.setdefault(file, []):
@@ -101,21 +101,21 @@ def _base(files: Iterable[Path], wanted: Path) -> Path:
 
 def _edit_of(record: LinkRecord, body: MassProperties) -> tuple[Path, _Edit]:
     """Return the change of one link's file."""
-    place = record.written.span if record.written is not None else record.span
-    if place is None or not place.line:
-        raise _NoPlaceError("its place in a file is not known")
-    file = Path(place.file).resolve()
+    span = record.written.span if record.written is not None else record.span
+    if span is None or not span.line:
+        raise _NoSpanError("its place in a file is not known")
+    file = Path(span.file).resolve()
     try:
         data = file.read_bytes()
     except OSError as error:
-        raise _NoPlaceError(f"'{place.file}' cannot be read: {error.strerror}") from error
-    element = _element_at(data, place)
+        raise _NoSpanError(f"'{span.file}' cannot be read: {error.strerror}") from error
+    element = _element_at(data, span)
     makers = [
         name for name in element.around if name.startswith("xacro:") and name not in _HARMLESS
     ]
     if makers:
-        raise _NoPlaceError(
-            f"it comes from <{makers[-1]}> at {place}, which may make several; change it there"
+        raise _NoSpanError(
+            f"it comes from <{makers[-1]}> at {span}, which may make several; change it there"
         )
     newline = "\r\n" if b"\r\n" in data else "\n"
     block = inertial_block(body, record.source_format)
@@ -132,23 +132,23 @@ def _edit_of(record: LinkRecord, body: MassProperties) -> tuple[Path, _Edit]:
     return file, _Edit(element.head_end, element.head_end, inner.encode("utf-8"))
 
 
-def _element_at(data: bytes, place: SourceSpan) -> _Element:
-    finder = _Finder(data, place)
+def _element_at(data: bytes, span: SourceSpan) -> _Element:
+    finder = _Finder(data, span)
     found = finder.find()
     if found is None:
-        raise _NoPlaceError(f"no element starts at {place}; the file is no plain XML")
+        raise _NoSpanError(f"no element starts at {span}; the file is no plain XML")
     return found
 
 
 class _Finder:
     """Finds the element that starts at a line and column."""
 
-    def __init__(self, data: bytes, place: SourceSpan) -> None:
+    def __init__(self, data: bytes, span: SourceSpan) -> None:
         stripped = data.lstrip(b" \t\r\n")
         self._shift = len(data) - len(stripped)
         self._lines = data[: self._shift].count(b"\n")
         self._data = data
-        self._place = place
+        self._place = span
         self._stack: list[tuple[str, int | None]] = []
         self._found: _Element | None = None
         self._parser: Any = expat.ParserCreate()

@@ -87,8 +87,8 @@ def is_inside(point_m: Iterable[float], points_m: NDArray[np.float64]) -> bool:
     """Return whether a point lies in the bounding box of points (n, 3), with a little slack."""
     low, high = points_m.min(axis=0), points_m.max(axis=0)
     slack = 0.02 * float((high - low).max()) + _SLACK_M
-    place = np.asarray(tuple(point_m))
-    return bool((place >= low - slack).all() and (place <= high + slack).all())
+    span = np.asarray(tuple(point_m))
+    return bool((span >= low - slack).all() and (span <= high + slack).all())
 
 
 def guess_units(record: LinkRecord) -> UnitGuess | None:

@@ -34,8 +34,8 @@ def check_root(model: Model, diagnostics: Diagnostics) -> None:
         '<joint name="base_footprint_joint" type="fixed">\n'
         f'  <parent link="base_footprint"/>\n  <child link="{root.name}"/>\n</joint>'
     )
-    place = root.inertial.span or root.span
-    diagnostics.report("robot.root-inertia", text, place, fix=f"add an empty root:\n{fix}")
+    span = root.inertial.span or root.span
+    diagnostics.report("robot.root-inertia", text, span, fix=f"add an empty root:\n{fix}")
 
 
 def check_joints(model: Model, diagnostics: Diagnostics) -> None:

@@ -45,8 +45,8 @@ def check_overlaps(model: Model, outlines: Outlines, diagnostics: Diagnostics) -
                 f"{depth * 1e3:.3g} mm, and <self_collide> lets them push each other: the robot "
                 "jitters or jumps when it is spawned"
             )
-            place = second.collision.span if second.collision else None
-            diagnostics.report("robot.self-overlap", text, place or second.link.span)
+            span = second.collision.span if second.collision else None
+            diagnostics.report("robot.self-overlap", text, span or second.link.span)
 
 
 def overlap_m(first: Array, second: Array) -> float:

@@ -42,7 +42,7 @@ def check_sizes(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> N
     }
     for link in model.links:
         meshes = _mesh_places(link)
-        if any(place in known for place in meshes):
+        if any(span in known for span in meshes):
             continue
         if link.name in sizes and _check_mesh_unit(link, meshes, sizes, diagnostics):
             continue
@@ -84,7 +84,7 @@ def _compare(link: Link, collision: Box, visual: Box, diagnostics: Diagnostics) 
     shapes = link.collisions if sizes[0] < sizes[1] else link.visuals
     if min(sizes) < _DUMMY_M and not any(isinstance(one.shape, MeshShape) for one in shapes):
         return  # a box of a millimetre is there because Gazebo wants one
-    place = link.collisions[0].span or link.span
+    span = link.collisions[0].span or link.span
     if max(sizes) > _MAX_RATIO * min(sizes) and max(sizes) > 0.05:
         which = "larger" if sizes[0] > sizes[1] else "smaller"
         ratio = max(sizes) / max(min(sizes), 1e-9)
@@ -95,7 +95,7 @@ def _compare(link: Link, collision: Box, visual: Box, diagnostics: Diagnostics) 
         if 300.0 < ratio < 3000.0:
             text += "; one of the two is in millimetres"
         fix = "correct the size or the scale of one of the two"
-        diagnostics.report("robot.size-mismatch", text, place, fix=fix)
+        diagnostics.report("robot.size-mismatch", text, span, fix=fix)
         return
     gap = np.maximum(collision[0] - visual[1], visual[0] - collision[1]).max()
     if gap > _APART_M and min(sizes) > _MARKER_M:
@@ -104,7 +104,7 @@ def _compare(link: Link, collision: Box, visual: Box, diagnostics: Diagnostics) 
             "bump into nothing there and pass through the robot"
         )
         fix = "give <collision> the same <origin> (SDF: <pose>) as <visual>"
-        diagnostics.report("robot.collision-apart", text, place, fix=fix)
+        diagnostics.report("robot.collision-apart", text, span, fix=fix)
 
 
 def _boxes(outlines: Iterable[Outline]) -> dict[str, Box]:
@@ -131,8 +131,8 @@ def _meshes(link: Link) -> Iterable[tuple[MeshShape, SourceSpan | None]]:
 
 
 def _mesh_places(link: Link) -> tuple[SourceSpan, ...]:
-    places = (shape.span or around for shape, around in _meshes(link))
-    return tuple(place for place in places if place is not None)
+    spans = (shape.span or around for shape, around in _meshes(link))
+    return tuple(span for span in spans if span is not None)
 
 
 def _is_scaled_down(link: Link) -> bool:

@@ -17,7 +17,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.geometry import convex_hull
 
-__all__ = ["Stance", "check_stance", "stance_of"]
+__all__ = ["SupportPlane", "check_support_plane", "support_plane_of"]
 
 # Hulls of round shapes are polygons; their lowest corner may miss the lowest point.
 _TOUCHING_M = 0.0015
@@ -27,7 +27,7 @@ _DEFAULT_MU = 1.0
 Array = NDArray[np.float64]
 
 
-class Stance(NamedTuple):
+class SupportPlane(NamedTuple):
     """How a model rests on level ground.
 
     Attributes:
@@ -39,7 +39,7 @@ class Stance(NamedTuple):
     tilt_deg: float
 
 
-def stance_of(model: Model, outlines: Outlines) -> Stance | None:
+def support_plane_of(model: Model, outlines: Outlines) -> SupportPlane | None:
     """Return how the model rests; None without shapes, mass or a plane under the centre of mass."""
     center = _center_m(model)
     items = outlines.collisions
@@ -57,11 +57,11 @@ def stance_of(model: Model, outlines: Outlines) -> Stance | None:
     for triangle, normal in zip(corners, normals, strict=True):
         if normal[2] < -0.1 and _is_below(center, triangle):
             gaps = tuple(float((-(item.points_m - triangle[0]) @ normal).min()) for item in items)
-            return Stance(gaps, math.degrees(math.acos(min(1.0, -float(normal[2])))))
+            return SupportPlane(gaps, math.degrees(math.acos(min(1.0, -float(normal[2])))))
     return None
 
 
-def check_stance(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> None:
+def check_support_plane(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> None:
     """Report drive wheels that hang in the air and parts that drag along."""
     wheels = wheels_of(model)
     driven = [wheel for wheel in wheels if not wheel.is_caster]
@@ -71,19 +71,19 @@ def check_stance(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> 
     groups = fixed_groups(model)
     if not all(touchable.intersection(groups[wheel.link.name]) for wheel in driven):
         return  # said of the wheel
-    stance = stance_of(model, outlines)
-    if stance is None:
+    plane = support_plane_of(model, outlines)
+    if plane is None:
         return
     rolling = {name for wheel in wheels for name in groups[wheel.link.name]}
     on_ground = [
         item
-        for item, gap in zip(outlines.collisions, stance.gaps_m, strict=True)
+        for item, gap in zip(outlines.collisions, plane.gaps_m, strict=True)
         if gap < _TOUCHING_M
     ]
     dragging = [item for item in on_ground if item.link.name not in rolling]
-    hanging = _hanging(driven, groups, outlines, stance)
+    hanging = _hanging(driven, groups, outlines, plane)
     if hanging:
-        _report_hanging(hanging, on_ground, stance, diagnostics)
+        _report_hanging(hanging, on_ground, plane, diagnostics)
     else:
         _check_drag(dragging, model, diagnostics)
 
@@ -92,10 +92,10 @@ def _hanging(
     driven: list[Wheel],
     groups: Mapping[str, tuple[str, ...]],
     outlines: Outlines,
-    stance: Stance,
+    plane: SupportPlane,
 ) -> list[tuple[Wheel, float]]:
     lowest: dict[str, float] = {}
-    for item, gap in zip(outlines.collisions, stance.gaps_m, strict=True):
+    for item, gap in zip(outlines.collisions, plane.gaps_m, strict=True):
         lowest[item.link.name] = min(gap, lowest.get(item.link.name, math.inf))
     found = []
     for wheel in driven:
@@ -109,7 +109,7 @@ def _hanging(
 def _report_hanging(
     hanging: list[tuple[Wheel, float]],
     on_ground: list[Outline],
-    stance: Stance,
+    plane: SupportPlane,
     diagnostics: Diagnostics,
 ) -> None:
     names = " and ".join(
@@ -118,8 +118,8 @@ def _report_hanging(
     does = "do" if len(hanging) > 1 else "does"
     others = ", ".join(sorted({f"'{item.link.name}'" for item in on_ground}))
     text = f"on level ground the robot rests on {others}; drive wheel {names} {does} not touch it"
-    if stance.tilt_deg > 3.0:
-        text += f" (it leans over by {stance.tilt_deg:.0f}°)"
+    if plane.tilt_deg > 3.0:
+        text += f" (it leans over by {plane.tilt_deg:.0f}°)"
     fix = (
         "let the wheels be the lowest collisions, casters as low as they are, and the centre of "
         "mass between all of them"
@@ -145,8 +145,8 @@ def _check_drag(dragging: list[Outline], model: Model, diagnostics: Diagnostics)
         if model.source_format == "sdf":
             ode = "<ode><mu>0.01</mu><mu2>0.01</mu2></ode>"
             fix = f"<surface><friction>{ode}</friction></surface> in the collision"
-        place = surface.span or item.collision.span or item.link.span
-        diagnostics.report("robot.caster-friction", text, place, fix=fix)
+        span = surface.span or item.collision.span or item.link.span
+        diagnostics.report("robot.caster-friction", text, span, fix=fix)
 
 
 def _swings(link: Link, model: Model) -> bool:

@@ -80,8 +80,8 @@ def check_wheel_shapes(model: Model, diagnostics: Diagnostics) -> None:
             "and bumps over its edges instead of rolling"
         )
         sizes = f'radius="{max(across) / 2:.4g}" length="{min(boxes[0].size_m):.4g}"'
-        place = wheel.link.collisions[0].span or wheel.link.span
-        diagnostics.report("robot.wheel-box", text, place, fix=f"use <cylinder {sizes}/>")
+        span = wheel.link.collisions[0].span or wheel.link.span
+        diagnostics.report("robot.wheel-box", text, span, fix=f"use <cylinder {sizes}/>")
 
 
 def check_wheels(model: Model, diagnostics: Diagnostics) -> None:
@@ -174,8 +174,8 @@ def _check_shape(joint: Joint, link: Link, diagnostics: Diagnostics) -> None:
 def _axis_fix(joint: Joint, shape_axis: NDArray[np.float64]) -> str:
     own = np.asarray(joint.T_model_joint.inverse().rotate(tuple(shape_axis)))
     own = own * (1.0 if own[np.argmax(np.abs(own))] > 0 else -1.0)
-    words = " ".join(f"{value:.4g}" for value in np.round(own, 4) + 0.0)
-    return f'write <axis xyz="{words}"/>, or turn the cylinder by its <origin rpy="…"/>'
+    axis_text = " ".join(f"{value:.4g}" for value in np.round(own, 4) + 0.0)
+    return f'write <axis xyz="{axis_text}"/>, or turn the cylinder by its <origin rpy="…"/>'
 
 
 def _cylinders(link: Link) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64], str]]:
@@ -202,8 +202,8 @@ def _pairs(wheels: Sequence[Wheel]) -> Iterator[tuple[Wheel, Wheel]]:
 
 
 def _other_side(name: str, match: re.Match[str]) -> str:
-    words = {"left": "right", "Left": "Right", "LEFT": "RIGHT", "l": "r", "L": "R"}
-    return name[: match.start()] + words.get(match[0], "") + name[match.end() :]
+    opposites = {"left": "right", "Left": "Right", "LEFT": "RIGHT", "l": "r", "L": "R"}
+    return name[: match.start()] + opposites.get(match[0], "") + name[match.end() :]
 
 
 def _check_pair(left: Wheel, right: Wheel, model: Model, diagnostics: Diagnostics) -> None:
@@ -216,8 +216,8 @@ def _check_pair(left: Wheel, right: Wheel, model: Model, diagnostics: Diagnostic
     )
     wrong = left if left.axis[1] < right.axis[1] else right
     own = np.asarray(wrong.joint.T_model_joint.inverse().rotate(tuple(-wrong.axis)))
-    words = " ".join(f"{value:.4g}" for value in np.round(own, 4) + 0.0)
-    fix = f"write <axis xyz=\"{words}\"/> in joint '{wrong.joint.name}'"
+    axis_text = " ".join(f"{value:.4g}" for value in np.round(own, 4) + 0.0)
+    fix = f"write <axis xyz=\"{axis_text}\"/> in joint '{wrong.joint.name}'"
     # Without a drive it is a picture of a robot, and a peculiarity at most.
     driven = model.plugins or model.transmissions or model.ros2_controls
     severity = None if driven else Severity.INFO

@@ -287,27 +287,27 @@ def _as_read(link: Link) -> WrittenInertial | None:
     read = link.inertial
     if read is None or read.estimated:
         return None
-    places = (read.span, read.span, read.span)
-    return WrittenInertial(read.mass_kg, read.inertia_kg_m2, read.T_link_com, *places)
+    spans = (read.span, read.span, read.span)
+    return WrittenInertial(read.mass_kg, read.inertia_kg_m2, read.T_link_com, *spans)
 
 
 def _urdf_numbers(inertial: Tag) -> tuple[float | None, Inertia6 | None]:
     mass, inertia = inertial.find("mass"), inertial.find("inertia")
-    words = {} if inertia is None else inertia.attributes
-    moments = _moments([words.get(word, "") for word in _WORDS])
+    texts = {} if inertia is None else inertia.attributes
+    moments = _moments([texts.get(word, "") for word in _WORDS])
     return _number("" if mass is None else mass.attributes.get("value", "")), moments
 
 
 def _sdf_numbers(inertial: Tag) -> tuple[float | None, Inertia6 | None]:
     inertia = inertial.find("inertia")
-    words = {word: _SDF_DEFAULTS.get(word, "0") for word in _WORDS}
+    texts = {word: _SDF_DEFAULTS.get(word, "0") for word in _WORDS}
     if inertia is not None:
-        words |= {child.name: child.text for child in inertia.children if child.name in words}
-    return _number(inertial.text_of("mass", default="1")), _moments(list(words.values()))
+        texts |= {child.name: child.text for child in inertia.children if child.name in texts}
+    return _number(inertial.text_of("mass", default="1")), _moments(list(texts.values()))
 
 
-def _moments(words: list[str]) -> Inertia6 | None:
-    values = [value for value in map(_number, words) if value is not None]
+def _moments(texts: list[str]) -> Inertia6 | None:
+    values = [value for value in map(_number, texts) if value is not None]
     if len(values) < len(_WORDS):
         return None
     return (values[0], values[1], values[2], values[3], values[4], values[5])
@@ -323,8 +323,8 @@ def _number(word: str) -> float | None:
 def _urdf_pose(inertial: Tag) -> Pose:
     """Return ``<origin>`` of an inertial that the reader refused."""
     origin = inertial.find("origin")
-    words = {} if origin is None else origin.attributes
-    xyz, rpy = (_triple(words.get(word, "0 0 0")) for word in ("xyz", "rpy"))
+    texts = {} if origin is None else origin.attributes
+    xyz, rpy = (_triple(texts.get(word, "0 0 0")) for word in ("xyz", "rpy"))
     return Pose.from_xyz_rpy(xyz, rpy)
 
 

@@ -31,18 +31,18 @@ def gazebo_material(name: str) -> Material | None:
     Args:
         name: such as ``Gazebo/Red``; the case counts, as in Gazebo.
     """
-    look = _LOOKS.get(name.removeprefix(_PREFIX)) if name.startswith(_PREFIX) else None
-    if look is None:
+    appearance = _APPEARANCES.get(name.removeprefix(_PREFIX)) if name.startswith(_PREFIX) else None
+    if appearance is None:
         return None
-    mean = look.mean or _WHITE
+    mean = appearance.mean or _WHITE
     return Material(
         name=name,
-        ambient=_tinted(look.ambient, mean, look.alpha),
-        diffuse=_tinted(look.diffuse, mean, look.alpha),
-        specular=(*look.specular, 1.0),
-        emissive=(*look.emissive, 1.0),
-        shininess=look.shininess,
-        lighting=look.lighting,
+        ambient=_tinted(appearance.ambient, mean, appearance.alpha),
+        diffuse=_tinted(appearance.diffuse, mean, appearance.alpha),
+        specular=(*appearance.specular, 1.0),
+        emissive=(*appearance.emissive, 1.0),
+        shininess=appearance.shininess,
+        lighting=appearance.lighting,
     )
 
 
@@ -51,11 +51,11 @@ def picture_colour(name: str) -> Rgb | None:
 
     It stands for the picture: other colours of the surface are multiplied with it.
     """
-    look = _LOOKS.get(name.removeprefix(_PREFIX))
-    return look.mean if look is not None else None
+    appearance = _APPEARANCES.get(name.removeprefix(_PREFIX))
+    return appearance.mean if appearance is not None else None
 
 
-class _Look(NamedTuple):
+class _Appearance(NamedTuple):
     """Colours of one material; `alpha` of them all, `mean` the look of its picture if any."""
 
     ambient: Rgb
@@ -68,41 +68,41 @@ class _Look(NamedTuple):
     mean: Rgb | None = None
 
 
-def _plain(colour: Rgb, specular: Rgb = _DIM, shininess: float = 1.0) -> _Look:
-    return _Look(colour, colour, specular, shininess)
+def _plain(colour: Rgb, specular: Rgb = _DIM, shininess: float = 1.0) -> _Appearance:
+    return _Appearance(colour, colour, specular, shininess)
 
 
-def _glow(colour: Rgb, specular: Rgb = _DIM, shininess: float = 1.0) -> _Look:
-    return _Look(colour, colour, specular, shininess, emissive=colour)
+def _glow(colour: Rgb, specular: Rgb = _DIM, shininess: float = 1.0) -> _Appearance:
+    return _Appearance(colour, colour, specular, shininess, emissive=colour)
 
 
-def _clear(colour: Rgb, alpha: float = 0.5, *, lighting: bool = True) -> _Look:
-    return _Look(colour, colour, alpha=alpha, lighting=lighting)
+def _clear(colour: Rgb, alpha: float = 0.5, *, lighting: bool = True) -> _Appearance:
+    return _Appearance(colour, colour, alpha=alpha, lighting=lighting)
 
 
-def _overlay(colour: Rgb, alpha: float = 0.5) -> _Look:
+def _overlay(colour: Rgb, alpha: float = 0.5) -> _Appearance:
     return _clear(colour, alpha, lighting=False)
 
 
 def _picture(
     mean: Rgb, ambient: float = 1.0, specular: float = 0.2, exponent: float = 12.5
-) -> _Look:
+) -> _Appearance:
     grey, shine = (ambient, ambient, ambient), (specular, specular, specular)
-    return _Look(grey, _WHITE, shine, exponent, mean=mean)
+    return _Appearance(grey, _WHITE, shine, exponent, mean=mean)
 
 
-def _street(mean: Rgb) -> _Look:
+def _street(mean: Rgb) -> _Appearance:
     """Ambient 0.1, diffuse 0.8, as the twelve kinds of road share."""
-    return _Look(_DIM, (0.8, 0.8, 0.8), _FAINT, 2.0, mean=mean)
+    return _Appearance(_DIM, (0.8, 0.8, 0.8), _FAINT, 2.0, mean=mean)
 
 
 def _tinted(colour: Rgb, mean: Rgb, alpha: float) -> Rgba:
     return (colour[0] * mean[0], colour[1] * mean[1], colour[2] * mean[2], alpha)
 
 
-_LOOKS: dict[str, _Look] = {
-    "Grey": _Look((0.3, 0.3, 0.3), (0.7, 0.7, 0.7), _FAINT, 1.5),
-    "Gray": _Look((0.3, 0.3, 0.3), (0.7, 0.7, 0.7), _FAINT, 1.5),
+_APPEARANCES: dict[str, _Appearance] = {
+    "Grey": _Appearance((0.3, 0.3, 0.3), (0.7, 0.7, 0.7), _FAINT, 1.5),
+    "Gray": _Appearance((0.3, 0.3, 0.3), (0.7, 0.7, 0.7), _FAINT, 1.5),
     "DarkGrey": _plain(_DARK_GREY, _DARK_GREY, 1.5),
     "DarkGray": _plain(_DARK_GREY, _DARK_GREY, 1.5),
     "White": _plain(_WHITE, _DIM, 128.0),
@@ -112,7 +112,7 @@ _LOOKS: dict[str, _Look] = {
     "RedBright": _plain(_RED_BRIGHT, _RED_BRIGHT),
     "Green": _plain((0.0, 1.0, 0.0)),
     "Blue": _plain((0.0, 0.0, 1.0)),
-    "SkyBlue": _Look((0.13, 0.44, 0.70), (0.0, 0.0, 1.0), _DIM, 1.0),
+    "SkyBlue": _Appearance((0.13, 0.44, 0.70), (0.0, 0.0, 1.0), _DIM, 1.0),
     "Yellow": _plain((1.0, 1.0, 0.0), _BLACK, 0.0),
     "ZincYellow": _plain(_ZINC, _ZINC),
     "DarkYellow": _plain((0.7, 0.7, 0.0), _BLACK, 0.0),
@@ -120,8 +120,8 @@ _LOOKS: dict[str, _Look] = {
     "Turquoise": _plain((0.0, 1.0, 1.0)),
     "Orange": _plain(_ORANGE, (0.5, 0.5, 0.5), 128.0),
     "Indigo": _plain((0.33, 0.0, 0.5)),
-    "Gold": _Look((0.4, 0.24869, 0.020759), (0.8, 0.64869, 0.120759), (0.4, 0.4, 0.4), 12.5),
-    "Pioneer2Body": _Look(
+    "Gold": _Appearance((0.4, 0.24869, 0.020759), (0.8, 0.64869, 0.120759), (0.4, 0.4, 0.4), 12.5),
+    "Pioneer2Body": _Appearance(
         (0.481193, 0.000123, 0.000123), (0.681193, 0.000923, 0.000923), (0.5, 0.5, 0.5), 12.5
     ),
     "WhiteGlow": _glow(_WHITE, _DIM, 128.0),
@@ -134,7 +134,7 @@ _LOOKS: dict[str, _Look] = {
     "TurquoiseGlowOutline": _glow((0.0, 1.0, 1.0), _DIM, 128.0),
     "LightOn": _glow((0.0, 1.0, 0.0), _BLACK, 0.0),
     "LightOff": _glow((1.0, 0.0, 0.0), _BLACK, 0.0),
-    "JointAnchor": _Look(_WHITE, _WHITE, _WHITE, 0.0, _WHITE, lighting=False),
+    "JointAnchor": _Appearance(_WHITE, _WHITE, _WHITE, 0.0, _WHITE, lighting=False),
     "RedTransparentOverlay": _overlay((1.0, 0.0, 0.0)),
     "GreenTransparentOverlay": _overlay((0.0, 1.0, 0.0)),
     "BlueTransparentOverlay": _overlay((0.0, 0.0, 1.0)),
@@ -153,7 +153,9 @@ _LOOKS: dict[str, _Look] = {
     "WoodFloor": _picture((0.55, 0.38, 0.22), 0.5, 0.0, 0.0),
     "CeilingTiled": _picture((0.80, 0.80, 0.78), 0.5, 0.0, 0.0),
     "PaintedWall": _picture((0.83, 0.80, 0.74), 1.0, 0.0, 0.0),
-    "PioneerBody": _Look((0.5, 0.0, 0.0), _WHITE, (0.5, 0.0, 0.0), 10.0, mean=(0.7, 0.05, 0.05)),
+    "PioneerBody": _Appearance(
+        (0.5, 0.0, 0.0), _WHITE, (0.5, 0.0, 0.0), 10.0, mean=(0.7, 0.05, 0.05)
+    ),
     "WoodPallet": _picture((0.66, 0.53, 0.36), 0.5, 0.0, 0.5),
     "Wood": _picture((0.60, 0.42, 0.26)),
     "Bricks": _picture((0.58, 0.32, 0.25)),
@@ -161,8 +163,8 @@ _LOOKS: dict[str, _Look] = {
     "BuildingFrame": _picture((0.72, 0.70, 0.66)),
     "Grass": _picture((0.27, 0.42, 0.17), 0.5, 0.0, 0.0),
     "CoM": _picture((0.5, 0.5, 0.5), 0.5, 0.0, 0.0),
-    "GreyGradientSky": _Look(_WHITE, _WHITE, lighting=False, mean=(0.7, 0.7, 0.7)),
-    "CloudySky": _Look(_WHITE, _WHITE, lighting=False, mean=(0.62, 0.73, 0.86)),
+    "GreyGradientSky": _Appearance(_WHITE, _WHITE, lighting=False, mean=(0.7, 0.7, 0.7)),
+    "CloudySky": _Appearance(_WHITE, _WHITE, lighting=False, mean=(0.62, 0.73, 0.86)),
     "Road": _street(_ASPHALT),
     "Runway": _street(_ASPHALT),
     "Residential": _street(_ASPHALT),
@@ -179,4 +181,4 @@ _LOOKS: dict[str, _Look] = {
     "Footway": _street(_PAVEMENT),
     "Steps": _street(_PAVEMENT),
 }
-GAZEBO_MATERIAL_NAMES = tuple(sorted(_PREFIX + name for name in _LOOKS))
+GAZEBO_MATERIAL_NAMES = tuple(sorted(_PREFIX + name for name in _APPEARANCES))

@@ -53,8 +53,8 @@ def parse_material_script(
         diagnostics: receives ``material.bad-script``.
     """
     reader = _ScriptReader(file, diagnostics)
-    for line_number, words in _lines(text):
-        reader.take(line_number, words)
+    for line_number, tokens in _lines(text):
+        reader.take(line_number, tokens)
     reader.finish()
     return reader.found
 
@@ -64,17 +64,17 @@ def _lines(text: str) -> Iterator[tuple[int, list[str]]]:
     # Comments keep their line breaks, so that line numbers stay true.
     bare = _COMMENT.sub(lambda match: "\n" * match.group().count("\n"), text)
     for number, line in enumerate(bare.splitlines(), start=1):
-        words: list[str] = []
-        for word in _WORD.findall(line):
-            if word in "{}":
-                if words:
-                    yield number, words
-                    words = []
-                yield number, [word]
+        tokens: list[str] = []
+        for token in _WORD.findall(line):
+            if token in {"{", "}"}:
+                if tokens:
+                    yield number, tokens
+                    tokens = []
+                yield number, [token]
             else:
-                words.append(word.strip('"'))
-        if words:
-            yield number, words
+                tokens.append(token.strip('"'))
+        if tokens:
+            yield number, tokens
 
 
 class _ScriptReader:
@@ -87,14 +87,14 @@ class _ScriptReader:
         self._header_line = 0
         self._material: OgreMaterial | None = None
 
-    def take(self, line: int, words: list[str]) -> None:
-        if words == ["{"]:
+    def take(self, line: int, tokens: list[str]) -> None:
+        if tokens == ["{"]:
             self._open()
-        elif words == ["}"]:
+        elif tokens == ["}"]:
             self._close(line)
         else:
-            self._header, self._header_line = words, line
-            self._statement(line, words)
+            self._header, self._header_line = tokens, line
+            self._statement(line, tokens)
 
     def finish(self) -> None:
         if self._blocks:
@@ -125,11 +125,11 @@ class _ScriptReader:
         self._material = OgreMaterial(name.strip(), base.strip(), span)
         self.found.setdefault(self._material.name, self._material)
 
-    def _statement(self, line: int, words: list[str]) -> None:
+    def _statement(self, line: int, tokens: list[str]) -> None:
         material = self._material
         if material is None or material.techniques > 1:
             return
-        inside, kind, values = self._blocks[-1], words[0], words[1:]
+        inside, kind, values = self._blocks[-1], tokens[0], tokens[1:]
         if inside == "pass" and kind in _COLOURS and kind not in material.colours:
             if values[:1] != ["vertexcolour"]:
                 material.colours[kind] = self._numbers(line, kind, values)

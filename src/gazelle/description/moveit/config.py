@@ -17,7 +17,7 @@ from gazelle.description.moveit.controllers import (
 )
 from gazelle.description.moveit.joint_limits import JointLimit, read_joint_limits
 from gazelle.description.moveit.kinematics import KinematicsSettings, read_kinematics
-from gazelle.description.moveit.parameter_reader import Places, Settings
+from gazelle.description.moveit.parameter_reader import Settings, Spans
 from gazelle.description.moveit.pipelines import (
     CartesianLimits,
     Pipeline,
@@ -79,7 +79,7 @@ def config_from_parameters(
     workspace: Workspace | None,
     diagnostics: Diagnostics,
     description: str = "robot_description",
-    places: Places | None = None,
+    spans: Spans | None = None,
 ) -> MoveItConfig | None:
     """Read the parameters of a ``move_group`` of ROS 1 or ROS 2.
 
@@ -89,12 +89,12 @@ def config_from_parameters(
         diagnostics: receives every finding.
         description: name of the parameter with the URDF; ``_semantic``, ``_kinematics`` and
             ``_planning`` are appended for the others.
-        places: where each key was written, by its path.
+        spans: where each key was written, by its path.
 
     Returns:
         The configuration; None (reported) when there is no robot in it.
     """
-    tree = Settings(nested(parameters), diagnostics, places=places or {})
+    tree = Settings(nested(parameters), diagnostics, spans=spans or {})
     robot = _robot(tree, description, workspace)
     if robot is None:
         return None

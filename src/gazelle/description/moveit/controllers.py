@@ -116,7 +116,7 @@ def _from_list(
     for index, row in enumerate(rows):
         path = (*tree.path, "controller_list", str(index))
         values = row if isinstance(row, Mapping) else {}
-        settings = Settings(values, tree.diagnostics, path, tree.places)
+        settings = Settings(values, tree.diagnostics, path, tree.spans)
         name = settings.text("name").strip("/")
         if not name:
             message = f"entry {index + 1} of controller_list has no name; it is left out"

@@ -141,13 +141,13 @@ def _substituted(
 
 
 def _places(root: YamlNode, diagnostics: Diagnostics) -> dict[tuple[str, ...], SourceSpan]:
-    places: dict[tuple[str, ...], SourceSpan] = {}
+    spans: dict[tuple[str, ...], SourceSpan] = {}
     for path, key, _, first in entries(root, lists=True):
         if first is not None:
             message = f"'{key.text}' is there twice; the last one counts"
             diagnostics.report("moveit.double-key", message, key.span)
-        places[path] = key.span
-    return places
+        spans[path] = key.span
+    return spans
 
 
 def _existing(*files: Path) -> Path | None:

@@ -11,7 +11,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 
 __all__ = ["Settings"]
 
-Places = Mapping[tuple[str, ...], SourceSpan]
+Spans = Mapping[tuple[str, ...], SourceSpan]
 
 
 @dataclass(frozen=True)
@@ -22,21 +22,21 @@ class Settings:
         values: the branch, nested.
         diagnostics: receives what is wrong.
         path: keys from the root of the tree to this branch.
-        places: where each key was written, by its path from the root; empty for parameters that
+        spans: where each key was written, by its path from the root; empty for parameters that
             came without files.
     """
 
     values: Mapping[str, Any]
     diagnostics: Diagnostics
     path: tuple[str, ...] = ()
-    places: Places = field(default_factory=dict)
+    spans: Spans = field(default_factory=dict)
 
     def span(self, key: str = "") -> SourceSpan | None:
         """Return where a key was written, or the nearest key above it that has a place."""
         path = (*self.path, key) if key else self.path
-        while path and path not in self.places:
+        while path and path not in self.spans:
             path = path[:-1]
-        return self.places.get(path)
+        return self.spans.get(path)
 
     def name(self, key: str = "") -> str:
         """Return the full name of a key, with dots."""
@@ -48,7 +48,7 @@ class Settings:
         if value is not None and not isinstance(value, Mapping):
             self._report_type(key, value, "a mapping")
         values = value if isinstance(value, Mapping) else {}
-        return Settings(values, self.diagnostics, (*self.path, key), self.places)
+        return Settings(values, self.diagnostics, (*self.path, key), self.spans)
 
     def branches(self) -> Iterator[tuple[str, Settings]]:
         """Yield the keys that hold mappings."""

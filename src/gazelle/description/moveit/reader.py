@@ -74,7 +74,7 @@ def read_moveit_config(
         return None
     srdf = _srdf(files, models[0], workspace, diagnostics, given)
     gathered = _gathered(files, diagnostics, {**_defaults(files), **given})
-    tree = Settings(gathered.values, diagnostics, places=gathered.places)
+    tree = Settings(gathered.values, diagnostics, spans=gathered.spans)
     return replace(typed_config(tree, _DESCRIPTION, models[0], srdf), package=folder)
 
 
@@ -105,21 +105,21 @@ class _Gathered:
     diagnostics: Diagnostics
     arguments: Mapping[str, str]
     values: dict[str, Any] = field(default_factory=dict)
-    places: dict[tuple[str, ...], SourceSpan] = field(default_factory=dict)
+    spans: dict[tuple[str, ...], SourceSpan] = field(default_factory=dict)
 
     def add(self, file: Path | None, *above: str) -> None:
         """Put a file's values below some keys."""
         if file is None:
             return
-        values, places = read_yaml(file, self.diagnostics, self.arguments)
+        values, spans = read_yaml(file, self.diagnostics, self.arguments)
         branch = self.values
         for key in above:
             branch = branch.setdefault(key, {})
         branch.update(values)
-        for path, span in places.items():
-            self.places.setdefault((*above, *path), span)
+        for path, span in spans.items():
+            self.spans.setdefault((*above, *path), span)
         if above:
-            self.places.setdefault(above, SourceSpan(str(file)))
+            self.spans.setdefault(above, SourceSpan(str(file)))
 
 
 def _gathered(

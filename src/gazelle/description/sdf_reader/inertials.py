@@ -107,9 +107,9 @@ def _density(tag: Tag, usual: float, context: ReadContext) -> float:
     value = child_float(tag, "density", usual, context)
     if value > 0.0:
         return value
-    place = tag.find("density") or tag
+    faulty_tag = tag.find("density") or tag
     message = f"<density> is {value:g} kg/m³; it must be positive, {usual:g} is used"
-    context.diagnostics.report("sdf.bad-value", message, place.span)
+    context.diagnostics.report("sdf.bad-value", message, faulty_tag.span)
     return usual
 
 
@@ -177,14 +177,14 @@ def _checked(inertial: Inertial, link: Tag, tag: Tag, context: ReadContext) -> I
     # Gazebo classic, at home up to SDF 1.6, says nothing and simulates something.
     worst = Severity.WARNING if context.version < (1, 7) else Severity.ERROR
     if inertial.mass_kg <= 0.0:
-        place = tag.find("mass") or tag
+        faulty_tag = tag.find("mass") or tag
         message = f"link '{name}' has the mass {inertial.mass_kg:g} kg; 1 kg is used"
-        context.diagnostics.report("sdf.bad-inertia", message, place.span, severity=worst)
+        context.diagnostics.report("sdf.bad-inertia", message, faulty_tag.span, severity=worst)
         inertial = replace(inertial, mass_kg=1.0)
     problems = inertia_problems(inertial.inertia_kg_m2)
     if not problems:
         return inertial
-    place = tag.find("inertia") or tag
+    faulty_tag = tag.find("inertia") or tag
     message = (
         f"no body has the inertia of link '{name}': {'; '.join(problems)}; "
         "the nearest possible tensor is used"
@@ -193,5 +193,5 @@ def _checked(inertial: Inertial, link: Tag, tag: Tag, context: ReadContext) -> I
         MassProperties(1.0, inertia_kg_m2=inertial.inertia_kg_m2).principal_moments_kg_m2
     )
     severity = Severity.WARNING if positive > 0.0 else worst
-    context.diagnostics.report("sdf.bad-inertia", message, place.span, severity=severity)
+    context.diagnostics.report("sdf.bad-inertia", message, faulty_tag.span, severity=severity)
     return replace(inertial, inertia_kg_m2=legalised_inertia(inertial.inertia_kg_m2))

@@ -41,7 +41,7 @@ _WITH_SECOND_AXIS = (JointType.UNIVERSAL, JointType.REVOLUTE2, JointType.GEARBOX
 _X, _Y, _Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 # ODE gives its joints of two axes these where a file has none: the first is one of the parent's,
 # the second one of the child's. The others turn about z, as SDF says of an <axis> without <xyz>.
-_UNSAID_AXES = {JointType.UNIVERSAL: (_Y, _X), JointType.REVOLUTE2: (_X, _Y)}
+_DEFAULT_AXES = {JointType.UNIVERSAL: (_Y, _X), JointType.REVOLUTE2: (_X, _Y)}
 
 
 class JointEnds:
@@ -121,7 +121,7 @@ def read_joint(
     T_model_joint = resolver.frames.pose(point.name)
     axes = _AxisReader(resolver, T_model_joint, point)
     axis, axis2 = tag.find("axis"), tag.find("axis2")
-    unsaid = axes.unsaid(kind, parent, child)
+    default_axes = axes.default_axes(kind, parent, child)
     ode = tag.find("physics", "ode")
     return Joint(
         name=tag.attributes["name"].strip(),
@@ -129,8 +129,8 @@ def read_joint(
         parent=parent,
         child=child,
         T_model_joint=T_model_joint,
-        axis=None if kind in _WITHOUT_AXIS else axes.read(axis, kind, unsaid[0]),
-        axis2=axes.read(axis2, kind, unsaid[1]) if kind in _WITH_SECOND_AXIS else None,
+        axis=None if kind in _WITHOUT_AXIS else axes.read(axis, kind, default_axes[0]),
+        axis2=axes.read(axis2, kind, default_axes[1]) if kind in _WITH_SECOND_AXIS else None,
         mimic=_mimic(axis, context),
         sensors=tuple(
             sensor
@@ -204,21 +204,21 @@ class _AxisReader:
     T_model_joint: Pose
     point: FramePoint
 
-    def unsaid(self, kind: JointType, parent: str, child: str) -> tuple[Vector3, Vector3]:
+    def default_axes(self, kind: JointType, parent: str, child: str) -> tuple[Vector3, Vector3]:
         """Return the directions of axes that the file leaves out, in the joint's frame."""
-        if kind not in _UNSAID_AXES:
+        if kind not in _DEFAULT_AXES:
             return _Z, _Z
         frames, T_joint_model = self.resolver.frames, self.T_model_joint.inverse()
         T_model_parent = IDENTITY_POSE if parent == WORLD_FRAME else frames.pose(parent)
-        first, second = _UNSAID_AXES[kind]
+        first, second = _DEFAULT_AXES[kind]
         return (
             T_joint_model.rotate(T_model_parent.rotate(first)),
             T_joint_model.rotate(frames.pose(child).rotate(second)),
         )
 
-    def read(self, tag: Tag | None, kind: JointType, unsaid: Vector3) -> JointAxis:
+    def read(self, tag: Tag | None, kind: JointType, default_axes: Vector3) -> JointAxis:
         if tag is None:
-            return JointAxis(unsaid)
+            return JointAxis(default_axes)
         context = self.resolver.context
         limit, dynamics = tag.find("limit") or tag, tag.find("dynamics") or tag
         turns_freely = kind is JointType.CONTINUOUS

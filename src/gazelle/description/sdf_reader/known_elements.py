@@ -349,14 +349,14 @@ class _Checker:
             what = "extension" if ":" in child.name else "unknown-tag"
             self._note(_Key(what, kind, tag.name, child.name), child)
 
-    def _note(self, key: _Key, place: Tag) -> None:
-        self._first.setdefault(key, place)
+    def _note(self, key: _Key, faulty_tag: Tag) -> None:
+        self._first.setdefault(key, faulty_tag)
         self._count[key] += 1
 
     def report(self, context: ReadContext) -> None:
         """Report each finding at its first place, with the number of the others."""
-        for key, place in self._first.items():
-            _report(key, self._count[key] - 1, place, context)
+        for key, faulty_tag in self._first.items():
+            _report(key, self._count[key] - 1, faulty_tag, context)
 
 
 def _says_nothing(plugin: Tag, kind: str) -> bool:
@@ -366,25 +366,25 @@ def _says_nothing(plugin: Tag, kind: str) -> bool:
     return kind == "gui" and plugin.find("camera_pose") is not None
 
 
-def _report(key: _Key, more: int, place: Tag, context: ReadContext) -> None:
+def _report(key: _Key, more: int, faulty_tag: Tag, context: ReadContext) -> None:
     name, parent, element = key.name, key.parent, ELEMENTS[key.kind]
     again = f" (and {more} more in this file)" if more else ""
     if key.what == "unknown-tag":
         message = f"<{name}> is not known inside <{parent}>; it has no effect{again}"
         fix = did_you_mean(name, element.names)
-        context.diagnostics.report("xml.unknown-tag", message, place.span, fix=fix)
+        context.diagnostics.report("xml.unknown-tag", message, faulty_tag.span, fix=fix)
     elif key.what == "unknown-attribute":
         message = f"attribute '{name}' is not known on <{parent}>; it has no effect{again}"
         fix = did_you_mean(name, element.attributes)
-        context.diagnostics.report("xml.unknown-attribute", message, place.span, fix=fix)
+        context.diagnostics.report("xml.unknown-attribute", message, faulty_tag.span, fix=fix)
     elif key.what == "extension":
         message = f"'{name}' in <{parent}> belongs to a private extension; it has no effect{again}"
-        context.diagnostics.report("sdf.extension", message, place.span)
+        context.diagnostics.report("sdf.extension", message, faulty_tag.span)
     elif key.what == "plugin":
-        report_plugin_of(place, key.kind, context, again)
+        report_plugin_of(faulty_tag, key.kind, context, again)
     else:
         message = f"<{name}> in <{parent}> is legal and not simulated{again}"
-        context.diagnostics.report("sdf.not-simulated", message, place.span)
+        context.diagnostics.report("sdf.not-simulated", message, faulty_tag.span)
 
 
 ELEMENTS = _elements({**_MODEL_ROWS, **SENSOR_ROWS, **WORLD_ROWS})

@@ -93,9 +93,9 @@ def _grid(tag: Tag, context: ReadContext) -> Iterator[Vector3]:
 
 def _in_row(size: Vector3, axis: int, fraction: float) -> Vector3:
     """Return a place along one axis of the box, from its low side on, as Gazebo's rows run."""
-    place = [0.0, 0.0, 0.0]
-    place[axis] = size[axis] * (fraction - 0.5)
-    return (place[0], place[1], place[2])
+    position_m = [0.0, 0.0, 0.0]
+    position_m[axis] = size[axis] * (fraction - 0.5)
+    return (position_m[0], position_m[1], position_m[2])
 
 
 def _evenly_in_box(size: Vector3, count: int) -> list[Vector3]:

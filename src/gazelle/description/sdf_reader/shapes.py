@@ -59,10 +59,10 @@ def read_shape(tag: Tag | None, context: ReadContext, *, owner: Tag) -> Shape | 
     return None
 
 
-def _refuse(owner: Tag, reason: str, place: Tag, context: ReadContext, fix: str = "") -> None:
+def _refuse(owner: Tag, reason: str, faulty_tag: Tag, context: ReadContext, fix: str = "") -> None:
     name = owner.attributes.get("name", "")
     message = f"{owner.name} '{name}' {reason}; it is left out"
-    context.diagnostics.report("sdf.bad-geometry", message, place.span, fix=fix)
+    context.diagnostics.report("sdf.bad-geometry", message, faulty_tag.span, fix=fix)
 
 
 def _solid(kind: type[Solid], tag: Tag, owner: Tag, context: ReadContext) -> Solid | None:
@@ -73,16 +73,16 @@ def _solid(kind: type[Solid], tag: Tag, owner: Tag, context: ReadContext) -> Sol
     for row, value in zip(rows, read, strict=True):
         lengths = value if isinstance(value, tuple) else (value,)
         thick = thickened(lengths)
-        place = tag.find(row.word) or tag
+        faulty_tag = tag.find(row.word) or tag
         what = f"has a <{tag.name}> whose <{row.word}> is"
         if min(thick) <= 0.0:
-            _refuse(owner, f"{what} not positive ({min(lengths):g})", place, context)
+            _refuse(owner, f"{what} not positive ({min(lengths):g})", faulty_tag, context)
             return None
         if thick != lengths:
             thin_m = max(set(thick) - set(lengths))
             message = f"{owner.name} '{owner.attributes.get('name', '')}' {what} 0; {thin_m:g} m "
             message += "is used, as in Gazebo"
-            context.diagnostics.report("sdf.bad-geometry", message, place.span)
+            context.diagnostics.report("sdf.bad-geometry", message, faulty_tag.span)
         used.append(thick if isinstance(value, tuple) else thick[0])
     return kind.of_lengths(tuple(used))
 
@@ -163,18 +163,18 @@ def _heightmap(tag: Tag, context: ReadContext) -> Shape:
 
 def _file(uri: str, tag: Tag, context: ReadContext) -> Path | None:
     """Return the file a ``<uri>`` means, None (reported) when there is none."""
-    place = tag.find("uri") or tag
+    faulty_tag = tag.find("uri") or tag
     if not uri:
         context.diagnostics.report(
-            "sdf.missing-file", f"<{tag.name}> names no file in <uri>", place.span
+            "sdf.missing-file", f"<{tag.name}> names no file in <uri>", faulty_tag.span
         )
         return None
     found = context.resolve(uri)
     if found.path is None or is_folder(found.path):
         if context.first_time("missing file", uri, context.file):
-            context.diagnostics.report("sdf.missing-file", found.explain(uri), place.span)
+            context.diagnostics.report("sdf.missing-file", found.explain(uri), faulty_tag.span)
         return None
-    context.report_note(uri, found, place.span, "sdf.bad-value")
+    context.report_note(uri, found, faulty_tag.span, "sdf.bad-value")
     return found.path
 
 

@@ -239,9 +239,10 @@ def _turnable(link: Link, context: ReadContext) -> Link:
 def _block(inertial: Inertial) -> str:
     x, y, z = inertial.T_link_com.position_m
     roll, pitch, yaw = inertial.T_link_com.rpy_rad
-    words = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    components = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     moments = " ".join(
-        f'{word}="{value:.6g}"' for word, value in zip(words, inertial.inertia_kg_m2, strict=True)
+        f'{word}="{value:.6g}"'
+        for word, value in zip(components, inertial.inertia_kg_m2, strict=True)
     )
     return (
         "<inertial>\n"

@@ -244,12 +244,12 @@ def _read_safety(tag: Tag, name: str, context: ReadContext) -> SafetyController 
     safety = tag.find("safety_controller")
     if safety is None:
         return None
-    words = ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
-    check_vocabulary(safety, context.diagnostics, attributes=words)
+    names = ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
+    check_vocabulary(safety, context.diagnostics, attributes=names)
     if "k_velocity" not in safety.attributes:
         message = f"<safety_controller> of joint '{name}' has no k_velocity"
         context.diagnostics.report("urdf.safety-incomplete", message, safety.span)
-    values = [number_attribute(safety, word, context.diagnostics) or 0.0 for word in words]
+    values = [number_attribute(safety, word, context.diagnostics) or 0.0 for word in names]
     return SafetyController(*values)
 
 

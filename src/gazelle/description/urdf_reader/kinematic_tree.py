@@ -35,12 +35,12 @@ def check_tree(
         _report_roots(roots, links, joints, context)
         return None
     reached = set(_below(roots[0], joints)) if roots else set()
-    stranded = [name for name in links if name not in reached]
-    if stranded:
-        names = ", ".join(f"'{name}'" for name in stranded)
+    unreachable = [name for name in links if name not in reached]
+    if unreachable:
+        names = ", ".join(f"'{name}'" for name in unreachable)
         start = "no root link found" if not roots else f"not all links hang on '{roots[0]}'"
         message = f"{start}: the joints of {names} form a loop"
-        joint = next(item for item in joints if item.joint.child == stranded[0])
+        joint = next(item for item in joints if item.joint.child == unreachable[0])
         context.diagnostics.report("urdf.loop", message, joint.tag.span)
         return None
     return roots[0]

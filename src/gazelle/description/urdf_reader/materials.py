@@ -94,8 +94,8 @@ def _rgba(tag: Tag, name: str, context: ReadContext) -> tuple[float, float, floa
         message = f"<color> of material '{name}' has no rgba"
         context.diagnostics.report("urdf.bad-rgba", message, tag.span)
         return None
-    words = text.split()
-    if len(words) != 4:
+    tokens = text.split()
+    if len(tokens) != 4:
         message = f"material '{name}' has malformed color rgba values: 4 needed, found '{text}'"
         context.diagnostics.report("urdf.bad-rgba", message, tag.span)
         return None

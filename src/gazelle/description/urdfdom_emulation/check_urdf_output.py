@@ -19,7 +19,7 @@ class EndlessTreeError(ValueError):
     """More would be printed than anybody reads; the text says what the real programs would do."""
 
 
-class _Place(NamedTuple):
+class _TreeNode(NamedTuple):
     """A link where it hangs: 1-based among its siblings, 1 below the root."""
 
     link: str
@@ -41,8 +41,8 @@ def tree_text(robot: Robot) -> str:
         "---------- Successfully Parsed XML ---------------",
         f"root Link: {robot.root} has {count} child(ren)",
     ]
-    for place in _below(robot):
-        lines.append(f"{'    ' * place.depth}child({place.number}):  {place.link}")
+    for node in _below(robot):
+        lines.append(f"{'    ' * node.depth}child({node.number}):  {node.link}")
     return "\n".join(lines) + "\n"
 
 
@@ -52,44 +52,44 @@ def graphviz_text(robot: Robot) -> str:
     Raises:
         EndlessTreeError: as in `tree_text`.
     """
-    places = list(_below(robot))
+    nodes = list(_below(robot))
     lines = ["digraph G {", "node [shape=box];"]
-    for name in (robot.root, *(place.link for place in places)):
+    for name in (robot.root, *(node.link for node in nodes)):
         lines.append(f'"{name}" [label="{name}"];')
     lines.append("node [shape=ellipse, color=blue, fontcolor=blue];")
-    for place in places:
-        lines += _edges(robot, place)
+    for node in nodes:
+        lines += _edges(robot, node)
     return "\n".join([*lines, "}"]) + "\n"
 
 
-def _edges(robot: Robot, place: _Place) -> list[str]:
-    joint = robot.joint_above[place.link]
+def _edges(robot: Robot, node: _TreeNode) -> list[str]:
+    joint = robot.joint_above[node.link]
     xyz = " ".join(f"{value:g}" for value in joint.T_parent_joint.xyz_m)
     rpy = " ".join(f"{v:g}" for v in rpy_from_quaternion(joint.T_parent_joint.quat_xyzw))
     return [
-        f'"{place.parent}" -> "{joint.name}" [label="xyz: {xyz} \\nrpy: {rpy}"]',
-        f'"{joint.name}" -> "{place.link}"',
+        f'"{node.parent}" -> "{joint.name}" [label="xyz: {xyz} \\nrpy: {rpy}"]',
+        f'"{joint.name}" -> "{node.link}"',
     ]
 
 
-def _below(robot: Robot) -> Iterator[_Place]:
+def _below(robot: Robot) -> Iterator[_TreeNode]:
     """Yield what hangs on the root in the order of printing, without recursion."""
     waiting = _children(robot, robot.root, 1)
     steps = 0
     while waiting:
-        place = waiting.pop()
-        steps += place.depth
-        if place.depth > len(robot.joint_above):
-            text = f"the joints around link '{place.link}' form a loop"
+        node = waiting.pop()
+        steps += node.depth
+        if node.depth > len(robot.joint_above):
+            text = f"the joints around link '{node.link}' form a loop"
             raise EndlessTreeError(f"{text}; the one of ROS would crash here")
         if steps > _MAX_STEPS:
             text = "the tree is too deep, or its links have too many parents"
             raise EndlessTreeError(f"{text}; the one of ROS would print gigabytes, or crash")
-        yield place
-        waiting += _children(robot, place.link, place.depth + 1)
+        yield node
+        waiting += _children(robot, node.link, node.depth + 1)
 
 
-def _children(robot: Robot, link: str, depth: int) -> list[_Place]:
+def _children(robot: Robot, link: str, depth: int) -> list[_TreeNode]:
     """Return a link's children, the first one last."""
     names = enumerate(robot.children.get(link, ()), start=1)
-    return [_Place(name, link, number, depth) for number, name in names][::-1]
+    return [_TreeNode(name, link, number, depth) for number, name in names][::-1]

@@ -35,15 +35,19 @@ class Console:
 
     remarks: list[Remark] = field(default_factory=list)
 
-    def error(self, place: tuple[str, int], message: str) -> None:
-        """Add an error; `place` is the source file's name and the line."""
-        self.remarks.append(Remark("Error", message, f"{_FOLDER}{place[0]}.cpp", place[1]))
+    def error(self, source_line: tuple[str, int], message: str) -> None:
+        """Add an error; `source_line` is the source file's name and the line."""
+        self.remarks.append(
+            Remark("Error", message, f"{_FOLDER}{source_line[0]}.cpp", source_line[1])
+        )
 
-    def warning(self, place: tuple[str, int], message: str) -> None:
+    def warning(self, source_line: tuple[str, int], message: str) -> None:
         """Add a warning."""
-        self.remarks.append(Remark("Warning", message, f"{_FOLDER}{place[0]}.cpp", place[1]))
+        self.remarks.append(
+            Remark("Warning", message, f"{_FOLDER}{source_line[0]}.cpp", source_line[1])
+        )
 
-    def reject(self, place: tuple[str, int], message: str) -> Rejected:
+    def reject(self, source_line: tuple[str, int], message: str) -> Rejected:
         """Add an error and return what is to be raised."""
-        self.error(place, message)
+        self.error(source_line, message)
         return Rejected(message)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from gazelle.description.model import Joint, Link, Model, PluginTag, Surface, Visual
-from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.output_files import OutputFiles
 from gazelle.description.writers.sdf_elements import (
     add_light,
     add_material,
@@ -35,18 +35,18 @@ _ALL_VISIBLE = 0xFFFFFFFF
 
 
 def link_block(
-    link: Link, T_new_link: Pose, beside: Beside, diagnostics: Diagnostics
+    link: Link, T_new_link: Pose, output_files: OutputFiles, diagnostics: Diagnostics
 ) -> Markup | None:
     """Return the block of a link; None when URDF's own words say everything.
 
     Args:
         link: the link.
         T_new_link: its own frame in the one it gets.
-        beside: names textures.
+        output_files: names textures.
         diagnostics: receives what differs between shapes of one link, which no block can say.
     """
     block = Markup("gazebo", {"reference": link.name})
-    _add_looks(block, link, beside, diagnostics)
+    _add_visual_material(block, link, output_files, diagnostics)
     _add_contact(block, link)
     if not link.gravity:
         block.add("turnGravityOff", "true")
@@ -95,14 +95,14 @@ def joint_block(joint: Joint, diagnostics: Diagnostics) -> Markup | None:
 
 def model_blocks(model: Model, diagnostics: Diagnostics) -> list[Markup]:
     """Return the blocks about the whole robot, and its plug-ins."""
-    words = Markup("gazebo")
+    elements = Markup("gazebo")
     if model.static:
-        words.add("static", "true")
+        elements.add("static", "true")
     if model.self_collide:
-        words.add("self_collide", "true")
+        elements.add("self_collide", "true")
     if not model.allow_auto_disable:
-        words.add("allow_auto_disable", "false")
-    blocks = [words] if words.children else []
+        elements.add("allow_auto_disable", "false")
+    blocks = [elements] if elements.children else []
     parts = part_names(model)
     for plugin in model.plugins:
         block = Markup("gazebo")
@@ -128,7 +128,9 @@ def plugin_markup(plugin: PluginTag) -> Markup:
     return markup
 
 
-def _add_looks(block: Markup, link: Link, beside: Beside, diagnostics: Diagnostics) -> None:
+def _add_visual_material(
+    block: Markup, link: Link, output_files: OutputFiles, diagnostics: Diagnostics
+) -> None:
     visuals = link.visuals
     visual = Markup("visual")
     if len({item.transparency for item in visuals}) == 1 and visuals[0].transparency:
@@ -142,17 +144,17 @@ def _add_looks(block: Markup, link: Link, beside: Beside, diagnostics: Diagnosti
     if any(item.visibility_flags != _ALL_VISIBLE for item in visuals):
         message = f"visibility_flags of link '{link.name}' cannot be said in URDF"
         diagnostics.report("convert.left-out", message, link.span)
-    look = visuals[0].material if len({item.material for item in visuals}) == 1 else None
-    if look is not None and is_script(look):
-        block.add("material", look.name)
-    elif look is not None and not is_plain(look):
-        add_material(visual, look, beside)
-    elif look is None:
-        _report_looks(link, visuals, diagnostics)
+    material = visuals[0].material if len({item.material for item in visuals}) == 1 else None
+    if material is not None and is_script(material):
+        block.add("material", material.name)
+    elif material is not None and not is_plain(material):
+        add_material(visual, material, output_files)
+    elif material is None:
+        _report_materials(link, visuals, diagnostics)
     block.children += [visual] if visual.children else []
 
 
-def _report_looks(link: Link, visuals: Iterable[Visual], diagnostics: Diagnostics) -> None:
+def _report_materials(link: Link, visuals: Iterable[Visual], diagnostics: Diagnostics) -> None:
     rich = [item for item in visuals if item.material is not None and not is_plain(item.material)]
     if rich:
         names = ", ".join(f"'{item.name}'" for item in rich)
@@ -176,7 +178,7 @@ def _add_contact(block: Markup, link: Link) -> None:
     if not link.collisions:
         return
     surface = replace(link.collisions[0].surface, span=None)
-    words = {name: getattr(surface, key) for key, name in _SURFACE_WORDS.items()}
+    elements = {name: getattr(surface, key) for key, name in _SURFACE_WORDS.items()}
     rest = replace(
         surface, mu1=None, mu2=None, kp=None, kd=None, min_depth_m=None, max_vel_m_s=None,
         fdir1=None, max_contacts=None,
@@ -184,11 +186,11 @@ def _add_contact(block: Markup, link: Link) -> None:
     if rest != Surface():
         # All of it in one place: a block of SDF's words replaces what stands beside it.
         add_surface(block.add("collision"), surface)
-        words = {}
-    for name, value in words.items():
+        elements = {}
+    for name, value in elements.items():
         if value is not None:
             block.add(name, number(value))
-    if surface.fdir1 is not None and words:
+    if surface.fdir1 is not None and elements:
         block.add("fdir1", numbers(surface.fdir1))
     if surface.max_contacts is not None:
         block.add("maxContacts", number(surface.max_contacts))

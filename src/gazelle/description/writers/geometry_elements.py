@@ -32,7 +32,7 @@ from gazelle.description.model import (
     Sphere,
     Surface,
 )
-from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.output_files import OutputFiles
 from gazelle.description.writers.unscoped_names import free_name, part_names
 from gazelle.description.writers.xml_markup import Markup, number, numbers, tidy
 from gazelle.diagnostics import Diagnostics
@@ -87,14 +87,14 @@ def with_surfaces_apart(model: Model, diagnostics: Diagnostics) -> Model:
     return replace(model, links=tuple(links), joints=tuple(joints))
 
 
-def add_urdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
+def add_urdf_geometry(owner: Markup, shape: Shape, output_files: OutputFiles) -> None:
     """Append the ``<geometry>`` of a shape that URDF has a word for."""
     geometry = owner.add("geometry")
     match shape:
         case Solid() if shape.in_urdf:
             geometry.add(shape.word, **dict(_lengths(shape)))
         case MeshShape():
-            mesh = geometry.add("mesh", filename=beside.address(shape.path, shape.uri))
+            mesh = geometry.add("mesh", filename=output_files.address(shape.path, shape.uri))
             if shape.scale != _ONES:
                 mesh.attributes["scale"] = numbers(shape.scale)
         case Solid() | Plane() | Heightmap() | Polyline():
@@ -171,7 +171,7 @@ def stl_bytes(vertices_m: NDArray[np.float64], faces: NDArray[np.int32]) -> byte
     return head + struct.pack("<I", len(corners)) + record.tobytes()
 
 
-def add_sdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
+def add_sdf_geometry(owner: Markup, shape: Shape, output_files: OutputFiles) -> None:
     """Append the ``<geometry>`` of a shape in SDF's words."""
     geometry = owner.add("geometry")
     match shape:
@@ -184,10 +184,10 @@ def add_sdf_geometry(owner: Markup, shape: Shape, beside: Beside) -> None:
             plane.add("normal", numbers(map(tidy, normal)))
             plane.add("size", numbers(plane_size))
         case MeshShape():
-            _add_mesh(geometry, shape, beside)
+            _add_mesh(geometry, shape, output_files)
         case Heightmap():
             terrain = geometry.add("heightmap")
-            terrain.add("uri", beside.address(shape.path, shape.uri))
+            terrain.add("uri", output_files.address(shape.path, shape.uri))
             terrain.add("size", numbers(shape.size_m))
             terrain.add("pos", numbers(shape.position_m))
         case Polyline(outlines_m=outlines, height_m=height):
@@ -236,9 +236,9 @@ def _lengths(shape: Solid) -> Iterator[tuple[str, str]]:
         yield row.word, numbers(value) if isinstance(value, tuple) else number(value)
 
 
-def _add_mesh(geometry: Markup, shape: MeshShape, beside: Beside) -> None:
+def _add_mesh(geometry: Markup, shape: MeshShape, output_files: OutputFiles) -> None:
     mesh = geometry.add("mesh")
-    mesh.add("uri", beside.address(shape.path, shape.uri))
+    mesh.add("uri", output_files.address(shape.path, shape.uri))
     if shape.submesh:
         submesh = mesh.add("submesh")
         submesh.add("name", shape.submesh)

@@ -9,13 +9,13 @@ from typing import NamedTuple
 from gazelle.description.model import Joint, Model
 from gazelle.geometry import IDENTITY_POSE, Pose
 
-__all__ = ["WORLD", "Branches", "branches_of"]
+__all__ = ["WORLD", "LinkTree", "link_tree_of"]
 
 WORLD = "world"
 _FIXED = frozenset({"fixed", "floating"})
 
 
-class Branches(NamedTuple):
+class LinkTree(NamedTuple):
     """A model's joints as a tree.
 
     Attributes:
@@ -36,7 +36,7 @@ class Branches(NamedTuple):
     frames: Mapping[str, Pose]
 
 
-def branches_of(model: Model) -> Branches:
+def link_tree_of(model: Model) -> LinkTree:
     """Choose the tree: joints in the order of the file as long as they close no loop.
 
     A joint that leads towards the root is turned round: its ends are exchanged and its axis is
@@ -56,7 +56,7 @@ def branches_of(model: Model) -> Branches:
             turned |= _reach(loose[-1], chosen, seen)
     joints = tuple(_turned(joint) if joint.name in turned else joint for joint in chosen)
     kept = tuple(joint.name for joint in chosen if joint.name in turned)
-    return Branches(root, joints, kept, tuple(loose), loops, _frames(model, joints))
+    return LinkTree(root, joints, kept, tuple(loose), loops, _frames(model, joints))
 
 
 def _chosen(model: Model) -> tuple[list[Joint], tuple[Joint, ...]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gazelle.workspace import Workspace
 
-__all__ = ["Beside", "Converted"]
+__all__ = ["Converted", "OutputFiles"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class Converted:
 
 
 @dataclass(slots=True)
-class Beside:
+class OutputFiles:
     """Where a converted text will stand, and the files it gets as company.
 
     Attributes:

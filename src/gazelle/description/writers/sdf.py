@@ -19,7 +19,7 @@ from gazelle.description.model import (
 from gazelle.description.sdformat_emulation import Release
 from gazelle.description.writers.gazebo_tags import plugin_markup
 from gazelle.description.writers.geometry_elements import add_sdf_geometry
-from gazelle.description.writers.output_files import Beside, Converted
+from gazelle.description.writers.output_files import Converted, OutputFiles
 from gazelle.description.writers.sdf_elements import (
     add_light,
     add_material,
@@ -51,7 +51,7 @@ def to_sdf(
     source: World | Model,
     *,
     diagnostics: Diagnostics,
-    beside: Beside | None = None,
+    output_files: OutputFiles | None = None,
     release: Release = Release.V12,
 ) -> Converted:
     """Write a model, or a world with all its models, as SDF.
@@ -60,24 +60,24 @@ def to_sdf(
         source: what to write.
         diagnostics: receives ``convert.…`` for everything that cannot be said or is said
             differently.
-        beside: where the text will stand and how files are named.
+        output_files: where the text will stand and how files are named.
         release: gives the version written: 1.9 for Fortress, 1.7 for Gazebo 11.
     """
     found = Diagnostics()
-    company = beside or Beside(relative=True)
+    outputs = output_files or OutputFiles(relative=True)
     version = ".".join(map(str, release.spec))
     sdf = Markup("sdf", {"version": version})
-    writer = _ModelWriter(company, found)
+    writer = _ModelWriter(outputs, found)
     if isinstance(source, Model):
         writer.add(sdf, source)
     else:
         _add_world(sdf, source, writer)
-    report_addresses(company, found)
+    report_addresses(outputs, found)
     for item in found:
         diagnostics.add(item)
     file = source.file
     head = head_comments(file.name if file else f"'{source.name}'", found)
-    return Converted(sdf.to_text(head), company.files)
+    return Converted(sdf.to_text(head), outputs.files)
 
 
 def _add_world(sdf: Markup, world: World, writer: _ModelWriter) -> None:
@@ -104,9 +104,9 @@ def _add_world(sdf: Markup, world: World, writer: _ModelWriter) -> None:
 class _ModelWriter:
     """Writes models one after the other."""
 
-    def __init__(self, beside: Beside, diagnostics: Diagnostics) -> None:
+    def __init__(self, output_files: OutputFiles, diagnostics: Diagnostics) -> None:
         self.diagnostics = diagnostics
-        self._beside = beside
+        self._beside = output_files
 
     def add(self, owner: Markup, model: Model) -> None:
         """Append a ``<model>``."""

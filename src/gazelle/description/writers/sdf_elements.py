@@ -30,7 +30,7 @@ from gazelle.description.model import (
     SonarSpec,
     Surface,
 )
-from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.output_files import OutputFiles
 from gazelle.description.writers.xml_markup import Markup, from_tag, number, numbers, xyz_rpy
 from gazelle.diagnostics import Diagnostics
 from gazelle.geometry import Pose
@@ -116,7 +116,7 @@ def is_script(material: Material) -> bool:
     return bool(material.name) and gazebo_material(material.name) == material
 
 
-def add_material(owner: Markup, material: Material, beside: Beside) -> None:
+def add_material(owner: Markup, material: Material, output_files: OutputFiles) -> None:
     """Append a ``<material>``: one of Gazebo's scripts by name, else its colours."""
     item = owner.add("material")
     if is_script(material):
@@ -132,7 +132,7 @@ def add_material(owner: Markup, material: Material, beside: Beside) -> None:
         item.add("lighting", "false")
     if material.texture is not None:
         metal = item.add("pbr").add("metal")
-        metal.add("albedo_map", beside.address(material.texture))
+        metal.add("albedo_map", output_files.address(material.texture))
 
 
 def add_light(owner: Markup, light: Light, T_parent_light: Pose) -> None:

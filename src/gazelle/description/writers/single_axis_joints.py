@@ -156,8 +156,8 @@ def _chained(model: Model, joint: Joint, steps: tuple[_Step, ...]) -> Model:
         )
         if not is_last and child is not None:
             carrier, lighter = carried(child, name, joint.T_model_joint, len(steps) - 1)
-            place = next(i for i, item in enumerate(links) if item.name == child.name)
-            links[place] = lighter
+            index = next(i for i, item in enumerate(links) if item.name == child.name)
+            links[index] = lighter
             links.append(carrier)
         parent = name
     joints = [new for old in model.joints for new in (chain if old is joint else [old])]

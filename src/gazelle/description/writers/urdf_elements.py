@@ -20,7 +20,7 @@ from gazelle.description.model import (
     Visual,
 )
 from gazelle.description.writers.geometry_elements import add_urdf_geometry, as_mesh, urdf_pieces
-from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.output_files import OutputFiles
 from gazelle.description.writers.unscoped_names import free_name
 from gazelle.description.writers.xml_markup import Markup, number, numbers, tidy, xyz_rpy
 from gazelle.diagnostics import Diagnostics
@@ -39,13 +39,13 @@ class LinkWriter:
     """Writes links and gathers the materials they use.
 
     Attributes:
-        beside: names files and takes those that are made.
+        output_files: names files and takes those that are made.
         diagnostics: receives what cannot be said.
         has_capsules: the source is a URDF, whose own capsules stay.
         materials: rgba and texture by name, in the order of their first use.
     """
 
-    beside: Beside
+    output_files: OutputFiles
     diagnostics: Diagnostics
     has_capsules: bool
     materials: dict[str, tuple[Rgba, str]] = field(default_factory=dict)
@@ -65,20 +65,24 @@ class LinkWriter:
             self._add_visual(item, link, visual, T_new_link @ visual.T_link_visual)
         for collision in link.collisions:
             pose = T_new_link @ collision.T_link_collision
-            for suffix, shape, place in self._pieces(link, collision):
-                self._add_shape(item, collision.name + suffix, shape, pose @ place, "collision")
+            for suffix, shape, T_shape_piece in self._pieces(link, collision):
+                self._add_shape(
+                    item, collision.name + suffix, shape, pose @ T_shape_piece, "collision"
+                )
 
     def _add_visual(self, item: Markup, link: Link, visual: Visual, pose: Pose) -> None:
         material = "" if visual.material is None else self._material(link, visual)
-        for suffix, shape, place in self._pieces(link, visual):
-            part = self._add_shape(item, visual.name + suffix, shape, pose @ place, "visual")
+        for suffix, shape, T_shape_piece in self._pieces(link, visual):
+            part = self._add_shape(
+                item, visual.name + suffix, shape, pose @ T_shape_piece, "visual"
+            )
             if material:
                 part.add("material", name=material)
 
     def _add_shape(self, item: Markup, name: str, shape: Shape, pose: Pose, word: str) -> Markup:
         part = item.add(word, name=name)
         add_origin(part, pose)
-        add_urdf_geometry(part, shape, self.beside)
+        add_urdf_geometry(part, shape, self.output_files)
         return part
 
     def _pieces(self, link: Link, owner: Collision | Visual) -> tuple[tuple[str, Shape, Pose], ...]:
@@ -95,7 +99,7 @@ class LinkWriter:
         mesh = as_mesh(owner.shape)
         address = None
         if mesh is not None:
-            address = self.beside.add(f"{link.name}_{owner.name}.stl", mesh[1])
+            address = self.output_files.add(f"{link.name}_{owner.name}.stl", mesh[1])
         if address is None:
             why = "" if mesh is None else "; a mesh in its place needs a file to be written beside"
             message = f"{what} is left out: URDF has none{why}"
@@ -112,16 +116,18 @@ class LinkWriter:
         *rgb, alpha = material.diffuse
         if len({other.transparency for other in link.visuals}) > 1:
             alpha *= 1.0 - visual.transparency
-        texture = self.beside.address(material.texture) if material.texture is not None else ""
-        look = ((rgb[0], rgb[1], rgb[2], alpha), texture)
+        texture = (
+            self.output_files.address(material.texture) if material.texture is not None else ""
+        )
+        appearance = ((rgb[0], rgb[1], rgb[2], alpha), texture)
         wanted = material.name or f"{link.name}_material"
-        if self.materials.get(wanted) == look:
+        if self.materials.get(wanted) == appearance:
             return wanted
-        known = next((name for name, item in self.materials.items() if item == look), "")
+        known = next((name for name, item in self.materials.items() if item == appearance), "")
         if known and (not material.name or known.startswith(f"{wanted}_")):
             return known
         name = free_name(wanted, self.materials)
-        self.materials[name] = look
+        self.materials[name] = appearance
         return name
 
     def material_tags(self) -> list[Markup]:
@@ -245,8 +251,8 @@ def _add_limit(item: Markup, kind: JointType, axis: JointAxis) -> None:
 def _add_extras(item: Markup, joint: Joint) -> None:
     mimic, safety = joint.mimic, joint.safety
     if mimic is not None:
-        words = {"multiplier": number(mimic.multiplier), "offset": number(mimic.offset)}
-        item.add("mimic", joint=mimic.joint, **words)
+        attributes = {"multiplier": number(mimic.multiplier), "offset": number(mimic.offset)}
+        item.add("mimic", joint=mimic.joint, **attributes)
     if safety is not None:
         names = ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")
         item.add("safety_controller", **{name: number(getattr(safety, name)) for name in names})

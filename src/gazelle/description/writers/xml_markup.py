@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from textwrap import wrap
 from xml.sax.saxutils import escape, quoteattr
 
-from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.output_files import OutputFiles
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.geometry import Pose, quat_xyzw_from_rpy
@@ -75,9 +75,9 @@ def head_comments(source: str, found: Diagnostics) -> list[str]:
     return comments
 
 
-def report_addresses(beside: Beside, diagnostics: Diagnostics) -> None:
+def report_addresses(output_files: OutputFiles, diagnostics: Diagnostics) -> None:
     """Report files that must be copied to where their new address leads."""
-    for address, path in beside.to_copy.items():
+    for address, path in output_files.to_copy.items():
         message = f"'{path}' is named {address} and is not there yet"
         diagnostics.report("convert.file-address", message)
 

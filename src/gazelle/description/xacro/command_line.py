@@ -62,9 +62,9 @@ def read_xacro_arguments(arguments: Sequence[str]) -> XacroCommand:
     from xacro import color
     from xacro.cli import process_args
 
-    words, notices = _without_old(arguments)
+    argv, notices = _without_old(arguments)
     with _program_named("xacro"), _colouring_of(color):
-        options, file = process_args(words)
+        options, file = process_args(argv)
     return XacroCommand(
         str(file),
         dict(options.mappings),
@@ -98,17 +98,17 @@ def parse_xacro_arguments(arguments: Sequence[str]) -> XacroCommand:
 
 
 def _without_old(arguments: Sequence[str]) -> tuple[list[str], tuple[str, ...]]:
-    words: list[str] = []
+    argv: list[str] = []
     notices: list[str] = []
-    for word in arguments:
-        if word in _OLD:
-            notices.append(f"option {word} has no effect: {_OLD[word]}")
-        elif word.partition("=")[0] == _LONG_OUTPUT and ":=" not in word:
+    for token in arguments:
+        if token in _OLD:
+            notices.append(f"option {token} has no effect: {_OLD[token]}")
+        elif token.partition("=")[0] == _LONG_OUTPUT and ":=" not in token:
             notices.append(f"option {_LONG_OUTPUT} is not xacro's; its name there is -o")
-            words += ["-o", *word.split("=", 1)[1:]]
+            argv += ["-o", *token.split("=", 1)[1:]]
         else:
-            words.append(word)
-    return words, tuple(notices)
+            argv.append(token)
+    return argv, tuple(notices)
 
 
 @contextlib.contextmanager

@@ -8,10 +8,10 @@ from types import FrameType
 from typing import Any, NamedTuple
 from xml.dom import expatbuilder, minidom
 
-from gazelle.description.xacro.rerun_patches import Repairs
+from gazelle.description.xacro.rerun_patches import RerunPatches
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["EntityRefusedError", "Tracker", "node_in", "place_of"]
+__all__ = ["EntityRefusedError", "Tracker", "node_in", "span_of"]
 
 _KEY = "gazelle:place"
 # A stack of hundreds of calls says no more than its innermost part.
@@ -37,11 +37,11 @@ class Tracker:
         on_copy: called for each element that is copied.
     """
 
-    def __init__(self, repairs: Repairs) -> None:
+    def __init__(self, patches: RerunPatches) -> None:
         self.calls: list[SourceSpan] = []
         self.on_copy: Callable[[], None] = _ignored
         self.files: list[str] = []
-        self._repairs = repairs
+        self._repairs = patches
         self._via: tuple[SourceSpan, ...] = ()
         self._paths: list[tuple[SourceSpan, ...]] = []
 
@@ -59,18 +59,18 @@ class Tracker:
         self.files.append(file)
         builder = _Builder(self, file)
         document: minidom.Document = builder.parseString(text)
-        for element, place in builder.elements if self._repairs.touch(file) else ():
-            self._repairs.apply(element, place)
+        for element, span in builder.elements if self._repairs.touch(file) else ():
+            self._repairs.apply(element, span)
         return document
 
-    def enter(self, place: SourceSpan) -> None:
+    def enter(self, span: SourceSpan) -> None:
         """Note that the include or macro call at a place is being worked on from here on."""
-        self.calls.append(place)
+        self.calls.append(span)
         # A call by name is worked on twice, by the library's two functions for it; a macro that
         # calls itself again and again says so once.
-        repeated = self._via[:1] == (place,)
+        repeated = self._via[:1] == (span,)
         self._paths.append(self._via)
-        self._via = self._via if repeated else (place, *self._via[: _MAX_DEPTH - 1])
+        self._via = self._via if repeated else (span, *self._via[: _MAX_DEPTH - 1])
 
     def leave(self) -> None:
         """Note that the innermost include or macro call has been worked on."""
@@ -92,7 +92,7 @@ class Tracker:
         return self._via
 
 
-def place_of(node: Any) -> SourceSpan | None:
+def span_of(node: Any) -> SourceSpan | None:
     """Return where a node, or the nearest element around it, was written."""
     while node is not None:
         stamp = node.getUserData(_KEY) if node.nodeType == minidom.Node.ELEMENT_NODE else None

@@ -11,7 +11,8 @@ from types import ModuleType
 from typing import Any
 from xml.parsers.expat import ExpatError
 
-from gazelle.description.xacro.error_explanations import Finding
+from gazelle.description.xacro.error_explanations import Explanation
+from gazelle.description.xacro.failure import Failure
 from gazelle.description.xacro.failure_reports import (
     found_failure,
     repaired,
@@ -19,12 +20,11 @@ from gazelle.description.xacro.failure_reports import (
     report_left_out,
     report_printed,
 )
-from gazelle.description.xacro.failure import Failure
-from gazelle.description.xacro.library_run import Console, run_session
-from gazelle.description.xacro.rerun_patches import Repairs
-from gazelle.description.xacro.silent_mistakes import report_leftovers
+from gazelle.description.xacro.library_run import Console, run_library
+from gazelle.description.xacro.rerun_patches import RerunPatches
+from gazelle.description.xacro.silent_mistakes import report_silent_mistakes
 from gazelle.description.xacro.xml_output import Written, written
-from gazelle.description.xml import Tag, parse_xml, with_places
+from gazelle.description.xml import Tag, parse_xml, with_spans
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.diagnostics.share_links import written_file
 from gazelle.workspace import Workspace
@@ -43,7 +43,7 @@ class Expanded:
     Attributes:
         text: the result, as ``xacro`` prints it.
         file: the input file, as it was named.
-        places: where each element of `text` was written, in document order, None where that is
+        spans: where each element of `text` was written, in document order, None where that is
             not known; `SourceSpan.via` holds the macro calls and includes that brought it there,
             innermost first.
         lines: the line of `text`, from 1, on which each element starts.
@@ -52,7 +52,7 @@ class Expanded:
 
     text: str
     file: str
-    places: tuple[SourceSpan | None, ...] = field(default=(), repr=False)
+    spans: tuple[SourceSpan | None, ...] = field(default=(), repr=False)
     lines: tuple[int, ...] = field(default=(), repr=False)
     dependencies: tuple[str, ...] = ()
 
@@ -60,15 +60,15 @@ class Expanded:
     def source_map(self) -> dict[int, SourceSpan]:
         """Line of `text` → place of the first element that starts on it."""
         found: dict[int, SourceSpan] = {}
-        for line, place in zip(self.lines, self.places, strict=True):
-            if place is not None:
-                found.setdefault(line, place)
+        for line, span in zip(self.lines, self.spans, strict=True):
+            if span is not None:
+                found.setdefault(line, span)
         return found
 
     def tag(self, diagnostics: Diagnostics) -> Tag | None:
         """Return the result as elements whose places are those of the xacro files."""
         root = parse_xml(self.text, self.file, diagnostics)
-        return None if root is None else with_places(root, self.places)
+        return None if root is None else with_spans(root, self.spans)
 
 
 @dataclass(frozen=True)
@@ -119,68 +119,68 @@ def expand_xacro(
 
 def _first_run(
     task: _Task, diagnostics: Diagnostics, console: Console | None
-) -> Expanded | tuple[Failure, Finding]:
-    with _session(task, console, None) as (library, session):
+) -> Expanded | tuple[Failure, Explanation]:
+    with _session(task, console, None) as (library, library_run):
         try:
             document: Any = library.process_file(
-                task.file, mappings=session.arguments, verbosity=task.verbosity
+                task.file, mappings=library_run.arguments, verbosity=task.verbosity
             )
             result = written(document)
         # The library evaluates expressions of the file: anything can be raised in there.
         except Exception as error:  # noqa: BLE001
             if console is None:
-                report_printed(session, task.file, diagnostics)
+                report_printed(library_run, task.file, diagnostics)
             else:
                 _print_failure(error, library, task.verbosity, console)
-            report_left_out(session, task.file, diagnostics)
-            return found_failure(error, library, session, task.file)
+            report_left_out(library_run, task.file, diagnostics)
+            return found_failure(error, library, library_run, task.file)
         dependencies = tuple(
             dict.fromkeys(str(written_file(item)) for item in library.all_includes)
         )
     if console is None:
-        report_printed(session, task.file, diagnostics)
-    report_left_out(session, task.file, diagnostics)
-    report_leftovers(result, session, task.file, task.arguments, diagnostics)
+        report_printed(library_run, task.file, diagnostics)
+    report_left_out(library_run, task.file, diagnostics)
+    report_silent_mistakes(result, library_run, task.file, task.arguments, diagnostics)
     return _expanded(result, task.file, dependencies)
 
 
 def _expanded(result: Written, file: str, dependencies: tuple[str, ...]) -> Expanded:
-    return Expanded(result.text, file, tuple(result.places), tuple(result.lines), dependencies)
+    return Expanded(result.text, file, tuple(result.spans), tuple(result.lines), dependencies)
 
 
-def _session(task: _Task, console: Console | None, repairs: Repairs | None) -> Any:
-    return run_session(
+def _session(task: _Task, console: Console | None, patches: RerunPatches | None) -> Any:
+    return run_library(
         task.workspace,
         arguments=dict(task.arguments),
         root_dir=task.root_dir,
         verbosity=task.verbosity,
         console=console,
-        repairs=repairs,
+        patches=patches,
     )
 
 
-def _report_all(task: _Task, first: tuple[Failure, Finding], diagnostics: Diagnostics) -> None:
+def _report_all(task: _Task, first: tuple[Failure, Explanation], diagnostics: Diagnostics) -> None:
     """Report a failure, then those that show when it is taken out, and so on."""
-    repairs = Repairs()
+    patches = RerunPatches()
     end_s = time.monotonic() + _SEARCH_S
-    found: tuple[Failure, Finding] | None = first
+    found: tuple[Failure, Explanation] | None = first
     for _ in range(_MAX_ERRORS):
         if found is None:
             return
         failure, finding = found
-        report_failure(failure, finding, repairs, diagnostics)
-        if not repaired(failure, finding, repairs) or time.monotonic() > end_s:
+        report_failure(failure, finding, patches, diagnostics)
+        if not repaired(failure, finding, patches) or time.monotonic() > end_s:
             return
-        found = _next_failure(task, repairs)
+        found = _next_failure(task, patches)
 
 
-def _next_failure(task: _Task, repairs: Repairs) -> tuple[Failure, Finding] | None:
-    with _session(task, None, repairs) as (library, session):
+def _next_failure(task: _Task, patches: RerunPatches) -> tuple[Failure, Explanation] | None:
+    with _session(task, None, patches) as (library, library_run):
         try:
-            library.process_file(task.file, mappings=session.arguments)
+            library.process_file(task.file, mappings=library_run.arguments)
         # As in the first run.
         except Exception as error:  # noqa: BLE001
-            return found_failure(error, library, session, task.file)
+            return found_failure(error, library, library_run, task.file)
     return None
 
 

@@ -12,7 +12,7 @@ from typing import Any
 from gazelle.documents import Budget, LimitError, compile_limited, read_text_limited, scaled
 from gazelle.documents.yaml import ProblemKind, YamlError, read_yaml
 
-__all__ = ["ExpansionLimitError", "Spending"]
+__all__ = ["ExpansionBudget", "ExpansionLimitError"]
 
 _MAX_SECONDS = 10
 _LONG_YAML = 1 << 20
@@ -33,7 +33,7 @@ class ExpansionLimitError(LimitError):
     """A file expands to too much."""
 
 
-class Spending:
+class ExpansionBudget:
     """Counts what a run does, and ends it with a `LimitError` where that is absurd.
 
     Attributes:

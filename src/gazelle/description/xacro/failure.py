@@ -1,6 +1,6 @@
 """What was being worked on when the library failed, read from the error's frames.
 
-`Finding` is what is made of it, with the words that explanations share.
+`Explanation` is what is made of it, with the words that explanations share.
 """
 
 from __future__ import annotations
@@ -11,29 +11,29 @@ from dataclasses import dataclass, field, replace
 from types import FrameType, ModuleType, TracebackType
 from typing import Any, NamedTuple
 
-from gazelle.description.xacro.dom import node_in, place_of
-from gazelle.description.xacro.library_run import Session, causes_of
+from gazelle.description.xacro.dom import node_in, span_of
+from gazelle.description.xacro.library_run import LibraryRun, causes_of
 from gazelle.description.xacro.rerun_patches import UNKNOWN
 from gazelle.description.xml import attribute_holding, attribute_span, text_span
 from gazelle.diagnostics import SourceSpan
 
 __all__ = [
+    "Explanation",
     "Failure",
-    "Finding",
     "failure_of",
     "include_line",
     "is_below",
     "known_keys",
     "listed",
     "one_line",
-    "short_place",
+    "short_location",
 ]
 
 _MAX = 12
 _MAX_DEPTH = 12
 
 
-class Finding(NamedTuple):
+class Explanation(NamedTuple):
     """A failure in words.
 
     Attributes:
@@ -58,7 +58,7 @@ class Failure:
     Attributes:
         error: what the library raised.
         causes: it and what it wraps, outermost first.
-        session: the run.
+        library_run: the run.
         files: the files being read, outermost first.
         macro_stack: the innermost of the macros being expanded.
         node: the DOM node being worked on.
@@ -74,7 +74,7 @@ class Failure:
 
     error: Exception
     causes: tuple[BaseException, ...]
-    session: Session
+    library_run: LibraryRun
     files: tuple[str, ...]
     macro_stack: tuple[Any, ...]
     node: Any = None
@@ -90,8 +90,8 @@ class Failure:
     @property
     def via(self) -> tuple[SourceSpan, ...]:
         """The way to `element`, innermost first."""
-        calls = tuple(call for call in self.session.tracker.via() if call != self.element)
-        own = place_of(self.node)
+        calls = tuple(call for call in self.library_run.tracker.via() if call != self.element)
+        own = span_of(self.node)
         return calls or (own.via if own is not None else ())
 
     @property
@@ -127,7 +127,7 @@ def listed(names: Iterable[str], nothing: str = "none") -> str:
     return ", ".join(found[:_MAX]) + more if found else nothing
 
 
-def short_place(span: SourceSpan) -> str:
+def short_location(span: SourceSpan) -> str:
     """Return ``file:line`` with the file's name alone."""
     return f"{os.path.basename(span.file)}:{span.line}"  # noqa: PTH119
 
@@ -152,18 +152,20 @@ def known_keys(table: object) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))
 
 
-def failure_of(error: Exception, library: ModuleType, session: Session, file: str) -> Failure:
+def failure_of(
+    error: Exception, library: ModuleType, library_run: LibraryRun, file: str
+) -> Failure:
     """Read the frames of an error, while the library's stacks are still as they were then.
 
     Args:
         error: what the library raised.
         library: the xacro module.
-        session: the run.
+        library_run: the run.
         file: the input file.
     """
     files = tuple(str(name) for name in library.filestack or [file])
     stack = tuple((library.macrostack or [])[-_MAX_DEPTH:])
-    failure = Failure(error, tuple(causes_of(error)), session, files, stack)
+    failure = Failure(error, tuple(causes_of(error)), library_run, files, stack)
     for frame in _frames(error, str(library.__file__)):
         _look_at(frame, failure)
     if failure.text and failure.element is not None and not failure.attribute:
@@ -217,8 +219,8 @@ def _note_part(kind: str, inside: str, failure: Failure) -> None:
 
 def _work_on(node: Any, failure: Failure) -> None:
     failure.node = node
-    place = place_of(node)
-    failure.element = None if place is None else replace(place, via=())
+    span = span_of(node)
+    failure.element = None if span is None else replace(span, via=())
     failure.text = failure.attribute = failure.part = failure.expression = ""
 
 
@@ -226,8 +228,8 @@ def _work_on_property(local: dict[str, Any], failure: Failure) -> None:
     """Turn to the place of a property whose value is evaluated at its first use."""
     key, table = local["key"], local["self"]
     value = dict.get(table, key)
-    properties = failure.session.properties
-    place = properties.get((key, value)) if isinstance(value, str) else None
-    if place is not None:
-        failure.element = replace(place, via=())
+    properties = failure.library_run.properties
+    span = properties.get((key, value)) if isinstance(value, str) else None
+    if span is not None:
+        failure.element = replace(span, via=())
         failure.text = failure.attribute = failure.part = failure.expression = ""

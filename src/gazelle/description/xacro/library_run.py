@@ -17,9 +17,9 @@ from pathlib import Path
 from types import CodeType, FrameType, ModuleType
 from typing import Any
 
-from gazelle.description.xacro.dom import Tracker, node_in, place_of
-from gazelle.description.xacro.expansion_limits import ExpansionLimitError, Spending
-from gazelle.description.xacro.rerun_patches import UNKNOWN, UNKNOWN_NAME, Repairs
+from gazelle.description.xacro.dom import Tracker, node_in, span_of
+from gazelle.description.xacro.expansion_limits import ExpansionBudget, ExpansionLimitError
+from gazelle.description.xacro.rerun_patches import UNKNOWN, UNKNOWN_NAME, RerunPatches
 from gazelle.description.xacro.unprefixed_tags import (
     add_prefixes,
     takes_unprefixed,
@@ -33,14 +33,14 @@ from gazelle.errors import NotFoundError
 from gazelle.workspace import Workspace
 from gazelle.workspace.installed_files import installed_source
 
-__all__ = ["Console", "Session", "causes_of", "run_session"]
+__all__ = ["Console", "LibraryRun", "causes_of", "run_library"]
 
 _LOCK = threading.RLock()
 Console = Callable[[str], None]
 """Takes what the official program prints to standard error, piece by piece."""
 
 
-class AskedFor(dict[str, str]):
+class RequestedFiles(dict[str, str]):
     """Values of arguments that note which names the files ask for."""
 
     def __init__(self, values: dict[str, str]) -> None:
@@ -57,7 +57,7 @@ class AskedFor(dict[str, str]):
 
 
 @dataclass
-class Session:
+class LibraryRun:
     """What a run collects besides its result.
 
     Attributes:
@@ -69,32 +69,32 @@ class Session:
         properties: last place of each property by name, and by name and text of its value.
         macros: last place of each macro by name.
         addresses: what ``xmlns:xacro`` is in the root elements, with their places.
-        spending: what the run has used up.
+        budget: what the run has used up.
         unprefixed: xacro's tags without the prefix that were taken, with their places; None where
             they are not.
     """
 
     tracker: Tracker
-    arguments: AskedFor
+    arguments: RequestedFiles
     printed: list[tuple[str, SourceSpan | None]] = field(default_factory=list)
     left_out: list[tuple[NotFoundError, SourceSpan | None]] = field(default_factory=list)
     properties: dict[str | tuple[str, str], SourceSpan] = field(default_factory=dict)
     macros: dict[str, SourceSpan] = field(default_factory=dict)
     addresses: dict[str, SourceSpan] = field(default_factory=dict)
-    spending: Spending = field(default_factory=Spending)
+    budget: ExpansionBudget = field(default_factory=ExpansionBudget)
     unprefixed: list[tuple[str, SourceSpan | None]] | None = None
 
 
 @contextmanager
-def run_session(
+def run_library(
     workspace: Workspace | None,
     *,
     arguments: dict[str, str],
     root_dir: str = "",
     verbosity: int = 1,
     console: Console | None = None,
-    repairs: Repairs | None = None,
-) -> Iterator[tuple[ModuleType, Session]]:
+    patches: RerunPatches | None = None,
+) -> Iterator[tuple[ModuleType, LibraryRun]]:
     """Lend the library, prepared for one run, and the session that listens to it.
 
     Args:
@@ -103,30 +103,30 @@ def run_session(
         root_dir: folder that relative paths and ``$(cwd)`` mean, the current one when empty.
         verbosity: 0 to 4, as the program's ``--verbosity``.
         console: receives what the library prints, in colour where standard error is a terminal.
-        repairs: what is taken out of the files.
+        patches: what is taken out of the files.
     """
     import xacro
     from xacro import color, substitution_args
 
-    repairs = repairs or Repairs()
-    session = Session(Tracker(repairs), AskedFor(arguments))
-    session.unprefixed = [] if takes_unprefixed(os.environ) else None
+    patches = patches or RerunPatches()
+    library_run = LibraryRun(Tracker(patches), RequestedFiles(arguments))
+    library_run.unprefixed = [] if takes_unprefixed(os.environ) else None
     find = _finder(workspace)
     table: Any = substitution_args._eval_dict
     with _LOCK:
-        changes = _replacements(xacro, session, root_dir, verbosity)
-        print_ = _printer(session, console)
+        changes = _replacements(xacro, library_run, root_dir, verbosity)
+        print_ = _printer(library_run, console)
         changes += [(xacro, "print", print_), (color, "print", print_)]
         changes += [(substitution_args, "_eval_find", find)]
-        changes += [(substitution_args, "eval", session.spending.eval)]
+        changes += [(substitution_args, "eval", library_run.budget.eval)]
         if console is None:
             changes.append((color, "is_tty", lambda _stream: False))
         symbols: Any = xacro._global_symbols
-        unknown = dict.fromkeys([UNKNOWN_NAME, *repairs.names], UNKNOWN)
+        unknown = dict.fromkeys([UNKNOWN_NAME, *patches.names], UNKNOWN)
         finding = _swapped_items(table, {"find": find})
         naming = _swapped_items(symbols, unknown)
         with _swapped(changes), finding, naming, _deeper_recursion():
-            yield xacro, session
+            yield xacro, library_run
 
 
 def causes_of(error: BaseException) -> Iterator[BaseException]:
@@ -142,24 +142,24 @@ def causes_of(error: BaseException) -> Iterator[BaseException]:
 
 
 def _replacements(
-    library: Any, session: Session, root_dir: str, verbosity: int
+    library: Any, library_run: LibraryRun, root_dir: str, verbosity: int
 ) -> list[tuple[Any, str, Any]]:
-    tracker, spending = session.tracker, session.spending
-    tracker.on_copy = spending.copied
+    tracker, budget = library_run.tracker, library_run.budget
+    tracker.on_copy = budget.copied
     return [
-        (library, "parse", _parser(library, session)),
-        (library, "safe_eval", _remembering_evaluator(library, spending)),
-        (library, "eval_text", spending.texts(library.eval_text)),
-        (library, "open", spending.open),
+        (library, "parse", _parser(library, library_run)),
+        (library, "safe_eval", _remembering_evaluator(library, budget)),
+        (library, "eval_text", budget.texts(library.eval_text)),
+        (library, "open", budget.open),
         (
             library,
             "handle_macro_call",
-            _macro_calls(library, session),
+            _macro_calls(library, library_run),
         ),
-        (library, "process_include", _tracked(spending.counted(library.process_include), tracker)),
-        (library, "grab_property", _noting(library.grab_property, _note_property, session)),
-        (library, "grab_macro", _noting(library.grab_macro, _note_macro, session)),
-        (library, "get_include_files", _lenient(library.get_include_files, session)),
+        (library, "process_include", _tracked(budget.counted(library.process_include), tracker)),
+        (library, "grab_property", _noting(library.grab_property, _note_property, library_run)),
+        (library, "grab_macro", _noting(library.grab_macro, _note_macro, library_run)),
+        (library, "get_include_files", _lenient(library.get_include_files, library_run)),
         (library, "abs_filename_spec", _found_source(library.abs_filename_spec)),
         (library, "root_dir", root_dir or os.curdir),
         (library, "verbosity", verbosity),
@@ -215,8 +215,8 @@ def _finder(workspace: Workspace | None) -> Callable[[str], str]:
     return find
 
 
-def _parser(library: Any, session: Session) -> Callable[..., Any]:
-    tracker = session.tracker
+def _parser(library: Any, library_run: LibraryRun) -> Callable[..., Any]:
+    tracker = library_run.tracker
 
     def parse(inp: Any, filename: str | None = None) -> Any:
         if inp is not None:
@@ -233,17 +233,17 @@ def _parser(library: Any, session: Session) -> Callable[..., Any]:
             raise ExpansionLimitError(f"'{filename}': {reason}")
         document = tracker.parse(data, str(filename))
         root: Any = document.documentElement
-        if session.unprefixed is not None:
-            add_prefixes(root, session.unprefixed)
-        address, place = root.getAttribute("xmlns:xacro"), place_of(root)
-        if address and place is not None:
-            session.addresses.setdefault(address, place)
+        if library_run.unprefixed is not None:
+            add_prefixes(root, library_run.unprefixed)
+        address, span = root.getAttribute("xmlns:xacro"), span_of(root)
+        if address and span is not None:
+            library_run.addresses.setdefault(address, span)
         return document
 
     return parse
 
 
-def _remembering_evaluator(library: Any, spending: Spending) -> Callable[..., Any]:
+def _remembering_evaluator(library: Any, budget: ExpansionBudget) -> Callable[..., Any]:
     """Evaluate as the library does, but compile each expression once.
 
     Most expressions of a robot stand in macros that are called many times.
@@ -258,9 +258,9 @@ def _remembering_evaluator(library: Any, spending: Spending) -> Callable[..., An
         code, invalid_names = compiled(expr.strip())
         if invalid_names:
             raise library.XacroException("Use of invalid name(s): ", ", ".join(invalid_names))
-        symbols.update(__builtins__=spending.expressions.names)
+        symbols.update(__builtins__=budget.expressions.names)
         # This is what xacro is: expressions of the file, without builtins.
-        return spending.expressions.checked(eval(code, symbols, locals_))  # noqa: S307
+        return budget.expressions.checked(eval(code, symbols, locals_))  # noqa: S307
 
     return safe_eval
 
@@ -272,11 +272,11 @@ def _tracked(function: Callable[..., Any], tracker: Tracker) -> Callable[..., An
         # Most elements are no macro calls, of which the library's function would only say so.
         if not element.tagName.startswith("xacro:"):
             return False
-        place = place_of(element)
-        if place is None:
+        span = span_of(element)
+        if span is None:
             return function(element, *rest)
         # Without its own way there: the stack below holds that already.
-        tracker.enter(replace(place, via=()))
+        tracker.enter(replace(span, via=()))
         result = function(element, *rest)
         tracker.leave()
         return result
@@ -284,39 +284,39 @@ def _tracked(function: Callable[..., Any], tracker: Tracker) -> Callable[..., An
     return call
 
 
-def _macro_calls(library: Any, session: Session) -> Callable[..., Any]:
-    call = _tracked(session.spending.counted(library.handle_macro_call), session.tracker)
-    if session.unprefixed is None:
+def _macro_calls(library: Any, library_run: LibraryRun) -> Callable[..., Any]:
+    call = _tracked(library_run.budget.counted(library.handle_macro_call), library_run.tracker)
+    if library_run.unprefixed is None:
         return call
-    return with_old_calls(call, library, session.unprefixed)
+    return with_old_calls(call, library, library_run.unprefixed)
 
 
 def _noting(
-    function: Callable[..., Any], note: Callable[[Any, Session], None], session: Session
+    function: Callable[..., Any], note: Callable[[Any, LibraryRun], None], library_run: LibraryRun
 ) -> Callable[..., Any]:
     """Note where a property or macro stands when the library has read it."""
 
     def grab(element: Any, table: Any) -> None:
         function(element, table)
-        note(element, session)
+        note(element, library_run)
 
     return grab
 
 
-def _note_property(element: Any, session: Session) -> None:
-    place = place_of(element)
-    if place is not None:
+def _note_property(element: Any, library_run: LibraryRun) -> None:
+    span = span_of(element)
+    if span is not None:
         name = element.getAttribute("name")
-        session.properties[name] = place
+        library_run.properties[name] = span
         for attribute in ("value", "default"):
             if element.hasAttribute(attribute):
-                session.properties[name, element.getAttribute(attribute)] = place
+                library_run.properties[name, element.getAttribute(attribute)] = span
 
 
-def _note_macro(element: Any, session: Session) -> None:
-    place = place_of(element)
-    if place is not None:
-        session.macros[element.getAttribute("name")] = place
+def _note_macro(element: Any, library_run: LibraryRun) -> None:
+    span = span_of(element)
+    if span is not None:
+        library_run.macros[element.getAttribute("name")] = span
 
 
 def _found_source(function: Callable[[str], str]) -> Callable[[str], str]:
@@ -331,7 +331,7 @@ def _found_source(function: Callable[[str], str]) -> Callable[[str], str]:
     return absolute
 
 
-def _lenient(function: Callable[..., Any], session: Session) -> Callable[..., Any]:
+def _lenient(function: Callable[..., Any], library_run: LibraryRun) -> Callable[..., Any]:
     """Leave out includes of files in packages that are not there.
 
     Robots include the macros of every sensor they can carry and use those that an argument
@@ -347,20 +347,20 @@ def _lenient(function: Callable[..., Any], session: Session) -> Callable[..., An
             )
             if missing is None:
                 raise
-            calls = session.tracker.via()
-            place = replace(calls[0], via=calls[1:]) if calls else None
-            session.left_out.append((missing, place))
+            calls = library_run.tracker.via()
+            span = replace(calls[0], via=calls[1:]) if calls else None
+            library_run.left_out.append((missing, span))
             return []
 
     return files
 
 
-def _printer(session: Session, console: Console | None) -> Callable[..., None]:
-    def print_(*words: Any, **_options: Any) -> None:
-        line = " ".join(str(word) for word in words)
+def _printer(library_run: LibraryRun, console: Console | None) -> Callable[..., None]:
+    def print_(*values: Any, **_options: Any) -> None:
+        line = " ".join(str(value) for value in values)
         if console is not None:
             console(f"{line}\n")
-        session.printed.append((line, _place_below(sys._getframe(1))))
+        library_run.printed.append((line, _place_below(sys._getframe(1))))
 
     return print_
 
@@ -370,6 +370,6 @@ def _place_below(frame: FrameType | None) -> SourceSpan | None:
     while frame is not None:
         node = node_in(frame)
         if node is not None:
-            return place_of(node)
+            return span_of(node)
         frame = frame.f_back
     return None

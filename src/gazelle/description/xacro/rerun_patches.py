@@ -7,13 +7,13 @@ from typing import Any
 
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["UNKNOWN", "UNKNOWN_NAME", "Repairs", "Unknown"]
+__all__ = ["UNKNOWN", "UNKNOWN_NAME", "RerunPatches", "Unknown"]
 
 UNKNOWN_NAME = "gazelle_unknown"
 _STAND_IN = f"${{{UNKNOWN_NAME}}}"
 _TEXT = "#text"
 
-Place = tuple[str, int, int]
+SpanKey = tuple[str, int, int]
 
 
 class Unknown:
@@ -65,7 +65,7 @@ UNKNOWN = Unknown()
 
 
 @dataclass
-class Repairs:
+class RerunPatches:
     """What is taken out of the files, by place, and which names are taken as defined.
 
     Attributes:
@@ -77,37 +77,37 @@ class Repairs:
     names: set[str] = field(default_factory=set)
     suspects: set[str] = field(default_factory=set)
     is_incomplete: bool = False
-    _parts: dict[Place, list[tuple[str, str]]] = field(default_factory=dict)
-    _removed: set[Place] = field(default_factory=set)
+    _parts: dict[SpanKey, list[tuple[str, str]]] = field(default_factory=dict)
+    _removed: set[SpanKey] = field(default_factory=set)
 
     def touch(self, file: str) -> bool:
         """Tell whether anything of a file is changed."""
-        return any(place[0] == file for place in [*self._parts, *self._removed])
+        return any(span[0] == file for span in [*self._parts, *self._removed])
 
-    def replace_part(self, place: SourceSpan, attribute: str, part: str) -> bool:
+    def replace_part(self, span: SourceSpan, attribute: str, part: str) -> bool:
         """Put an unknown value in place of an expression; False when that was done before.
 
         Args:
-            place: of the element.
+            span: of the element.
             attribute: the attribute that holds the expression; empty for the element's text.
             part: the expression with its brackets; all of the value when empty.
         """
-        parts = self._parts.setdefault(_key(place), [])
+        parts = self._parts.setdefault(_key(span), [])
         if (attribute or _TEXT, part) in parts:
             return False
         parts.append((attribute or _TEXT, part))
         return True
 
-    def remove(self, place: SourceSpan) -> bool:
+    def remove(self, span: SourceSpan) -> bool:
         """Take an element out; False when that was done before."""
-        if _key(place) in self._removed:
+        if _key(span) in self._removed:
             return False
-        self._removed.add(_key(place))
+        self._removed.add(_key(span))
         return True
 
-    def apply(self, element: Any, place: SourceSpan) -> None:
+    def apply(self, element: Any, span: SourceSpan) -> None:
         """Change an element that has just been parsed."""
-        key = _key(place)
+        key = _key(span)
         for attribute, part in self._parts.get(key, ()):
             if attribute == _TEXT:
                 _replace_in_texts(element, part)
@@ -125,5 +125,5 @@ def _replace_in_texts(element: Any, part: str) -> None:
             child.data = child.data.replace(part, _STAND_IN)
 
 
-def _key(place: SourceSpan) -> Place:
-    return place.file, place.line, place.column
+def _key(span: SourceSpan) -> SpanKey:
+    return span.file, span.line, span.column

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.xacro.error_explanations.files import NAMESPACE
-from gazelle.description.xacro.library_run import Session
+from gazelle.description.xacro.library_run import LibraryRun
 from gazelle.description.xacro.macro_definitions import definitions_in
 from gazelle.description.xacro.unprefixed_tags import NEEDED_ATTRIBUTES, OF_ROBOTS
 from gazelle.description.xacro.xml_output import Written
@@ -17,7 +17,7 @@ from gazelle.description.xml import Tag, attribute_span, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean
 from gazelle.documents import TEXT_BYTES, read_limited
 
-__all__ = ["report_leftovers"]
+__all__ = ["report_silent_mistakes"]
 
 _ADDRESS = re.compile(r"https?://(www\.|wiki\.)?ros\.org/(wiki/)?xacro/?")
 _PREFIXED = re.compile(r'xmlns:(\w+)="(?:https?://(?:www\.|wiki\.)?ros\.org/(?:wiki/)?xacro)/?"')
@@ -29,97 +29,103 @@ _SPLITTERS = (b"tokenize", b".split(")
 _TUPLE = re.compile(r"\((-?\d+(?:\.\d+)?), (-?\d+(?:\.\d+)?)\)")
 
 
-def report_leftovers(
-    written: Written, session: Session, file: str, given: dict[str, str], diagnostics: Diagnostics
+def report_silent_mistakes(
+    written: Written,
+    library_run: LibraryRun,
+    file: str,
+    given: dict[str, str],
+    diagnostics: Diagnostics,
 ) -> None:
     """Report what a user would not have meant.
 
     Args:
         written: the result.
-        session: the run.
+        library_run: the run.
         file: the input file, where arguments of the command line are reported.
         given: values of ``<xacro:arg>`` that the user gave.
         diagnostics: receives warnings and remarks.
     """
     text = written.text
-    _report_unprefixed(session, diagnostics)
-    _report_tags(written, text, session, diagnostics)
-    for place in written.unexpanded:
+    _report_unprefixed(library_run, diagnostics)
+    _report_tags(written, text, library_run, diagnostics)
+    for span in written.unexpanded:
         message = "xacro expands nothing inside <![CDATA[…]]>: ${…} is left as it stands"
         fix = "write the text without CDATA, with &lt; and &amp;"
-        diagnostics.report("xacro.not-expanded", message, place, fix=fix)
-    _report_addresses(text, session, diagnostics)
-    _report_sources(session, diagnostics)
-    _report_pairs(text, written, session, diagnostics)
-    _report_unused(session, file, given, diagnostics)
+        diagnostics.report("xacro.not-expanded", message, span, fix=fix)
+    _report_addresses(text, library_run, diagnostics)
+    _report_sources(library_run, diagnostics)
+    _report_pairs(text, written, library_run, diagnostics)
+    _report_unused(library_run, file, given, diagnostics)
 
 
-def _report_unprefixed(session: Session, diagnostics: Diagnostics) -> None:
+def _report_unprefixed(library_run: LibraryRun, diagnostics: Diagnostics) -> None:
     """Report the tags that were taken for xacro's, once a file."""
     by_file: dict[str, list[tuple[str, SourceSpan | None]]] = {}
-    for name, place in session.unprefixed or ():
-        by_file.setdefault(place.file if place else "", []).append((name, place))
+    for name, span in library_run.unprefixed or ():
+        by_file.setdefault(span.file if span else "", []).append((name, span))
     for tags in by_file.values():
-        name, place = tags[0]
+        name, span = tags[0]
         # A macro's body is copied at each call.
         more = len({replace(found, via=()) for _name, found in tags if found}) - 1
         message = f"<{name}> without the prefix 'xacro:' is taken as <xacro:{name}>, as until ROS"
         message += f" Melodic (and {more} more in this file)" if more else " Melodic"
         fix = f"write <xacro:{name} …>, which all versions take"
-        diagnostics.report("xacro.unprefixed", message, place, fix=fix)
+        diagnostics.report("xacro.unprefixed", message, span, fix=fix)
 
 
-def _report_tags(written: Written, text: str, session: Session, diagnostics: Diagnostics) -> None:
-    suspected = written.names & {*NEEDED_ATTRIBUTES, *session.macros}
+def _report_tags(
+    written: Written, text: str, library_run: LibraryRun, diagnostics: Diagnostics
+) -> None:
+    suspected = written.names & {*NEEDED_ATTRIBUTES, *library_run.macros}
     root = parse_xml(text, "", Diagnostics()) if suspected else None
     if root is None or root.name != "robot":
         return
-    for tag, is_top, place in _outside_plugins(root, iter(written.places)):
+    for tag, is_top, span in _outside_plugins(root, iter(written.spans)):
         if tag.name not in suspected:
             continue
         needed = NEEDED_ATTRIBUTES.get(tag.name)
         if needed is not None and needed <= set(tag.attributes):
             message = f"<{tag.name}> without the prefix 'xacro:' is not xacro's; it is left in the"
             message += " result as it stands"
-        elif is_top and tag.name in session.macros and tag.name not in OF_ROBOTS:
+        elif is_top and tag.name in library_run.macros and tag.name not in OF_ROBOTS:
             message = (
                 f"macro '{tag.name}' is called without the prefix 'xacro:'; it is not expanded"
             )
         else:
             continue
-        diagnostics.report("xacro.not-expanded", message, place, fix=f"write <xacro:{tag.name} …>")
+        diagnostics.report("xacro.not-expanded", message, span, fix=f"write <xacro:{tag.name} …>")
 
 
 def _outside_plugins(
-    root: Tag, places: Iterator[SourceSpan | None]
+    root: Tag, spans: Iterator[SourceSpan | None]
 ) -> Iterator[tuple[Tag, bool, SourceSpan | None]]:
     """Yield the elements with their places, those for Gazebo left out, whose tags are others."""
-    next(places)
+    next(spans)
     for top in root.children:
-        yield top, True, next(places)
+        yield top, True, next(spans)
         for tag in list(top.walk())[1:]:
-            place = next(places)
+            span = next(spans)
             if top.name != "gazebo":
-                yield tag, False, place
+                yield tag, False, span
 
 
-def _report_addresses(text: str, session: Session, diagnostics: Diagnostics) -> None:
+def _report_addresses(text: str, library_run: LibraryRun, diagnostics: Diagnostics) -> None:
     for prefix in dict.fromkeys(_PREFIXED.findall(text)):
-        place = next(iter(session.addresses.values()), None)
+        span = next(iter(library_run.addresses.values()), None)
         message = f"xacro's address belongs to the prefix '{prefix}:' here, and xacro goes by the"
         message += f" prefix 'xacro:' alone: <{prefix}:…> is left in the result as it stands"
         fix = f'declare xmlns:xacro="{NAMESPACE}" and write <xacro:…>'
-        diagnostics.report("xacro.not-expanded", message, place, fix=fix)
-    for address, place in session.addresses.items():
+        diagnostics.report("xacro.not-expanded", message, span, fix=fix)
+    for address, span in library_run.addresses.items():
         if not _ADDRESS.fullmatch(address):
-            span = attribute_span(place, "xmlns:xacro")
+            written_at = attribute_span(span, "xmlns:xacro")
             message = f"'{address}' is not xacro's address; xacro goes by the prefix and takes it"
-            diagnostics.report("xacro.namespace-address", message, span)
+            diagnostics.report("xacro.namespace-address", message, written_at)
 
 
-def _report_sources(session: Session, diagnostics: Diagnostics) -> None:
+def _report_sources(library_run: LibraryRun, diagnostics: Diagnostics) -> None:
     """Report numbers with a decimal comma, which are texts to Python, and scopes of no effect."""
-    for file in dict.fromkeys(session.tracker.files):
+    for file in dict.fromkeys(library_run.tracker.files):
         data = _bytes_of(file)
         has_commas = _COMMA_ATTRIBUTE.search(data) and not any(word in data for word in _SPLITTERS)
         if not has_commas and not _SCOPE.search(data):
@@ -132,12 +138,14 @@ def _report_sources(session: Session, diagnostics: Diagnostics) -> None:
                 _report_comma(tag, diagnostics)
 
 
-def _report_pairs(text: str, written: Written, session: Session, diagnostics: Diagnostics) -> None:
+def _report_pairs(
+    text: str, written: Written, library_run: LibraryRun, diagnostics: Diagnostics
+) -> None:
     """Report a pair of numbers in the result that no file has: an expression with a comma."""
     pair = _TUPLE.search(text)
     if pair is None:
         return
-    if any(pair[0].encode() in _bytes_of(file) for file in session.tracker.files):
+    if any(pair[0].encode() in _bytes_of(file) for file in library_run.tracker.files):
         return
     message = f"'{pair[0]}' is in the result: '{pair[1]},{pair[2]}' in an expression is a pair"
     message += " of numbers to Python"
@@ -149,7 +157,7 @@ def _report_pairs(text: str, written: Written, session: Session, diagnostics: Di
 def _place_at(written: Written, line: int) -> SourceSpan | None:
     """Return where the last element that starts at or before a line of the result was written."""
     index = bisect_right(written.lines, line) - 1
-    return written.places[index] if index >= 0 else None
+    return written.spans[index] if index >= 0 else None
 
 
 def _report_scope(tag: Tag, diagnostics: Diagnostics) -> None:
@@ -182,13 +190,13 @@ def _bytes_of(file: str) -> bytes:
 
 
 def _report_unused(
-    session: Session, file: str, given: dict[str, str], diagnostics: Diagnostics
+    library_run: LibraryRun, file: str, given: dict[str, str], diagnostics: Diagnostics
 ) -> None:
     """Report values for arguments that no file declares or asks for."""
-    unused = [name for name in given if name not in session.arguments.names]
+    unused = [name for name in given if name not in library_run.arguments.names]
     if not unused:
         return
-    declared = [item for item in definitions_in(session.tracker.files) if item.kind == "arg"]
+    declared = [item for item in definitions_in(library_run.tracker.files) if item.kind == "arg"]
     names = [item.name for item in declared]
     for name in unused:
         if name in names:

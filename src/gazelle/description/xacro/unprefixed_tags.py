@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from gazelle.description.xacro.dom import place_of
+from gazelle.description.xacro.dom import span_of
 from gazelle.diagnostics import SourceSpan
 
 __all__ = ["NEEDED_ATTRIBUTES", "OF_ROBOTS", "add_prefixes", "takes_unprefixed", "with_old_calls"]
@@ -53,7 +53,7 @@ def add_prefixes(root: Any, found: list[Old]) -> None:
         needed = NEEDED_ATTRIBUTES.get(element.tagName)
         if needed is None or not _is_meant(element, needed):
             continue
-        found.append((element.tagName, place_of(element)))
+        found.append((element.tagName, span_of(element)))
         _rename(element)
 
 
@@ -80,7 +80,7 @@ def with_old_calls(
                 return False
             if (not found and not _is_top(element)) or _is_in_plugin(element):
                 return False
-            found.append((name, place_of(element)))
+            found.append((name, span_of(element)))
             _rename(element)
         return function(element, macros, symbols)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 from xml.dom import Node, minidom
 
-from gazelle.description.xacro.dom import place_of
+from gazelle.description.xacro.dom import span_of
 from gazelle.diagnostics import SourceSpan
 
 __all__ = ["UnwritableError", "Written", "written"]
@@ -29,13 +29,13 @@ class Written:
     """A text that is being put together, as ``toprettyxml`` of the library's document would be.
 
     Attributes:
-        places: where each element was written, in document order.
+        spans: where each element was written, in document order.
         lines: the line of each element in the text, from 1.
         names: the names of all elements.
         unexpanded: places of CDATA sections with expressions, which xacro does not expand.
     """
 
-    places: list[SourceSpan | None] = field(default_factory=list)
+    spans: list[SourceSpan | None] = field(default_factory=list)
     lines: list[int] = field(default_factory=list)
     names: set[str] = field(default_factory=set)
     unexpanded: list[SourceSpan | None] = field(default_factory=list)
@@ -55,7 +55,7 @@ class Written:
     def add_element(self, element: Any, indent: str, escape_options: dict[str, bool]) -> None:
         """Add an element with all that is in it, as the library's ``fixed_writexml`` does."""
         write = self.write
-        self.places.append(place_of(element))
+        self.spans.append(span_of(element))
         self.lines.append(self._line)
         self.names.add(element.tagName)
         write(f"{indent}<{element.tagName}")
@@ -87,7 +87,7 @@ class Written:
         if node.nodeType == Node.TEXT_NODE and (not node.data or node.data.isspace()):
             return
         if node.nodeType == Node.CDATA_SECTION_NODE and "${" in node.data:
-            self.unexpanded.append(place_of(node.parentNode))
+            self.unexpanded.append(span_of(node.parentNode))
         node.writexml(self, indent, _INDENT, "\n")
 
 

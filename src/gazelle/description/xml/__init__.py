@@ -8,7 +8,7 @@ from gazelle.description.xml.spans import (
     attribute_holding,
     attribute_span,
     text_span,
-    with_places,
+    with_spans,
     written_attributes,
 )
 from gazelle.description.xml.tag import Tag
@@ -24,6 +24,6 @@ __all__ = [
     "parse_xml",
     "read_xml",
     "text_span",
-    "with_places",
+    "with_spans",
     "written_attributes",
 ]

@@ -35,16 +35,16 @@ def floats_from(
         diagnostics: receives ``xml.bad-number``.
         attribute: the attribute that holds the text, empty when none does.
     """
-    words = text.split()
-    if len(words) == count and "_" not in text:
+    tokens = text.split()
+    if len(tokens) == count and "_" not in text:
         try:
-            good = tuple(map(float, words))
+            good = tuple(map(float, tokens))
         except ValueError:
             good = (math.nan,)
         if all(map(math.isfinite, good)):
             return good
-    values = [_number(word) for word in words]
-    bad = [word for word, value in zip(words, values, strict=True) if value is None]
+    values = [_number(token) for token in tokens]
+    bad = [token for token, value in zip(tokens, values, strict=True) if value is None]
     if not bad and len(values) == count:
         return tuple(value for value in values if value is not None)
     if bad:
@@ -52,8 +52,8 @@ def floats_from(
         message = f"{what}: '{bad[0]}' is not a finite number{comma}"
     else:
         message = f"{what} needs {count} number{'s' * (count != 1)}, found {len(values)}: '{text}'"
-    place = attribute_span(span, attribute, bad[0] if bad else "") if attribute else span
-    diagnostics.report("xml.bad-number", message, place)
+    span = attribute_span(span, attribute, bad[0] if bad else "") if attribute else span
+    diagnostics.report("xml.bad-number", message, span)
     return default
 
 
@@ -75,20 +75,20 @@ def bool_from(tag: Tag | None, default: bool, diagnostics: Diagnostics) -> bool:
     """Return the truth value in a tag's text: 1/true/yes/on or 0/false/no/off, any case."""
     if tag is None or not tag.text:
         return default
-    word = tag.text.strip().lower()
-    if word in _TRUE:
+    token = tag.text.strip().lower()
+    if token in _TRUE:
         return True
-    if word not in _FALSE:
+    if token not in _FALSE:
         message = f"<{tag.name}>: '{tag.text}' is neither true nor false; {default} is used"
         diagnostics.report("xml.bad-number", message, tag.span, fix="write true or false")
         return default
     return False
 
 
-def _number(word: str) -> float | None:
+def _number(token: str) -> float | None:
     try:
-        value = float(word)
+        value = float(token)
     except ValueError:
         return None
     # float() also takes underscores and words such as 'infinity', C++ readers do not.
-    return value if math.isfinite(value) and "_" not in word else None
+    return value if math.isfinite(value) and "_" not in token else None

@@ -18,7 +18,7 @@ __all__ = [
     "attribute_holding",
     "attribute_span",
     "text_span",
-    "with_places",
+    "with_spans",
     "written_attributes",
 ]
 
@@ -96,19 +96,19 @@ def text_span(span: SourceSpan, part: str) -> SourceSpan:
     return span
 
 
-def with_places(root: Tag, places: Iterable[SourceSpan | None]) -> Tag:
+def with_spans(root: Tag, spans: Iterable[SourceSpan | None]) -> Tag:
     """Return a tree whose elements stand elsewhere.
 
     Args:
         root: the tree.
-        places: one for each element in document order; None keeps the element's own.
+        spans: one for each element in document order; None keeps the element's own.
     """
-    return _with_places(root, iter(places))
+    return _with_spans(root, iter(spans))
 
 
-def _with_places(tag: Tag, places: Iterator[SourceSpan | None]) -> Tag:
-    span = next(places, None) or tag.span
-    children = tuple(_with_places(child, places) for child in tag.children)
+def _with_spans(tag: Tag, spans: Iterator[SourceSpan | None]) -> Tag:
+    span = next(spans, None) or tag.span
+    children = tuple(_with_spans(child, spans) for child in tag.children)
     return replace(tag, span=span, children=children)
 
 

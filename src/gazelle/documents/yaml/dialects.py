@@ -30,12 +30,12 @@ class PlacedMapping(dict[Any, Any]):
     """A mapping that knows where it is written.
 
     Attributes:
-        place: where it begins.
+        span: where it begins.
     """
 
-    def __init__(self, place: SourceSpan) -> None:
+    def __init__(self, span: SourceSpan) -> None:
         super().__init__()
-        self.place = place
+        self.span = span
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ from gazelle.description.model import (
     Visual,
 )
 from gazelle.description.writers.geometry_elements import stl_bytes
-from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.output_files import OutputFiles
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf.mjcf_file import CompiledMjcf, pose_from
 from gazelle.engine.mujoco_library import mujoco
@@ -40,10 +40,12 @@ _KEPT_SUFFIXES = frozenset({".obj", ".stl"}) & frozenset(MESH_SUFFIXES)
 class GeomReader:
     """Reads the geoms of one file."""
 
-    def __init__(self, mjcf: CompiledMjcf, beside: Beside, diagnostics: Diagnostics) -> None:
+    def __init__(
+        self, mjcf: CompiledMjcf, output_files: OutputFiles, diagnostics: Diagnostics
+    ) -> None:
         self._mjcf = mjcf
         self._model: Any = mjcf.model
-        self._beside = beside
+        self._beside = output_files
         self._diagnostics = diagnostics
         self._meshes = {mesh.id: mesh for mesh in mjcf.spec.meshes}
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.description.model import Joint, JointType, Link, Mimic, Model, Physics, World
-from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.output_files import OutputFiles
 from gazelle.description.writers.unscoped_names import free_name, part_names
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.mjcf.body_reader import BodyReader
@@ -47,7 +47,7 @@ _UNNAMED = "MuJoCo Model"
 
 
 def read_mjcf(
-    path: Path, *, diagnostics: Diagnostics, beside: Beside | None = None
+    path: Path, *, diagnostics: Diagnostics, output_files: OutputFiles | None = None
 ) -> World | None:
     """Read an MJCF file as MuJoCo compiles it.
 
@@ -59,7 +59,7 @@ def read_mjcf(
         path: the file.
         diagnostics: receives ``convert.mjcf`` for files that MuJoCo refuses and
             ``convert.left-out`` for what is not a matter of bodies, joints and shapes.
-        beside: takes meshes that only MuJoCo can read.
+        output_files: takes meshes that only MuJoCo can read.
 
     Returns:
         The world; None when the file cannot be used.
@@ -67,7 +67,7 @@ def read_mjcf(
     mjcf = compiled_mjcf(path, diagnostics)
     if mjcf is None:
         return None
-    geoms = GeomReader(mjcf, beside or Beside(relative=True), diagnostics)
+    geoms = GeomReader(mjcf, output_files or OutputFiles(relative=True), diagnostics)
     models = [
         _model_of(body, mjcf, geoms, diagnostics)
         for body in range(1, mjcf.model.nbody)

@@ -28,7 +28,7 @@ from gazelle.description.model import (
     Visual,
 )
 from gazelle.description.writers.geometry_elements import mesh_of
-from gazelle.description.writers.output_files import Beside
+from gazelle.description.writers.output_files import OutputFiles
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents.images import PictureError, opened_picture
 from gazelle.engine.mujoco_library import mujoco
@@ -64,11 +64,13 @@ class VisualWriter:
         meshes: content of the OBJ file of every mesh, by the mesh's name.
     """
 
-    def __init__(self, builder: SpecBuilder, beside: Beside, diagnostics: Diagnostics) -> None:
+    def __init__(
+        self, builder: SpecBuilder, output_files: OutputFiles, diagnostics: Diagnostics
+    ) -> None:
         self.meshes: dict[str, tuple[str, bytes]] = {}
         self._builder = builder
         self._spec: Any = builder.spec
-        self._beside = beside
+        self._beside = output_files
         self._diagnostics = diagnostics
         self._parts: dict[Any, tuple[tuple[str, str], ...]] = {}
         self._materials: dict[_Appearance, str] = {}

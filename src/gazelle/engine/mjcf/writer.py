@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.description.model import Model, World
-from gazelle.description.writers.output_files import Beside, Converted
+from gazelle.description.writers.output_files import Converted, OutputFiles
 from gazelle.description.writers.xml_markup import Markup, head_comments, number, numbers
 from gazelle.description.xml import Tag, parse_xml
 from gazelle.diagnostics import Diagnostics
@@ -46,7 +46,9 @@ _AS_IS = _NAMES | _TRIANGLES
 _START = "start"
 
 
-def to_mjcf(world: World, *, diagnostics: Diagnostics, beside: Beside | None = None) -> Converted:
+def to_mjcf(
+    world: World, *, diagnostics: Diagnostics, output_files: OutputFiles | None = None
+) -> Converted:
     """Write a world as an MJCF file that plain MuJoCo loads.
 
     It moves as in the engine as long as nothing acts from outside: the same joints, contacts,
@@ -57,13 +59,13 @@ def to_mjcf(world: World, *, diagnostics: Diagnostics, beside: Beside | None = N
         world: any.
         diagnostics: receives ``convert.…`` for what is not in the file, and the engine's own
             findings.
-        beside: where the text will stand; meshes and textures go beside it.
+        output_files: where the text will stand; meshes and textures go beside it.
 
     Raises:
         EngineError: MuJoCo refuses the world.
     """
     found = Diagnostics()
-    output = beside or Beside(relative=True)
+    output = output_files or OutputFiles(relative=True)
     assembly = assemble_world(world, step_s=world.physics.max_step_size_s, diagnostics=diagnostics)
     if len(world.models) == 1:
         assembly.builder.spec.modelname = world.models[0].name
@@ -151,10 +153,12 @@ def _forget_decays(assembly: Assembly, compiled: Compiled, found: Diagnostics) -
 class _FileMaker:
     """Turns meshes that stand in the text into files beside it."""
 
-    def __init__(self, compiled: Compiled, visuals: VisualWriter, beside: Beside) -> None:
+    def __init__(
+        self, compiled: Compiled, visuals: VisualWriter, output_files: OutputFiles
+    ) -> None:
         self._model = compiled.model
         self._looks = visuals
-        self._beside = beside
+        self._beside = output_files
 
     def mesh(self, markup: Markup) -> None:
         """Replace a mesh's vertices by a file; they stay where there is no folder for one."""

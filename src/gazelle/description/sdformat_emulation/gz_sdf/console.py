@@ -10,7 +10,7 @@ from gazelle.description.sdformat_emulation.release import Release
 __all__ = ["Code", "Console", "SdfError", "error_line"]
 
 # Lines of sdformat 9.3 and 12.3 that a message comes from: both print them.
-_PLACES: dict[str, tuple[str, int, int]] = {
+_SOURCE_LINES: dict[str, tuple[str, int, int]] = {
     "find-file": ("parser.cc", 386, 701),
     "no-file": ("parser.cc", 397, 712),
     "parse-xml": ("parser.cc", 403, 719),
@@ -115,12 +115,12 @@ class SdfError(NamedTuple):
     line: int = 0
 
     def __str__(self) -> str:
-        place = self.xml_path
-        place += f":{self.file}" if self.file else ""
-        place += f":L{self.line}" if self.line else ""
+        location = self.xml_path
+        location += f":{self.file}" if self.file else ""
+        location += f":L{self.line}" if self.line else ""
         return (
             f"Error Code {self.code}: "
-            + (f"[{place}]: " if place else "")
+            + (f"[{location}]: " if location else "")
             + (f"Msg: {self.message}")
         )
 
@@ -137,20 +137,20 @@ class Console:
     release: Release
     lines: list[str] = field(default_factory=list)
 
-    def error(self, place: str, text: str) -> None:
+    def error(self, location: str, text: str) -> None:
         """Write a red line."""
-        self._write("31mError", place, text)
+        self._write("31mError", location, text)
 
-    def warn(self, place: str, text: str) -> None:
+    def warn(self, location: str, text: str) -> None:
         """Write a yellow line."""
-        self._write("33mWarning", place, text)
+        self._write("33mWarning", location, text)
 
     def plain(self, text: str) -> None:
         """Write a line without colour."""
         self.lines.append(text)
 
-    def _write(self, label: str, place: str, text: str) -> None:
-        file, old, new = _PLACES[place]
+    def _write(self, label: str, location: str, text: str) -> None:
+        file, old, new = _SOURCE_LINES[location]
         line = old if self.release is Release.V9 else new
         if self.release is Release.V14 and file == "Utils.cc":
             line += _UTILS_MOVED

@@ -16,8 +16,8 @@ from gazelle.description.sdformat_emulation.gz_sdf.console import (
 )
 from gazelle.description.sdformat_emulation.gz_sdf.element_reader import (
     Document,
+    ElementLocation,
     Include,
-    Place,
     Reading,
     read_element,
 )
@@ -204,7 +204,7 @@ def _read_sdf(raw: SdfElement, file: str, reading: Reading) -> SdfElement | None
         reading.errors.append(SdfError(Code.ELEMENT_INVALID, message))
         return None
     definition = specification(reading.console.release)
-    root = read_element(raw, definition, Place("/sdf", file), reading)
+    root = read_element(raw, definition, ElementLocation("/sdf", file), reading)
     if root is None:
         reading.errors.append(SdfError(Code.ELEMENT_INVALID, "Error reading element <sdf>"))
         return None

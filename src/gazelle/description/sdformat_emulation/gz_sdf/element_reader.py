@@ -17,8 +17,8 @@ from gazelle.description.sdformat_emulation.release import Release
 
 __all__ = [
     "Document",
+    "ElementLocation",
     "Include",
-    "Place",
     "Reading",
     "default_element",
     "read_element",
@@ -60,17 +60,17 @@ class Document:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class ElementLocation:
     """Where an element stands, for messages: the path of elements and the file."""
 
     path: str
     file: str
 
-    def child(self, element: SdfElement) -> Place:
+    def child(self, element: SdfElement) -> ElementLocation:
         """Return the place of a child element."""
         name = element.attributes.get("name")
         label = f'[@name="{name}"]' if name is not None else ""
-        return Place(f"{self.path}/{element.name}{label}", self.file)
+        return ElementLocation(f"{self.path}/{element.name}{label}", self.file)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,14 +81,14 @@ class Include:
         raw: the element as it stands in the document.
         parent: receives the content.
         definition: of the parent.
-        place: of the parent.
+        location: of the parent.
         index: how many includes stand before it in the parent.
     """
 
     raw: SdfElement
     parent: SdfElement
     definition: Definition
-    place: Place
+    location: ElementLocation
     index: int
 
 
@@ -115,42 +115,42 @@ class Reading:
         """Whether errors have places, as those of newer releases."""
         return self.console.release.is_new
 
-    def fail(self, code: int, message: str, place: Place, line: int = 0) -> None:
+    def fail(self, code: int, message: str, location: ElementLocation, line: int = 0) -> None:
         """Note an error."""
         if self.is_new:
-            self.errors.append(SdfError(code, message, place.path, place.file, line))
+            self.errors.append(SdfError(code, message, location.path, location.file, line))
         else:
             self.errors.append(SdfError(code, message))
 
 
 def read_element(
-    raw: SdfElement, definition: Definition, place: Place, reading: Reading
+    raw: SdfElement, definition: Definition, location: ElementLocation, reading: Reading
 ) -> SdfElement | None:
     """Return an element with checked values and all that is required of it; None for errors.
 
     Args:
         raw: as it stands in the document, already of the release's version.
         definition: what the specification says of it.
-        place: for messages.
+        location: for messages.
         reading: receives errors.
     """
     definition = definition.resolved
-    if definition.required == "-1" and not _read_deprecated(definition, place, reading):
+    if definition.required == "-1" and not _read_deprecated(definition, location, reading):
         return SdfElement(definition.name, line=raw.line)
     element = SdfElement(definition.name, line=raw.line)
     steps = [_read_attributes, _read_text] if reading.is_new else [_read_text, _read_attributes]
-    if not all(step(element, raw, definition, place, reading) for step in steps):
+    if not all(step(element, raw, definition, location, reading) for step in steps):
         return None
     if definition.takes_any:
         element.children += [_copied(child, reading) for child in raw.children]
         return element
-    if not _read_children(element, raw, definition, place, reading):
+    if not _read_children(element, raw, definition, location, reading):
         return None
     unknown = [child for child in raw.children if child.name not in definition.children]
     for child in unknown:
-        _warn_of_unknown_element(child, raw, place, reading)
+        _warn_of_unknown_element(child, raw, location, reading)
     element.children += [_copied(child, reading) for child in unknown]
-    return element if _complete(element, raw, definition, place, reading) else None
+    return element if _complete(element, raw, definition, location, reading) else None
 
 
 def default_element(definition: Definition, console: Console) -> SdfElement:
@@ -209,17 +209,21 @@ def _refuses_empty(parameter: Parameter, console: Console) -> bool:
     return parameter.required
 
 
-def _read_deprecated(definition: Definition, place: Place, reading: Reading) -> bool:
+def _read_deprecated(definition: Definition, location: ElementLocation, reading: Reading) -> bool:
     message = f"SDF Element[{definition.name}] is deprecated"
     if reading.is_new:
-        reading.console.warn("policy-path", f"[{place.path}]: {message}")
+        reading.console.warn("policy-path", f"[{location.path}]: {message}")
         return True
-    reading.fail(Code.ELEMENT_DEPRECATED, message, place)
+    reading.fail(Code.ELEMENT_DEPRECATED, message, location)
     return False
 
 
 def _read_text(
-    element: SdfElement, raw: SdfElement, definition: Definition, _place: Place, reading: Reading
+    element: SdfElement,
+    raw: SdfElement,
+    definition: Definition,
+    _place: ElementLocation,
+    reading: Reading,
 ) -> bool:
     parameter = definition.value
     if parameter is None:
@@ -231,10 +235,14 @@ def _read_text(
 
 
 def _read_attributes(
-    element: SdfElement, raw: SdfElement, definition: Definition, place: Place, reading: Reading
+    element: SdfElement,
+    raw: SdfElement,
+    definition: Definition,
+    location: ElementLocation,
+    reading: Reading,
 ) -> bool:
     for name, text in raw.attributes.items():
-        at = Place(f'{place.path}[@{name}="{text}"]', place.file)
+        at = ElementLocation(f'{location.path}[@{name}="{text}"]', location.file)
         if ":" in name:
             element.attributes[name] = text.strip()
         elif definition.attribute(name) is None:
@@ -250,12 +258,12 @@ def _read_attributes(
             message = (
                 f"Required attribute[{item.key}] in element[{raw.name}] is not specified in SDF."
             )
-            reading.fail(Code.ATTRIBUTE_MISSING, message, place, raw.line)
+            reading.fail(Code.ATTRIBUTE_MISSING, message, location, raw.line)
             return False
     return True
 
 
-def _warn_of_unknown(name: str, raw: SdfElement, at: Place, reading: Reading) -> None:
+def _warn_of_unknown(name: str, raw: SdfElement, at: ElementLocation, reading: Reading) -> None:
     message = f"XML Attribute[{name}] in element[{raw.name}] not defined in SDF"
     if reading.is_new:
         where = f"[{at.path}:{at.file}:L{raw.line}]"
@@ -265,13 +273,13 @@ def _warn_of_unknown(name: str, raw: SdfElement, at: Place, reading: Reading) ->
 
 
 def _warn_of_unknown_element(
-    child: SdfElement, raw: SdfElement, place: Place, reading: Reading
+    child: SdfElement, raw: SdfElement, location: ElementLocation, reading: Reading
 ) -> None:
     """Say what sdformat 14 says, whose predecessors only told it to their log file."""
     named = child.name == "include" or ":" in child.name
     if named or reading.console.release is not Release.V14:
         return
-    at = place.child(child)
+    at = location.child(child)
     reading.console.warn(
         "policy-line",
         f"[{at.path}:{at.file}:L{child.line}]: XML Element[{child.name}], child of "
@@ -280,7 +288,7 @@ def _warn_of_unknown_element(
     )
 
 
-def _check_reference(raw: SdfElement, name: str, at: Place, reading: Reading) -> None:
+def _check_reference(raw: SdfElement, name: str, at: ElementLocation, reading: Reading) -> None:
     if not reading.is_new or (raw.name, name) not in _FRAME_REFERENCES:
         return
     text = raw.attributes[name]
@@ -290,19 +298,25 @@ def _check_reference(raw: SdfElement, name: str, at: Place, reading: Reading) ->
 
 
 def _read_children(
-    element: SdfElement, raw: SdfElement, definition: Definition, place: Place, reading: Reading
+    element: SdfElement,
+    raw: SdfElement,
+    definition: Definition,
+    location: ElementLocation,
+    reading: Reading,
 ) -> bool:
     includes = 0
     for child in raw.children:
         if child.name == "include":
-            if not reading.include(reading, Include(child, element, definition, place, includes)):
+            if not reading.include(
+                reading, Include(child, element, definition, location, includes)
+            ):
                 return False
             includes += 1
             continue
         known = definition.children.get(child.name)
         if known is None:
             continue
-        at = place.child(child)
+        at = location.child(child)
         found = read_element(child, known, at, reading)
         if found is None:
             message = f"Error reading element <{child.name}>"
@@ -313,7 +327,11 @@ def _read_children(
 
 
 def _complete(
-    element: SdfElement, raw: SdfElement, definition: Definition, place: Place, reading: Reading
+    element: SdfElement,
+    raw: SdfElement,
+    definition: Definition,
+    location: ElementLocation,
+    reading: Reading,
 ) -> bool:
     present = {child.name for child in element.children}
     for name, known in definition.children.items():
@@ -321,7 +339,7 @@ def _complete(
             continue
         if element.name == "joint" and element.attributes.get("type") != "ball":
             message = f"XML Missing required element[{name}], child of element[joint]"
-            at = Place(f"{place.path}/{name}", place.file)
+            at = ElementLocation(f"{location.path}/{name}", location.file)
             reading.fail(Code.ELEMENT_MISSING, message, at, raw.line)
             return False
         element.children.append(default_element(known, reading.console))

@@ -16,8 +16,8 @@ from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph
 from gazelle.description.sdformat_emulation.gz_sdf.console import Code, Console, SdfError
 from gazelle.description.sdformat_emulation.gz_sdf.element_reader import (
     Document,
+    ElementLocation,
     Include,
-    Place,
     Reading,
     default_element,
     read_element,
@@ -51,7 +51,11 @@ Find = Callable[[str], Path | None]
 
 
 def flatten_into(
-    parent: SdfElement, document: Document, definition: Definition, here: Place, reading: Reading
+    parent: SdfElement,
+    document: Document,
+    definition: Definition,
+    here: ElementLocation,
+    reading: Reading,
 ) -> None:
     """Add the parts of an included model to a model, as sdformat 9 does.
 
@@ -80,7 +84,7 @@ def flatten_into(
     again = None
     if tag is not None:
         whole = specification(Release.V9)
-        again = read_element(raw_element(tag), whole, Place("/sdf", here.file), reading)
+        again = read_element(raw_element(tag), whole, ElementLocation("/sdf", here.file), reading)
     renamed = again.find("model") if again is not None else None
     if renamed is not None:
         parent.children += [part for part in renamed.children if part.name != "pose"]
@@ -91,7 +95,7 @@ def merge_into(
     document: Document,
     top: SdfElement,
     include: Include,
-    here: Place,
+    here: ElementLocation,
     reading: Reading,
 ) -> None:
     """Add the parts of an included model to a model without changing their names."""
@@ -127,8 +131,12 @@ def read_include(reading: Reading, include: Include, find: Find, open_file: Open
     Returns:
         False when the element that holds the include cannot be read because of it.
     """
-    place = include.place
-    here = Place(f"{place.path}/include[{include.index}]", place.file) if reading.is_new else place
+    location = include.location
+    here = (
+        ElementLocation(f"{location.path}/include[{include.index}]", location.file)
+        if reading.is_new
+        else location
+    )
     if reading.is_new:
         _validate(include, reading)
     file = _file_of(include.raw, here, reading, find)
@@ -136,7 +144,7 @@ def read_include(reading: Reading, include: Include, find: Find, open_file: Open
         return True
     document = open_file(file, reading.console)
     uri = include.raw.find("uri") or include.raw
-    at = Place(f"{here.path}/uri", here.file)
+    at = ElementLocation(f"{here.path}/uri", here.file)
     if document.root is None:
         reading.fail(Code.FILE_READ, f"Unable to read file[{file}]", at, uri.line)
         return False
@@ -219,20 +227,20 @@ def _validate(include: Include, reading: Reading) -> None:
     definition = include.definition.children.get("include")
     if definition is None:
         return
-    place = Place("", include.place.file)
-    if read_element(include.raw, definition, place, reading) is None:
+    location = ElementLocation("", include.location.file)
+    if read_element(include.raw, definition, location, reading) is None:
         message = "Error reading element <include>"
-        reading.fail(Code.ELEMENT_INVALID, message, place, include.raw.line)
+        reading.fail(Code.ELEMENT_INVALID, message, location, include.raw.line)
 
 
-def _file_of(raw: SdfElement, here: Place, reading: Reading, find: Find) -> Path | None:
+def _file_of(raw: SdfElement, here: ElementLocation, reading: Reading, find: Find) -> Path | None:
     uri = raw.find("uri")
     if uri is None:
         message = "<include> element missing 'uri' attribute"
         reading.fail(Code.ATTRIBUTE_MISSING, message, here, raw.line)
         return None
     path = find(uri.text)
-    at = Place(f"{here.path}/uri", here.file)
+    at = ElementLocation(f"{here.path}/uri", here.file)
     if path is None:
         _fail_to_find(uri, at, reading)
         return None
@@ -252,7 +260,7 @@ def _file_of(raw: SdfElement, here: Place, reading: Reading, find: Find) -> Path
     return file if file is not None or reading.is_new else path
 
 
-def _fail_to_find(uri: SdfElement, at: Place, reading: Reading) -> None:
+def _fail_to_find(uri: SdfElement, at: ElementLocation, reading: Reading) -> None:
     if reading.is_new:
         reading.console.error(
             "callback",
@@ -277,15 +285,23 @@ def _top_level(root: SdfElement, file: str, reading: Reading) -> SdfElement | No
                 f"Found other top level element <{other.name}> in addition to <{top.name}> in "
                 "include file."
             )
-            reading.fail(Code.ELEMENT_INCORRECT_TYPE, message, Place(f"/sdf/{other.name}", file))
+            reading.fail(
+                Code.ELEMENT_INCORRECT_TYPE, message, ElementLocation(f"/sdf/{other.name}", file)
+            )
         if len(root.find_all(top.name)) > 1:
             message = f"Found more than one {top.name} for <include>."
-            reading.fail(Code.ELEMENT_INCORRECT_TYPE, message, Place(f"/sdf/{top.name}", file))
+            reading.fail(
+                Code.ELEMENT_INCORRECT_TYPE, message, ElementLocation(f"/sdf/{top.name}", file)
+            )
     return top
 
 
 def _override(
-    top: SdfElement, definition: Definition, include: Include, here: Place, reading: Reading
+    top: SdfElement,
+    definition: Definition,
+    include: Include,
+    here: ElementLocation,
+    reading: Reading,
 ) -> bool:
     """Give an included element the name, pose and so on that its include asks for."""
     raw, console = include.raw, reading.console
@@ -325,12 +341,16 @@ def _override_pose(
 
 
 def _override_placement(
-    top: SdfElement, definition: Definition, include: Include, here: Place, reading: Reading
+    top: SdfElement,
+    definition: Definition,
+    include: Include,
+    here: ElementLocation,
+    reading: Reading,
 ) -> bool:
     placement = include.raw.find("placement_frame")
     if not reading.is_new or top.name != "model" or placement is None:
         return True
-    at = Place(f"{here.path}/placement_frame", here.file)
+    at = ElementLocation(f"{here.path}/placement_frame", here.file)
     if include.raw.find("pose") is None:
         message = "<pose> is required when specifying the placement_frame element"
         reading.fail(Code.MODEL_PLACEMENT_FRAME_INVALID, message, at, include.raw.line)
@@ -346,10 +366,14 @@ def _override_placement(
 
 
 def _add_plugins(
-    top: SdfElement, definition: Definition, raw: SdfElement, here: Place, reading: Reading
+    top: SdfElement,
+    definition: Definition,
+    raw: SdfElement,
+    here: ElementLocation,
+    reading: Reading,
 ) -> bool:
     for number, plugin in enumerate(raw.find_all("plugin")):
-        at = Place(f"{here.path}/plugin[{number}]", here.file)
+        at = ElementLocation(f"{here.path}/plugin[{number}]", here.file)
         found = read_element(plugin, definition.children["plugin"], at, reading)
         if found is None:
             reading.fail(Code.ELEMENT_INVALID, "Error reading plugin element", at, plugin.line)
@@ -368,7 +392,7 @@ def _own(top: SdfElement, definition: Definition, name: str, console: Console) -
 
 
 def _insert(
-    document: Document, top: SdfElement, include: Include, here: Place, reading: Reading
+    document: Document, top: SdfElement, include: Include, here: ElementLocation, reading: Reading
 ) -> None:
     parent = include.parent
     if not reading.is_new and parent.name == "model":

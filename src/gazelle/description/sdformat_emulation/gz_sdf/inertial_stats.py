@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import Link, ModelScope
 from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import Scope
 from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph import (
     pose_in_scope,
     relative_graph,
 )
+from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import Link, ModelScope
 from gazelle.description.sdformat_emulation.gz_sdf.console import SdfError
 from gazelle.description.sdformat_emulation.gz_sdf.values import notation_of, number_of, pose_of
 from gazelle.geometry import Pose
@@ -29,10 +29,10 @@ def inertial_stats(model: ModelScope) -> str:
     mass = sum(body[0] for body in bodies)
     centre = sum((body[0] * body[1] for body in bodies), np.zeros(3)) / (mass or 1.0)
     moments = sum((_about(body, centre) for body in bodies), np.zeros((3, 3)))
-    words = [f"{round(float(value), 6) + 0.0:g}" for value in moments.flat]
-    width = max(map(len, words))
+    cells = [f"{round(float(value), 6) + 0.0:g}" for value in moments.flat]
+    width = max(map(len, cells))
     rows = [
-        "".join(f"{word:<{width + _WIDTH}}" for word in words[row : row + 3]) for row in (0, 3, 6)
+        "".join(f"{cell:<{width + _WIDTH}}" for cell in cells[row : row + 3]) for row in (0, 3, 6)
     ]
     axes = [f"{axis}: {value:g}" for axis, value in zip("XYZ", centre, strict=True)]
     lines = [

@@ -90,8 +90,8 @@ def default_text(parameter: Parameter, console: Console, *, as_typed: bool = Fal
 
 def bool_of(text: str) -> bool | None:
     """Return a truth value in sdformat's words, None for other words."""
-    word = text.strip().lower()
-    return True if word in ("1", "true") else False if word in ("0", "false") else None
+    part = text.strip().lower()
+    return True if part in ("1", "true") else False if part in ("0", "false") else None
 
 
 def number_of(text: str) -> float:
@@ -107,7 +107,7 @@ def pose_of(text: str, notation: PoseNotation = _RADIANS) -> Pose:
 
     A text of another length is that of a default and means no rotation.
     """
-    numbers = [number_of(word) for word in text.split()]
+    numbers = [number_of(part) for part in text.split()]
     x, y, z = (*numbers[:3], 0.0, 0.0, 0.0)[:3]
     if len(numbers) != notation.size:
         return Pose((x, y, z))
@@ -148,10 +148,10 @@ def printed_pose(pose: Pose, *, signed_zero: bool = False, degrees: bool = False
         turned = [_short(math.degrees(value)) for value in angles]
     else:
         turned = [_short(_rounded(value)) for value in angles]
-    words = [_short(value) for value in numbers] + turned
+    parts = [_short(value) for value in numbers] + turned
     if not signed_zero:
-        words = ["0" if word == "-0" else word for word in words]
-    return " ".join(words[:3]) + ("   " if degrees else " ") + " ".join(words[3:])
+        parts = ["0" if part == "-0" else part for part in parts]
+    return " ".join(parts[:3]) + ("   " if degrees else " ") + " ".join(parts[3:])
 
 
 def _checked(
@@ -178,29 +178,29 @@ def _checked(
 
 
 def _is_within(parameter: Parameter, value: float, console: Console) -> bool:
-    for limit, place, word, extreme in (
+    for limit, location, part, extreme in (
         (parameter.least, "least", "less", "minimum"),
         (parameter.most, "most", "greater", "maximum"),
     ):
-        if limit is None or not (value < limit if place == "least" else value > limit):
+        if limit is None or not (value < limit if location == "least" else value > limit):
             continue
         message = (
-            f"The value [{_short(value)}] is {word} than the {extreme} allowed value of "
+            f"The value [{_short(value)}] is {part} than the {extreme} allowed value of "
             f"[{_long(limit)}] for key [{parameter.key}]"
         )
-        console.error(place, message)
+        console.error(location, message)
         return False
     return True
 
 
 def _is_color(parameter: Parameter, text: str, console: Console) -> bool:
     values: list[float] = []
-    for word in text.split():
-        found = _NUMBER.match(word) or _WORD_NUMBER.match(word)
+    for part in text.split():
+        found = _NUMBER.match(part) or _WORD_NUMBER.match(part)
         if found is None:
             console.error(
                 "color-word",
-                f"Invalid argument. Unable to set value [{word}] for key [{parameter.key}].",
+                f"Invalid argument. Unable to set value [{part}] for key [{parameter.key}].",
             )
             break
         values.append(float(found[0]))
@@ -235,10 +235,10 @@ def _is_pose(text: str, attributes: Mapping[str, str], console: Console) -> bool
 
 
 def _pose_faults(text: str, form: str, count: int, console: Console) -> Iterator[str]:
-    words = text.split()
+    parts = text.split()
     many = f"The value for //pose[@rotation_format='{form}'] must have {count} values, but "
-    for number, word in enumerate(words):
-        found = _NUMBER.match(word) or _WORD_NUMBER.match(word)
+    for number, part in enumerate(parts):
+        found = _NUMBER.match(part) or _WORD_NUMBER.match(part)
         if found is None:
             fault = f"Invalid argument. Unable to set value [{text}] for key [pose]."
             console.error("pose-word", fault)
@@ -252,8 +252,8 @@ def _pose_faults(text: str, form: str, count: int, console: Console) -> Iterator
             continue
         yield fault
         return
-    if len(words) != count:
-        fault = f"{many}{len(words)} were found instead in '{text}'."
+    if len(parts) != count:
+        fault = f"{many}{len(parts)} were found instead in '{text}'."
         console.error("pose-few", fault)
         yield fault
 
@@ -270,8 +270,8 @@ def _formatted(parameter: Parameter, text: str, console: Console) -> str | None:
     if kind == "color":
         return _formatted_color(text)
     if kind == "pose":
-        words = " ".join(map(repr, _stream(text, 6, kind, lenient=True) or ()))
-        return printed_pose(pose_of(words), signed_zero=True)
+        parts = " ".join(map(repr, _stream(text, 6, kind, lenient=True) or ()))
+        return printed_pose(pose_of(parts), signed_zero=True)
     if kind in _VECTORS:
         values = _stream(text, _VECTORS[kind], kind, lenient=True) or ()
         whole = kind in ("vector2i", "time")
@@ -297,8 +297,8 @@ def _typed_default(parameter: Parameter) -> str:
     if kind in ("double", "float"):
         return _long(float(text)) if kind == "double" else f"{_single(float(text)):.9g}"
     if kind in ("vector2d", "vector3", "color"):
-        words = [_short(_rounded(float(word))) for word in text.split()]
-        return " ".join("0" if word == "-0" else word for word in words)
+        parts = [_short(_rounded(float(part))) for part in text.split()]
+        return " ".join("0" if part == "-0" else part for part in parts)
     return text
 
 

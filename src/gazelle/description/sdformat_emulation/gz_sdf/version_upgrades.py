@@ -172,12 +172,12 @@ def _rules_in(lines: list[str]) -> _Rules:
     for line in lines:
         depth = len(line) - len(line.lstrip(" "))
         del open_rules[depth + 1 :]
-        word = line.strip()
-        if word.startswith(":"):
-            open_rules[-1].actions.append(tuple(word[1:].split(" ")))
+        token = line.strip()
+        if token.startswith(":"):
+            open_rules[-1].actions.append(tuple(token[1:].split(" ")))
         else:
             rules = _Rules()
-            open_rules[-1].inner.append((word, rules))
+            open_rules[-1].inner.append((token, rules))
             open_rules.append(rules)
     return open_rules[0]
 
@@ -206,19 +206,19 @@ def _apply_below(element: SdfElement, name: str, rules: _Rules, console: Console
         _apply_below(child, name, rules, console)
 
 
-def _act(element: SdfElement, action: str, *words: str) -> None:
+def _act(element: SdfElement, action: str, *tokens: str) -> None:
     if action == "rename":
-        _rename(element, words[0], words[1])
+        _rename(element, tokens[0], tokens[1])
     elif action in ("move", "copy"):
-        _move(element, words[0], words[1], keeps=action == "copy")
+        _move(element, tokens[0], tokens[1], keeps=action == "copy")
     elif action == "map":
-        _map(element, *words)
+        _map(element, *tokens)
     elif action == "add":
-        element.add(words[0], " ".join(words[1:]))
+        element.add(tokens[0], " ".join(tokens[1:]))
     elif action == "remove":
-        element.children[:] = [child for child in element.children if child.name != words[0]]
+        element.children[:] = [child for child in element.children if child.name != tokens[0]]
     elif action == "remove_empty":
-        name = words[0].removeprefix("@")
+        name = tokens[0].removeprefix("@")
         if element.attributes.get(name) == "":
             del element.attributes[name]
     elif action == "unflatten":
@@ -272,11 +272,11 @@ def _move(element: SdfElement, source: str, target: str, *, keeps: bool) -> None
 
 def _map(element: SdfElement, source: str, values: str, target: str, results: str) -> None:
     found = element.find(source)
-    words, meanings = values.split(","), results.split(",")
-    if found is None or found.text not in words:
+    tokens, meanings = values.split(","), results.split(",")
+    if found is None or found.text not in tokens:
         return
     # The last result counts for all values behind it.
-    meaning = meanings[min(words.index(found.text), len(meanings) - 1)]
+    meaning = meanings[min(tokens.index(found.text), len(meanings) - 1)]
     *names, last = target.split("/")
     receiver = _descend(element, names, makes=True)
     if receiver is not None:

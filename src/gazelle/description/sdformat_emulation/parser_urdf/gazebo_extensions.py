@@ -355,8 +355,8 @@ def _rename(blob: Blob, link: str, parent: str, console: Console) -> None:
         if replaced is not None:
             remove(element, projector)
             element.children.append(replaced)
-    words = {"gripper": ("gripper_link", "palm_link"), "joint": ("parent", "child")}
-    for word in words.get(element.name, ()):
+    references = {"gripper": ("gripper_link", "palm_link"), "joint": ("parent", "child")}
+    for word in references.get(element.name, ()):
         _replace_text(element, word, link, parent, console)
 
 

@@ -6,7 +6,10 @@ from gazelle.description.sdformat_emulation.element import SdfElement
 from gazelle.description.sdformat_emulation.parser_urdf.console import Console
 from gazelle.description.sdformat_emulation.parser_urdf.cpp_numbers import exact_text
 from gazelle.description.sdformat_emulation.parser_urdf.elements import copied, set_value
-from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import Extension, Extensions
+from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import (
+    Extension,
+    Extensions,
+)
 from gazelle.description.sdformat_emulation.parser_urdf.link_elements import pose_text
 from gazelle.description.sdformat_emulation.parser_urdf.lumping import is_lumped
 from gazelle.description.sdformat_emulation.parser_urdf.robot import Joint, Limits, Link, Mimic

@@ -14,7 +14,10 @@ from gazelle.description.sdformat_emulation.parser_urdf.elements import (
     remove,
     set_value,
 )
-from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import Extension, Extensions
+from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import (
+    Extension,
+    Extensions,
+)
 from gazelle.description.sdformat_emulation.parser_urdf.robot import Inertial, Link, Part
 from gazelle.description.sdformat_emulation.release import Release
 from gazelle.description.urdfdom_emulation.values import Origin, rpy_from_quaternion
@@ -58,10 +61,10 @@ def extend_collision(
         _set(surface.friction_ode, extension, {"mu1": "mu", "mu2": "mu2"}, console)
         if extension.fdir1:
             set_value(surface.friction_ode, "fdir1", extension.fdir1, console)
-        words = {"kp": "kp", "kd": "kd", "maxVel": "max_vel", "minDepth": "min_depth"}
-        _set(surface.contact_ode, extension, words, console)
-        words = {"laserRetro": "laser_retro", "maxContacts": "max_contacts"}
-        _set(collision, extension, words, console)
+        element_names = {"kp": "kp", "kd": "kd", "maxVel": "max_vel", "minDepth": "min_depth"}
+        _set(surface.contact_ode, extension, element_names, console)
+        element_names = {"laserRetro": "laser_retro", "maxContacts": "max_contacts"}
+        _set(collision, extension, element_names, console)
 
 
 def extend_visual(visual: SdfElement, link: str, extensions: Extensions, console: Console) -> None:
@@ -189,8 +192,10 @@ def _meant(element: SdfElement, link: str, extensions: Extensions) -> Iterator[E
             yield extension
 
 
-def _set(owner: SdfElement, extension: Extension, words: dict[str, str], console: Console) -> None:
-    for word, name in words.items():
+def _set(
+    owner: SdfElement, extension: Extension, element_names: dict[str, str], console: Console
+) -> None:
+    for word, name in element_names.items():
         if word in extension.numbers:
             set_value(owner, name, exact_text([extension.numbers[word]]), console)
 

@@ -274,8 +274,8 @@ def _joint(tag: Element) -> Joint:
     joint = Joint(tag.attributes["name"], kind, *ends, origin_of(tag, Console()), direction)
     limit, dynamics = tag.first("limit"), tag.first("dynamics")
     if limit is not None:
-        words = ("lower", "upper", "effort", "velocity")
-        joint.limits = Limits(*(_number(limit, word) for word in words))
+        names = ("lower", "upper", "effort", "velocity")
+        joint.limits = Limits(*(_number(limit, word) for word in names))
     if dynamics is not None:
         joint.dynamics = (_number(dynamics, "damping"), _number(dynamics, "friction"))
     mimic = tag.first("mimic")

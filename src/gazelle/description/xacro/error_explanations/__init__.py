@@ -18,11 +18,11 @@ from gazelle.description.xacro.error_explanations.files import (
     explain_file,
     explain_limit,
 )
-from gazelle.description.xacro.failure import Failure, Finding, one_line
+from gazelle.description.xacro.failure import Explanation, Failure, one_line
 
-__all__ = ["Finding", "explain"]
+__all__ = ["Explanation", "explain"]
 
-_EXPLAINERS: tuple[Callable[[Failure], Finding | None], ...] = (
+_EXPLAINERS: tuple[Callable[[Failure], Explanation | None], ...] = (
     explain_limit,
     explain_document,
     explain_file,
@@ -34,11 +34,11 @@ _EXPLAINERS: tuple[Callable[[Failure], Finding | None], ...] = (
 )
 
 
-def explain(failure: Failure) -> Finding:
+def explain(failure: Failure) -> Explanation:
     """Return what is wrong, where and what to do about it."""
     for explainer in _EXPLAINERS:
         found = explainer(failure)
         if found is not None:
             return found
     text = one_line(str(failure.error) or repr(failure.error))
-    return Finding("xacro.failed", text, failure.span)
+    return Explanation("xacro.failed", text, failure.span)

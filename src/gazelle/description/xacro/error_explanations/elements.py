@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from gazelle.description.xacro.dom import place_of
-from gazelle.description.xacro.failure import Failure, Finding, is_below, listed, one_line
+from gazelle.description.xacro.dom import span_of
+from gazelle.description.xacro.failure import Explanation, Failure, is_below, listed, one_line
 from gazelle.description.xacro.macro_definitions import definitions_in
 from gazelle.description.xacro.xml_output import UnwritableError
 from gazelle.diagnostics import did_you_mean
@@ -17,7 +17,7 @@ _MISSING = re.compile(r"(\S+): missing attribute '(.+?)'")
 _CONDITION = re.compile(r'Xacro conditional "(.*)" evaluated to "(.*)", which is not', re.DOTALL)
 
 
-def explain_substitution(failure: Failure) -> Finding | None:
+def explain_substitution(failure: Failure) -> Explanation | None:
     """Explain what stands in ``$(…)``; None for other failures."""
     names = {type(item).__name__: item for item in failure.causes}
     if "ArgException" in names:
@@ -36,10 +36,10 @@ def explain_substitution(failure: Failure) -> Finding | None:
         fix = f"set the variable, or give a default: $(optenv {failure.part[6:-1].strip()} VALUE)"
     elif word == "dirname":
         fix = "xacro does not know $(dirname); paths of includes are relative to their file anyway"
-    return Finding("xacro.bad-substitution", message, failure.span, fix)
+    return Explanation("xacro.bad-substitution", message, failure.span, fix)
 
 
-def explain_element(failure: Failure) -> Finding | None:
+def explain_element(failure: Failure) -> Explanation | None:
     """Explain missing attributes, conditions and names; None for other failures."""
     text = str(failure.error)
     if isinstance(failure.error, UnwritableError):
@@ -54,15 +54,15 @@ def explain_element(failure: Failure) -> Finding | None:
         return _property(text, failure)
     if "empty name" in text or "Invalid use of macro name" in text or "macro names must" in text:
         span = failure.attribute_place("name")
-        return Finding("xacro.bad-element", one_line(text), span, "give it another name")
+        return Explanation("xacro.bad-element", one_line(text), span, "give it another name")
     return None
 
 
-def _no_argument(name: str, failure: Failure) -> Finding:
+def _no_argument(name: str, failure: Failure) -> Explanation:
     message = f"$(arg {name}) has no value"
-    arguments = failure.session.arguments
+    arguments = failure.library_run.arguments
     fix = f'pass {name}:=… or write <xacro:arg name="{name}" default="…"/>'
-    files = failure.session.tracker.files
+    files = failure.library_run.tracker.files
     found = [item for item in definitions_in(files) if item.name == name]
     here = failure.span
     for item in found:
@@ -76,28 +76,28 @@ def _no_argument(name: str, failure: Failure) -> Finding:
     else:
         hint = did_you_mean(name, arguments)
         fix = f"{hint} or {fix}" if hint else fix
-    return Finding("xacro.argument-missing", message, here, fix, name)
+    return Explanation("xacro.argument-missing", message, here, fix, name)
 
 
-def _bad_eval(failure: Failure) -> Finding:
+def _bad_eval(failure: Failure) -> Explanation:
     reason = one_line(str(failure.causes[-1]))
     message = f"cannot evaluate '{failure.part}': {reason}"
     fix = ""
     if failure.part.count("(") > failure.part.count(")"):
         message = f"'{failure.part}' is incomplete: xacro ends $(…) at the first ')'"
         fix = "write ${…} with xacro.arg('name') in place of $(eval …)"
-    return Finding("xacro.bad-expression", message, failure.span, fix)
+    return Explanation("xacro.bad-expression", message, failure.span, fix)
 
 
-def _unwritable(error: UnwritableError, failure: Failure) -> Finding:
+def _unwritable(error: UnwritableError, failure: Failure) -> Explanation:
     tag, value = error.element.tagName, f"{error.name}={error.value!r}"
     message = f"{error}: <xacro:attribute> gives <{tag}> the number {value}, and xacro can only"
     message += " write texts"
     fix = 'write value="${str(…)}" in <xacro:attribute>'
-    return Finding("xacro.failed", message, place_of(error.element) or failure.span, fix)
+    return Explanation("xacro.failed", message, span_of(error.element) or failure.span, fix)
 
 
-def _missing(tag: str, attribute: str, failure: Failure) -> Finding:
+def _missing(tag: str, attribute: str, failure: Failure) -> Explanation:
     written = list(failure.node.attributes.keys())
     message = f"<{tag}> needs the attribute '{attribute}'"
     fix = did_you_mean(attribute, written) and f"rename the attribute to '{attribute}'"
@@ -106,10 +106,10 @@ def _missing(tag: str, attribute: str, failure: Failure) -> Finding:
         fix = 'add default="…", or remove the element: $(arg …) works without it'
     failure.text = ""
     fix = fix or f'add {attribute}="…"'
-    return Finding("xacro.bad-element", message, failure.span, fix)
+    return Explanation("xacro.bad-element", message, failure.span, fix)
 
 
-def _condition(condition: str, value: str, failure: Failure) -> Finding:
+def _condition(condition: str, value: str, failure: Failure) -> Explanation:
     shown = f"'{condition}' is '{value}', which" if condition != value else f"'{value}'"
     message = f"{shown} is not a boolean expression: <{failure.node.tagName}> takes "
     message += "true, false, 1, 0 or an expression in ${…}"
@@ -127,18 +127,18 @@ def _condition(condition: str, value: str, failure: Failure) -> Finding:
         fix = f"write ${{{value}}} for a property, $(arg {value}) for an argument"
     elif re.fullmatch(r"-?\d*\.\d*", value):
         fix = f"write ${{{value} != 0}}"
-    return Finding("xacro.bad-condition", message, failure.attribute_place("value"), fix)
+    return Explanation("xacro.bad-condition", message, failure.attribute_place("value"), fix)
 
 
-def _property(text: str, failure: Failure) -> Finding:
+def _property(text: str, failure: Failure) -> Explanation:
     name = text.rpartition(":")[2].strip()
     span = failure.attribute_place("name")
     if "mutually exclusive" in text:
         message = f"property '{name}' has more than one of value, default and remove"
-        return Finding("xacro.bad-element", message, span, "keep one of them", name)
+        return Explanation("xacro.bad-element", message, span, "keep one of them", name)
     fixed = re.sub(r"\W", "_", name)
     fixed = f"_{fixed}" if fixed[:1].isdigit() else fixed
     fix = f"write '{fixed}'" if fixed.isidentifier() and fixed != name else "use another name"
     if "double underscore" not in text:
         text = f"Property names must be valid python identifiers: '{name}' is none"
-    return Finding("xacro.bad-element", one_line(text), span, fix, name)
+    return Explanation("xacro.bad-element", one_line(text), span, fix, name)

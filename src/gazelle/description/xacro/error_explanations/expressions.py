@@ -8,13 +8,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from gazelle.description.xacro.failure import (
+    Explanation,
     Failure,
-    Finding,
     include_line,
     is_below,
     known_keys,
     one_line,
-    short_place,
+    short_location,
 )
 from gazelle.description.xacro.macro_definitions import Definition, definitions_in, files_beside
 from gazelle.diagnostics import did_you_mean
@@ -29,7 +29,7 @@ _WITH_UNIT = re.compile(r"\s*([-+]?\d*\.?\d+)\s*([a-zA-Z°]+)\s*")
 _MAX_LENGTH = 60
 
 
-def explain_name(failure: Failure) -> Finding | None:
+def explain_name(failure: Failure) -> Explanation | None:
     """Explain an undefined name or a missing key of a YAML file; None for other failures."""
     error = failure.cause(NameError)
     found = _NAME_ERROR.search(str(error)) if error is not None else None
@@ -40,7 +40,7 @@ def explain_name(failure: Failure) -> Finding | None:
     return _no_key(found[1], failure) if found is not None else None
 
 
-def explain_expression(failure: Failure) -> Finding | None:
+def explain_expression(failure: Failure) -> Explanation | None:
     """Explain why an expression has no value; None for other failures."""
     if "circular variable definition" in str(failure.error):
         return _circular(failure)
@@ -62,12 +62,14 @@ def explain_expression(failure: Failure) -> Finding | None:
     comma = _decimal_comma(failure.expression, values) if isinstance(cause, TypeError) else ""
     if comma:
         fix = f"write the decimal sign as a dot: {comma.replace(',', '.')}"
-        return Finding("xacro.decimal-comma", message, failure.span, fix, _text_in(values, cause))
+        return Explanation(
+            "xacro.decimal-comma", message, failure.span, fix, _text_in(values, cause)
+        )
     fix = _remedy(failure, cause, values)
-    return Finding("xacro.bad-expression", message, failure.span, fix, _text_in(values, cause))
+    return Explanation("xacro.bad-expression", message, failure.span, fix, _text_in(values, cause))
 
 
-def _undefined(name: str, failure: Failure) -> Finding:
+def _undefined(name: str, failure: Failure) -> Explanation:
     what = failure.part or f"${{{failure.expression}}}"
     message = f"cannot evaluate '{what}': name '{name}' is not defined"
     known = known_keys(failure.symbols)
@@ -81,24 +83,24 @@ def _undefined(name: str, failure: Failure) -> Finding:
         message += "; it is a block of elements here, and no value"
         fix = f'put the block in with <xacro:insert_block name="{name}"/>'
     else:
-        note, fix = _elsewhere(name, failure)
+        note, fix = _defined_elsewhere(name, failure)
         message += note
         fix = fix or hint
-    return Finding("xacro.undefined-name", message, failure.span, fix, name)
+    return Explanation("xacro.undefined-name", message, failure.span, fix, name)
 
 
-def _elsewhere(name: str, failure: Failure) -> tuple[str, str]:
+def _defined_elsewhere(name: str, failure: Failure) -> tuple[str, str]:
     """Return what to add to the message and a remedy when a file defines the name after all."""
-    files = failure.session.tracker.files
+    files = failure.library_run.tracker.files
     found = [item for item in definitions_in(files) if item.name == name]
     if not found:
-        beside = definitions_in(files_beside(files[0], files)) if files else ()
-        other = [item for item in beside if item.name == name and _is_global(item)]
+        output_files = definitions_in(files_beside(files[0], files)) if files else ()
+        other = [item for item in output_files if item.name == name and _is_global(item)]
         if not other:
             return "", ""
-        place = other[0].span
-        line = include_line(place.file, failure.files[-1])
-        return f"; {short_place(place)} defines it", f"include that file above: {line}"
+        span = other[0].span
+        line = include_line(span.file, failure.files[-1])
+        return f"; {short_location(span)} defines it", f"include that file above: {line}"
     best = min(found, key=lambda item: ("property", "arg", "parameter", "macro").index(item.kind))
     return _note_about(best, failure)
 
@@ -108,31 +110,31 @@ def _is_global(item: Definition) -> bool:
 
 
 def _note_about(item: Definition, failure: Failure) -> tuple[str, str]:
-    name, place = item.name, short_place(item.span)
+    name, location = item.name, short_location(item.span)
     if item.kind == "arg":
-        return f"; {place} has an argument of this name", f"write $(arg {name}) for an argument"
+        return f"; {location} has an argument of this name", f"write $(arg {name}) for an argument"
     if item.kind == "parameter":
-        note = f"; it is a parameter of macro '{item.macro}' ({place}) and known only inside it"
+        note = f"; it is a parameter of macro '{item.macro}' ({location}) and known only inside it"
         return note, ""
     if item.kind == "macro":
-        note = f"; a macro has this name ({place})"
+        note = f"; a macro has this name ({location})"
         return note, f"a macro is called as an element: <xacro:{name} …/>"
     if item.macro:
-        note = f"; it is defined inside macro '{item.macro}' ({place}) and known only there"
+        note = f"; it is defined inside macro '{item.macro}' ({location}) and known only there"
         return note, 'define it outside of the macro, or add scope="global" to it'
-    if any(is_below(item.span, place) for place in (failure.span, *failure.via)):
-        return f"; it is defined further down ({place})", "move the property above its first use"
-    return f"; {place} defines it, and that is not seen from here", ""
+    if any(is_below(item.span, location) for location in (failure.span, *failure.via)):
+        return f"; it is defined further down ({location})", "move the property above its first use"
+    return f"; {location} defines it, and that is not seen from here", ""
 
 
-def _no_key(key: str, failure: Failure) -> Finding:
+def _no_key(key: str, failure: Failure) -> Explanation:
     table = failure.locals.get("__getattr__", {}).get("self")
     keys = [str(item) for item in table] if isinstance(table, dict) else []
     message = f"cannot evaluate '{failure.part}': the yaml dictionary has no key '{key}'"
     if keys:
         message += f"; it has {one_line(', '.join(keys[:12]))}"
     fix = did_you_mean(key, keys) or "correct the key, or add it to the YAML file"
-    return Finding("xacro.bad-expression", message, failure.span, fix)
+    return Explanation("xacro.bad-expression", message, failure.span, fix)
 
 
 def _reason(cause: BaseException) -> str:
@@ -168,8 +170,8 @@ def _shown(value: Any) -> str:
 
 
 def _where(name: str, failure: Failure) -> str:
-    place = failure.session.properties.get(name)
-    return f" ({short_place(place)})" if place is not None else ""
+    span = failure.library_run.properties.get(name)
+    return f" ({short_location(span)})" if span is not None else ""
 
 
 def _text_in(values: list[tuple[str, Any]], cause: BaseException) -> str:
@@ -232,18 +234,18 @@ def _syntax_remedy(failure: Failure, cause: SyntaxError) -> str:
     return ""
 
 
-def _circular(failure: Failure) -> Finding:
+def _circular(failure: Failure) -> Explanation:
     text = str(failure.error)
     found = re.search(r"circular variable definition: (.*)", text)
     chain = found[1].strip() if found else ""
     message = f"circular variable definition: {chain}: the properties need each other"
     fix = 'break the circle, or evaluate one at once with lazy_eval="false"'
-    return Finding("xacro.recursion", message, failure.span, fix)
+    return Explanation("xacro.recursion", message, failure.span, fix)
 
 
-def _unclosed(failure: Failure) -> Finding:
+def _unclosed(failure: Failure) -> Explanation:
     rest = str(failure.error).partition("invalid expression: ")[2]
     close = "}" if rest.startswith("${") else ")"
     failure.part = rest
     message = f"'{one_line(rest)}' has no closing '{close}'"
-    return Finding("xacro.bad-expression", message, failure.span, f"add '{close}'")
+    return Explanation("xacro.bad-expression", message, failure.span, f"add '{close}'")

@@ -9,7 +9,7 @@ from xml.parsers.expat import ErrorString, ExpatError, errors
 
 from gazelle.description.xacro.dom import EntityRefusedError
 from gazelle.description.xacro.expansion_limits import ExpansionLimitError
-from gazelle.description.xacro.failure import Failure, Finding, one_line
+from gazelle.description.xacro.failure import Explanation, Failure, one_line
 from gazelle.diagnostics import SourceSpan, did_you_mean
 from gazelle.documents import TEXT_BYTES, LimitError, read_limited
 from gazelle.documents.files import exists, is_folder
@@ -23,42 +23,42 @@ _UNBOUND = errors.codes[errors.XML_ERROR_UNBOUND_PREFIX]
 _MAX_LENGTH = 80
 
 
-def explain_document(failure: Failure) -> Finding | None:
+def explain_document(failure: Failure) -> Explanation | None:
     """Explain what the XML parser says; None for other failures."""
-    error, via = failure.error, failure.session.tracker.via()
+    error, via = failure.error, failure.library_run.tracker.via()
     if isinstance(error, EntityRefusedError):
         span = SourceSpan(failure.files[-1], error.line, error.column, 0, via)
-        return Finding("xml.entity", str(error), span)
+        return Explanation("xml.entity", str(error), span)
     if not isinstance(error, ExpatError):
         return None
     span = SourceSpan(failure.files[-1], error.lineno, error.offset + 1, 0, via)
     if error.code == _UNBOUND:
         return _unbound(span)
-    return Finding("xml.malformed", f"not well-formed XML: {ErrorString(error.code)}", span)
+    return Explanation("xml.malformed", f"not well-formed XML: {ErrorString(error.code)}", span)
 
 
-def explain_limit(failure: Failure) -> Finding | None:
+def explain_limit(failure: Failure) -> Explanation | None:
     """Explain that a limit was reached; None for other failures."""
     error = failure.cause(LimitError)
     if error is None:
         return None
     if isinstance(error, ExpansionLimitError):
         message = f"the file expands to too much: {error}"
-        return Finding("limits.expansion", message, failure.span)
+        return Explanation("limits.expansion", message, failure.span)
     shown = one_line(failure.expression or failure.part)
     shown = shown if len(shown) <= _MAX_LENGTH else f"{shown[:_MAX_LENGTH]}…"
     message = f"{error}, when evaluating expression '{shown}'"
-    return Finding("limits.expression", message, failure.span)
+    return Explanation("limits.expression", message, failure.span)
 
 
-def explain_file(failure: Failure) -> Finding | None:
+def explain_file(failure: Failure) -> Explanation | None:
     """Explain a missing package or file, or broken YAML; None for other failures."""
     missing = failure.cause(NotFoundError)
     lookup = failure.cause(LookupError)
     if missing is None and lookup is not None and "workspace" in str(lookup):
         missing = lookup
     if missing is not None:
-        return Finding("xacro.package-missing", one_line(str(missing)), failure.span)
+        return Explanation("xacro.package-missing", one_line(str(missing)), failure.span)
     broken = failure.cause(PyYamlError)
     if broken is not None:
         return _broken_yaml(broken, failure)
@@ -66,15 +66,15 @@ def explain_file(failure: Failure) -> Finding | None:
     return None if error is None else _unreadable(error, failure)
 
 
-def _unbound(span: SourceSpan) -> Finding:
+def _unbound(span: SourceSpan) -> Explanation:
     prefix = _prefix_at(span)
     if prefix in {"", "xacro"}:
         message = "<xacro:…> is used here, and no element around it declares xmlns:xacro"
         fix = f'write xmlns:xacro="{NAMESPACE}" into the outermost element'
-        return Finding("xacro.no-namespace", message, span, fix)
+        return Explanation("xacro.no-namespace", message, span, fix)
     message = f"not well-formed XML: unbound prefix '{prefix}:'"
     fix = f'declare it in the outermost element: xmlns:{prefix}="…"'
-    return Finding("xml.malformed", message, span, fix)
+    return Explanation("xml.malformed", message, span, fix)
 
 
 def _prefix_at(span: SourceSpan) -> str:
@@ -88,7 +88,7 @@ def _prefix_at(span: SourceSpan) -> str:
     return name if colon and name.isidentifier() else ""
 
 
-def _unreadable(error: OSError, failure: Failure) -> Finding:
+def _unreadable(error: OSError, failure: Failure) -> Explanation:
     name = str(error.filename)
     path = Path(name)
     message = f"cannot read '{os.path.normpath(name)}': {error.strerror}"
@@ -96,14 +96,14 @@ def _unreadable(error: OSError, failure: Failure) -> Finding:
     if not path.is_absolute() and not exists(path):
         message += f"; looked for it at '{path.absolute()}'"
     if failure.element is None:
-        return Finding(
+        return Explanation(
             "xacro.file-missing", message, failure.span, _near(path, failure.files), name
         )
     if not written and failure.node is not None and failure.node.hasAttribute("filename"):
         span = failure.attribute_place("filename")
     else:
         span = failure.span
-    return Finding("xacro.file-missing", message, span, _near(path, failure.files), name)
+    return Explanation("xacro.file-missing", message, span, _near(path, failure.files), name)
 
 
 def _near(path: Path, files: tuple[str, ...]) -> str:
@@ -115,14 +115,14 @@ def _near(path: Path, files: tuple[str, ...]) -> str:
     return did_you_mean(path.name, (name for name in names if name not in readers))
 
 
-def _broken_yaml(error: Exception, failure: Failure) -> Finding:
+def _broken_yaml(error: Exception, failure: Failure) -> Explanation:
     file = str(failure.locals.get("load_yaml", {}).get("filename", ""))
     problem = problem_of(error, file)
     context = f"{problem.context}: " if problem.context else ""
     message = f"not YAML: {context}{one_line(problem.what)}"
     if not file or not problem.has_place:
-        return Finding("xacro.bad-yaml", message, failure.span)
+        return Explanation("xacro.bad-yaml", message, failure.span)
     calls = (replace(failure.span, via=()), *failure.via)
     span = replace(problem.span, length=1, via=calls)
     is_tab = problem.kind in {ProblemKind.TAB, ProblemKind.TAB_INDENT}
-    return Finding("xacro.bad-yaml", message, span, problem.fix if is_tab else "", file)
+    return Explanation("xacro.bad-yaml", message, span, problem.fix if is_tab else "", file)

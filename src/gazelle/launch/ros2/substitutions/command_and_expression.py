@@ -99,7 +99,7 @@ def _check(result: CommandResult, line: str, on_stderr: str) -> None:
 
 def _failed(message: str, what: str, result: CommandResult) -> SubstitutionFailure:
     """Return the error about a command: what it wrote stands in the log line above."""
-    line = shlex.join(result.words)
+    line = shlex.join(result.argv)
     first = (result.stderr or result.stdout).strip().partition("\n")[0]
     return SubstitutionFailure(message).explained(
         short=f"{what}: {line}" + (f": {first}" if first else ""),

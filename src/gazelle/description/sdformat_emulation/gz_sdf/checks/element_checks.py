@@ -145,10 +145,10 @@ def check_atmosphere(atmosphere: SdfElement, errors: list[SdfError]) -> None:
         errors.append(SdfError(Code.ELEMENT_INVALID, message))
 
 
-def check_spherical_coordinates(place: SdfElement, errors: list[SdfError]) -> None:
+def check_spherical_coordinates(location: SdfElement, errors: list[SdfError]) -> None:
     """Report what a position on Earth lacks, and words that are not known."""
     for name, known in (("surface_model", "EARTH_WGS84"), ("world_frame_orientation", "ENU")):
-        found = place.find(name)
+        found = location.find(name)
         if found is None:
             if name == "surface_model":
                 message = f"Missing required element <{name}>"
@@ -157,7 +157,7 @@ def check_spherical_coordinates(place: SdfElement, errors: list[SdfError]) -> No
             message = f"The supplied <{name}> [{found.text}] is not supported."
             errors.append(SdfError(Code.ELEMENT_INVALID, message))
     for name in ("latitude_deg", "longitude_deg"):
-        if place.find(name) is None:
+        if location.find(name) is None:
             message = f"Missing required element <{name}>"
             errors.append(SdfError(Code.ELEMENT_MISSING, message))
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import Graph, Kind, Scope
 from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
     Frame,
     ModelScope,
     WorldScope,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import Graph, Kind, Scope
 from gazelle.description.sdformat_emulation.gz_sdf.console import Code, SdfError
 from gazelle.geometry import Pose
 
@@ -100,8 +100,8 @@ def _add_world(scope: Scope, world: WorldScope, errors: list[SdfError]) -> Scope
         if _is_new(scope, "Frame", frame.name, where, errors):
             scope.add(frame.name, Kind.FRAME)
     for frame in world.frames:
-        place = f"in world with name[{world.name}]"
-        _attach(scope, frame, "world", "a model or frame name", place, errors)
+        location = f"in world with name[{world.name}]"
+        _attach(scope, frame, "world", "a model or frame name", location, errors)
     return scope
 
 
@@ -155,20 +155,20 @@ def _add_joint_edges(scope: Scope, model: ModelScope, errors: list[SdfError]) ->
 
 
 def _attach(
-    scope: Scope, frame: Frame, default: str, what: str, place: str, errors: list[SdfError]
+    scope: Scope, frame: Frame, default: str, what: str, location: str, errors: list[SdfError]
 ) -> None:
     target = frame.attached_to or default
     if not scope.has(target):
         message = (
             f"attached_to name[{target}] specified by frame with name[{frame.name}] does not "
-            f"match {what} {place}."
+            f"match {what} {location}."
         )
         errors.append(SdfError(Code.FRAME_ATTACHED_TO_INVALID, message))
         return
     if frame.name == frame.attached_to:
         message = (
             f"attached_to name[{target}] is identical to frame name[{frame.name}], causing a "
-            f"graph cycle {place}."
+            f"graph cycle {location}."
         )
         errors.append(SdfError(Code.FRAME_ATTACHED_TO_CYCLE, message))
     scope.graph.add_edge(scope.number(frame.name), scope.number(target), _NO_POSE)

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Set
 from functools import reduce
 
+from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import (
+    Edge,
+    Graph,
+    Kind,
+    Scope,
+)
 from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
     Frame,
     Joint,
     Link,
     ModelScope,
     WorldScope,
-)
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import (
-    Edge,
-    Graph,
-    Kind,
-    Scope,
 )
 from gazelle.description.sdformat_emulation.gz_sdf.console import Code, SdfError
 from gazelle.geometry import Pose
@@ -103,11 +103,11 @@ def _add_world(scope: Scope, world: WorldScope, errors: list[SdfError]) -> Scope
     for frame in world.frames:
         if _is_new(scope, "Frame", frame.name, where, errors):
             _add_frame(scope, frame)
-    place = f"in world with name[{world.name}]"
+    location = f"in world with name[{world.name}]"
     for model in world.models:
-        _relate_model(scope, model, "model", _IN_WORLD, place, errors)
+        _relate_model(scope, model, "model", _IN_WORLD, location, errors)
     for frame in world.frames:
-        _relate_frame(scope, frame, _IN_WORLD, place, errors)
+        _relate_frame(scope, frame, _IN_WORLD, location, errors)
     return scope
 
 
@@ -125,17 +125,17 @@ def _add_model(scope: Scope, model: ModelScope, errors: list[SdfError]) -> Scope
     inner = scope.opened(model.name, "__model__", "__model__", Kind.MODEL)
     scope.graph.add_edge(number, inner.vertex, _NO_POSE, weight=0)
     _add_parts(inner, model, errors)
-    place = f"in model with name[{model.name}]"
+    location = f"in model with name[{model.name}]"
     for link in model.links:
         if link.relative_to:
-            _relate(inner, link, "link", link.relative_to, _IN_MODEL, place, errors)
+            _relate(inner, link, "link", link.relative_to, _IN_MODEL, location, errors)
     for joint in model.joints:
         target = joint.relative_to or joint.child
-        _relate(inner, joint, "joint", target, _IN_MODEL, place, errors)
+        _relate(inner, joint, "joint", target, _IN_MODEL, location, errors)
     for frame in model.frames:
-        _relate_frame(inner, frame, _IN_MODEL, place, errors)
+        _relate_frame(inner, frame, _IN_MODEL, location, errors)
     for nested in model.models:
-        _relate_model(inner, nested, "nested model", _IN_MODEL, place, errors)
+        _relate_model(inner, nested, "nested model", _IN_MODEL, location, errors)
     return inner
 
 
@@ -164,19 +164,19 @@ def _add_frame(scope: Scope, frame: Frame) -> None:
 
 
 def _relate_frame(
-    scope: Scope, frame: Frame, what: str, place: str, errors: list[SdfError]
+    scope: Scope, frame: Frame, what: str, location: str, errors: list[SdfError]
 ) -> None:
     target = frame.relative_to or frame.attached_to
     if target:
         word = "relative_to" if frame.relative_to else "attached_to"
-        _relate(scope, frame, "frame", target, what, place, errors, word=word)
+        _relate(scope, frame, "frame", target, what, location, errors, word=word)
 
 
 def _relate_model(
-    scope: Scope, model: ModelScope, kind: str, what: str, place: str, errors: list[SdfError]
+    scope: Scope, model: ModelScope, kind: str, what: str, location: str, errors: list[SdfError]
 ) -> None:
     target = model.relative_to
-    if target and not _target_exists(scope, model, kind, target, what, place, errors):
+    if target and not _target_exists(scope, model, kind, target, what, location, errors):
         return
     tail = scope.number(target) if target else scope.vertex
     pose = _placed(scope.child(model.name), model, errors)
@@ -189,12 +189,12 @@ def _relate(
     kind: str,
     target: str,
     what: str,
-    place: str,
+    location: str,
     errors: list[SdfError],
     *,
     word: str = "relative_to",
 ) -> None:
-    if _target_exists(scope, item, kind, target, what, place, errors, word=word):
+    if _target_exists(scope, item, kind, target, what, location, errors, word=word):
         scope.graph.add_edge(scope.number(target), scope.number(item.name), item.pose)
 
 
@@ -204,7 +204,7 @@ def _target_exists(
     kind: str,
     target: str,
     what: str,
-    place: str,
+    location: str,
     errors: list[SdfError],
     *,
     word: str = "relative_to",
@@ -215,14 +215,14 @@ def _target_exists(
             code = Code.POSE_RELATIVE_TO_INVALID
         message = (
             f"{word} name[{target}] specified by {kind} with name[{item.name}] does not match "
-            f"{what} {place}."
+            f"{what} {location}."
         )
         errors.append(SdfError(code, message))
         return False
     if item.name == target:
         message = (
             f"relative_to name[{target}] is identical to {kind} name[{item.name}], causing a "
-            f"graph cycle {place}."
+            f"graph cycle {location}."
         )
         errors.append(SdfError(Code.POSE_RELATIVE_TO_CYCLE, message))
     return True

@@ -204,8 +204,8 @@ def load_world(
             check(found, errors)
     world = WorldScope(element.attributes["name"])
     definition = specification(loader.console.release).children["world"]
-    for place in ("world-names", "world-names-again"):
-        _warn_of_names(element, definition, place, "world", loader)
+    for location in ("world-names", "world-names-again"):
+        _warn_of_names(element, definition, location, "world", loader)
     world.models = _models(element, version, loader, errors)
     check_unique(element, "physics", lambda one, found: check_name(one, "physics", found), errors)
     check_unique(element, "actor", lambda one, found: None, errors)
@@ -351,7 +351,12 @@ def _resolve_collisions(
 
 
 def _rename(
-    item: Link | Joint | Frame, kind: str, taken: set[str], place: str, where: str, loader: Loader
+    item: Link | Joint | Frame,
+    kind: str,
+    taken: set[str],
+    location: str,
+    where: str,
+    loader: Loader,
 ) -> None:
     name = f"{item.name}_{kind}"
     number = 0
@@ -359,7 +364,7 @@ def _rename(
         name = f"{item.name}_{kind}{number}"
         number += 1
     loader.console.warn(
-        place,
+        location,
         f"{kind.capitalize()} with name [{item.name}] in {where} has a name collision, changing "
         f"{kind} name to [{name}].",
     )
@@ -367,12 +372,12 @@ def _rename(
 
 
 def _warn_of_names(
-    element: SdfElement, definition: Definition, place: str, kind: str, loader: Loader
+    element: SdfElement, definition: Definition, location: str, kind: str, loader: Loader
 ) -> None:
     for name, count in sorted(counted_names(element, definition).items()):
         if count > 1:
             loader.console.warn(
-                place,
+                location,
                 f"Non-unique name[{name}] detected {count} times in XML children of {kind} with "
                 f"name[{element.attributes['name']}].",
             )

@@ -9,15 +9,6 @@ from gazelle.description.sdformat_emulation.gz_sdf.checks.element_checks import 
     check_light,
     check_unique,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
-    Joint,
-    Loader,
-    ModelScope,
-    WorldScope,
-    load_model,
-    load_world,
-    shared_names,
-)
 from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_attached_to_graph import (
     attached_graph,
     body_of,
@@ -26,6 +17,15 @@ from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import Kin
 from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph import (
     check_places,
     relative_graph,
+)
+from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
+    Joint,
+    Loader,
+    ModelScope,
+    WorldScope,
+    load_model,
+    load_world,
+    shared_names,
 )
 from gazelle.description.sdformat_emulation.gz_sdf.console import Code, Console, SdfError
 from gazelle.description.sdformat_emulation.gz_sdf.element_reader import Document
@@ -262,14 +262,14 @@ def _check_ends(model: ModelScope, scope: Scope, errors: list[SdfError]) -> None
     known = {link.name for link in model.links}
     known |= {joint.name for joint in model.joints} | {frame.name for frame in model.frames}
     nested = {one.name for one in model.models}
-    place = f"in model with name[{model.name}]"
+    location = f"in model with name[{model.name}]"
     for joint in model.joints:
-        _check_names(joint, known, nested, scope, place, errors)
+        _check_names(joint, known, nested, scope, location, errors)
         child = body_of(scope, joint.child, errors)
         parent = "world" if joint.parent == "world" else body_of(scope, joint.parent, errors)
         if child == parent:
             message = (
-                f"joint with name[{joint.name}] {place} specified parent frame [{joint.parent}] "
+                f"joint with name[{joint.name}] {location} specified parent frame [{joint.parent}] "
                 f"and child frame [{joint.child}] that both resolve to [{child}], but they should "
                 "resolve to different values."
             )
@@ -281,7 +281,7 @@ def _check_names(
     known: set[str],
     nested: set[str],
     scope: Scope,
-    place: str,
+    location: str,
     errors: list[SdfError],
 ) -> None:
     def exists(name: str) -> bool:
@@ -290,13 +290,13 @@ def _check_names(
     parent, child = joint.parent, joint.child
     said = f"specified by joint with name[{joint.name}]"
     if parent != "world" and not exists(parent):
-        message = f"parent frame with name[{parent}] {said} not found {place}."
+        message = f"parent frame with name[{parent}] {said} not found {location}."
         errors.append(SdfError(Code.JOINT_PARENT_LINK_INVALID, message))
     if child == "world":
-        message = f"invalid child name[world] {said} {place}."
+        message = f"invalid child name[world] {said} {location}."
         errors.append(SdfError(Code.JOINT_CHILD_LINK_INVALID, message))
     if not exists(child) and child not in nested:
-        message = f"child frame with name[{child}] {said} not found {place}."
+        message = f"child frame with name[{child}] {said} not found {location}."
         errors.append(SdfError(Code.JOINT_CHILD_LINK_INVALID, message))
     for end, word, code in (
         (child, "child", Code.JOINT_CHILD_LINK_INVALID),
@@ -304,7 +304,7 @@ def _check_names(
     ):
         if end == joint.name:
             message = (
-                f"joint with name[{joint.name}] {place} must not specify its own name as the "
+                f"joint with name[{joint.name}] {location} must not specify its own name as the "
                 f"{word} frame."
             )
             errors.append(SdfError(code, message))
