@@ -10,13 +10,11 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from gazelle.documents.files import HOW_TO_RAISE, scaled
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
 
 __all__ = ["ArchiveError", "keep_arrays", "keeps_arrays", "kept_arrays", "read_arrays"]
 
@@ -63,6 +61,8 @@ def keep_arrays(file: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
 
     A read-only home only costs the time of the next run.
     """
+    import numpy as np
+
     # Typed loosely: NumPy before 2.2 knows no other argument, and would save one as an array.
     loose: dict[str, Any] = dict(arrays)
     try:

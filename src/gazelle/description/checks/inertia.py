@@ -23,7 +23,6 @@ from gazelle.geometry import MassProperties, inertia_problems, legalised_inertia
 
 __all__ = [
     "SUPERSEDED_CODES",
-    "WATER_KG_M3",
     "InertiaFinding",
     "check_inertia",
     "check_mass_ratios",
@@ -33,8 +32,8 @@ __all__ = [
     "urdf_block",
 ]
 
-_WORDS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-WATER_KG_M3 = 1000.0
+_TENSOR_COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_WATER_KG_M3 = 1000.0
 _DUMMY_KG = 1e-3
 SUPERSEDED_CODES = frozenset(
     {
@@ -68,7 +67,8 @@ class InertiaFinding(NamedTuple):
 def urdf_block(body: MassProperties) -> str:
     """Return URDF's ``<inertial>``; the tensor's axes are those of the link."""
     moments = " ".join(
-        f'{word}="{_shown(value)}"' for word, value in zip(_WORDS, body.inertia_kg_m2, strict=True)
+        f'{word}="{_shown(value)}"'
+        for word, value in zip(_TENSOR_COMPONENTS, body.inertia_kg_m2, strict=True)
     )
     return (
         "<inertial>\n"
@@ -83,7 +83,7 @@ def sdf_block(body: MassProperties) -> str:
     """Return SDF's ``<inertial>``; the tensor's axes are those of the link."""
     moments = "\n".join(
         f"    <{word}>{_shown(value)}</{word}>"
-        for word, value in zip(_WORDS, body.inertia_kg_m2, strict=True)
+        for word, value in zip(_TENSOR_COMPONENTS, body.inertia_kg_m2, strict=True)
     )
     return (
         "<inertial>\n"
@@ -143,7 +143,7 @@ def repaired(record: LinkRecord, density_kg_m3: float | None = None) -> MassProp
     has_mass = math.isfinite(mass) and mass > 0.0
     if shapes is not None:
         if density_kg_m3 is not None or not has_mass:
-            return shapes.with_mass(shapes.mass_kg * (density_kg_m3 or WATER_KG_M3))
+            return shapes.with_mass(shapes.mass_kg * (density_kg_m3 or _WATER_KG_M3))
         return shapes.with_mass(mass)
     if written is None or not has_mass:
         return None
@@ -291,8 +291,8 @@ def _density_finding(
     if density is not None:
         yield _finding("inertia.density", message, record, written.mass_span, new)
         return
-    usual = volume * WATER_KG_M3
-    fix = f"correct the mass or the shapes; at {WATER_KG_M3:g} kg/m³ they have {usual:.4g} kg"
+    usual = volume * _WATER_KG_M3
+    fix = f"correct the mass or the shapes; at {_WATER_KG_M3:g} kg/m³ they have {usual:.4g} kg"
     diagnostics = Diagnostics()
     diagnostics.report("inertia.density", message, written.mass_span, fix=fix)
     yield InertiaFinding(next(iter(diagnostics)), record)

@@ -24,7 +24,7 @@ from gazelle.geometry import (
 
 __all__ = ["JointRecord", "LinkRecord", "WrittenInertial", "joint_records_of", "records_of"]
 
-_WORDS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_TENSOR_COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _SDF_DEFAULTS = {"ixx": "1", "iyy": "1", "izz": "1"}
 _TRUE = ("1", "true")
 
@@ -294,13 +294,13 @@ def _as_read(link: Link) -> WrittenInertial | None:
 def _urdf_numbers(inertial: Tag) -> tuple[float | None, Inertia6 | None]:
     mass, inertia = inertial.find("mass"), inertial.find("inertia")
     texts = {} if inertia is None else inertia.attributes
-    moments = _moments([texts.get(word, "") for word in _WORDS])
+    moments = _moments([texts.get(word, "") for word in _TENSOR_COMPONENTS])
     return _number("" if mass is None else mass.attributes.get("value", "")), moments
 
 
 def _sdf_numbers(inertial: Tag) -> tuple[float | None, Inertia6 | None]:
     inertia = inertial.find("inertia")
-    texts = {word: _SDF_DEFAULTS.get(word, "0") for word in _WORDS}
+    texts = {word: _SDF_DEFAULTS.get(word, "0") for word in _TENSOR_COMPONENTS}
     if inertia is not None:
         texts |= {child.name: child.text for child in inertia.children if child.name in texts}
     return _number(inertial.text_of("mass", default="1")), _moments(list(texts.values()))
@@ -308,7 +308,7 @@ def _sdf_numbers(inertial: Tag) -> tuple[float | None, Inertia6 | None]:
 
 def _moments(texts: list[str]) -> Inertia6 | None:
     values = [value for value in map(_number, texts) if value is not None]
-    if len(values) < len(_WORDS):
+    if len(values) < len(_TENSOR_COMPONENTS):
         return None
     return (values[0], values[1], values[2], values[3], values[4], values[5])
 

@@ -42,12 +42,6 @@ from gazelle.noise import NOISE_TYPES, Noise
 
 __all__ = [
     "SENSOR_TYPES",
-    "read_axis_noises",
-    "read_camera",
-    "read_lidar",
-    "read_multicamera",
-    "read_noise",
-    "read_noise_of",
     "read_sensor",
 ]
 
@@ -57,114 +51,6 @@ _DEFAULTS = CameraSpec()
 _MIN_FOV_RAD = 0.01
 _DEFAULT_SAMPLES = 640
 _ReadSpec = Callable[[Tag, ReadContext], SensorSpec]
-
-
-def read_noise(tag: Tag | None, context: ReadContext) -> Noise:
-    """Return the noise of a ``<noise>`` element; none when it is absent.
-
-    The type stands in an attribute (1.5 and later) or in a child (cameras, lidars and 1.4).
-    """
-    if tag is None:
-        return Noise()
-    kind = (tag.attributes.get("type") or tag.text_of("type", default="none")).strip()
-    if kind not in NOISE_TYPES:
-        message = f"noise type '{kind}' is not known; there is no noise here"
-        fix = did_you_mean(kind, NOISE_TYPES) or "write one of: " + ", ".join(NOISE_TYPES)
-        context.diagnostics.report("sdf.bad-value", message, tag.span, fix=fix)
-        return Noise(span=tag.span)
-    return Noise(
-        type=kind,
-        mean=child_float(tag, "mean", 0.0, context),
-        stddev=_not_negative(tag, "stddev", context),
-        bias_mean=child_float(tag, "bias_mean", 0.0, context),
-        bias_stddev=_not_negative(tag, "bias_stddev", context),
-        dynamic_bias_stddev=_not_negative(tag, "dynamic_bias_stddev", context),
-        dynamic_bias_correlation_time_s=_not_negative(
-            tag, "dynamic_bias_correlation_time", context
-        ),
-        precision=child_float(tag, "precision", 0.0, context),
-        span=tag.span,
-    )
-
-
-def read_noise_of(tag: Tag | None, *path: str, context: ReadContext) -> Noise:
-    """Return the noise of the ``<noise>`` reached by these child names."""
-    return read_noise(tag.find(*path, "noise") if tag is not None else None, context)
-
-
-def read_axis_noises(tag: Tag | None, context: ReadContext) -> Noise3:
-    """Return the noises of the x, y and z children, such as those of ``<angular_velocity>``."""
-    x, y, z = (read_noise_of(tag, axis, context=context) for axis in _AXES)
-    return x, y, z
-
-
-def read_camera(tag: Tag | None, kind: str, context: ReadContext) -> CameraSpec:
-    """Return the camera of a ``<camera>`` element; SDF's defaults when it is None.
-
-    Args:
-        tag: the ``<camera>`` element.
-        kind: ``rgb``, ``depth``, ``rgbd`` or ``wideangle``.
-        context: where problems are reported.
-    """
-    if tag is None:
-        return replace(_DEFAULTS, kind=kind)
-    image, clip = tag.find("image") or tag, tag.find("clip") or tag
-    depth_clip = tag.find("depth_camera", "clip")
-    return CameraSpec(
-        name=tag.attributes.get("name", _DEFAULTS.name),
-        kind=kind,
-        T_sensor_camera=pose_of(tag, context),
-        horizontal_fov_rad=_horizontal_fov(tag, kind, context),
-        width_px=_pixels(image, "width", _DEFAULTS.width_px, context),
-        height_px=_pixels(image, "height", _DEFAULTS.height_px, context),
-        pixel_format=image.text_of("format", default=_DEFAULTS.pixel_format),
-        near_m=child_float(clip, "near", _DEFAULTS.near_m, context),
-        far_m=child_float(clip, "far", _DEFAULTS.far_m, context),
-        depth_near_m=optional_float(depth_clip, "near", context),
-        depth_far_m=optional_float(depth_clip, "far", context),
-        noise=read_noise(tag.find("noise"), context),
-        distortion=_distortion(tag.find("distortion"), context),
-        intrinsics=_intrinsics(tag.find("lens", "intrinsics"), context),
-        optical_frame_id=tag.text_of("optical_frame_id"),
-        camera_info_topic=tag.text_of("camera_info_topic"),
-        visibility_mask=_mask(tag, context),
-    )
-
-
-def read_multicamera(tag: Tag, context: ReadContext) -> CameraSpec:
-    """Return a multicamera: the first camera with all of them as its members."""
-    members = tuple(read_camera(child, "rgb", context) for child in tag.find_all("camera"))
-    first = members[0] if members else _DEFAULTS
-    return replace(first, members=members)
-
-
-def read_lidar(tag: Tag | None, context: ReadContext, *, on_collisions: bool) -> LidarSpec:
-    """Return the lidar of a ``<ray>`` or ``<lidar>`` element.
-
-    Args:
-        tag: the element; None means SDF's defaults.
-        context: where problems are reported.
-        on_collisions: True for ``ray``, which hits collisions; False for kinds that see visuals.
-    """
-    if tag is None:
-        return LidarSpec(on_collisions=on_collisions)
-    horizontal = tag.find("scan", "horizontal") or tag
-    vertical, reach = tag.find("scan", "vertical"), tag.find("range") or tag
-    return LidarSpec(
-        samples=_samples(horizontal, _DEFAULT_SAMPLES, context),
-        min_angle_rad=child_float(horizontal, "min_angle", 0.0, context),
-        max_angle_rad=child_float(horizontal, "max_angle", 0.0, context),
-        resolution=child_float(horizontal, "resolution", 1.0, context),
-        vertical_samples=_samples(vertical, 1, context) if vertical else 1,
-        vertical_min_angle_rad=child_float(vertical, "min_angle", 0.0, context) if vertical else 0,
-        vertical_max_angle_rad=child_float(vertical, "max_angle", 0.0, context) if vertical else 0,
-        vertical_resolution=child_float(vertical, "resolution", 1.0, context) if vertical else 1,
-        range_min_m=child_float(reach, "min", 0.0, context),
-        range_max_m=_range_max(reach, context),
-        range_resolution_m=child_float(reach, "resolution", 0.0, context),
-        noise=read_noise(tag.find("noise"), context),
-        on_collisions=on_collisions,
-    )
 
 
 def read_sensor(
@@ -199,6 +85,114 @@ def read_sensor(
         frame_id=tag.text_of("gz_frame_id") or tag.text_of("ignition_frame_id"),
         plugins=read_plugins(tag, reference=name),
         span=tag.span,
+    )
+
+
+def _read_noise(tag: Tag | None, context: ReadContext) -> Noise:
+    """Return the noise of a ``<noise>`` element; none when it is absent.
+
+    The type stands in an attribute (1.5 and later) or in a child (cameras, lidars and 1.4).
+    """
+    if tag is None:
+        return Noise()
+    kind = (tag.attributes.get("type") or tag.text_of("type", default="none")).strip()
+    if kind not in NOISE_TYPES:
+        message = f"noise type '{kind}' is not known; there is no noise here"
+        fix = did_you_mean(kind, NOISE_TYPES) or "write one of: " + ", ".join(NOISE_TYPES)
+        context.diagnostics.report("sdf.bad-value", message, tag.span, fix=fix)
+        return Noise(span=tag.span)
+    return Noise(
+        type=kind,
+        mean=child_float(tag, "mean", 0.0, context),
+        stddev=_not_negative(tag, "stddev", context),
+        bias_mean=child_float(tag, "bias_mean", 0.0, context),
+        bias_stddev=_not_negative(tag, "bias_stddev", context),
+        dynamic_bias_stddev=_not_negative(tag, "dynamic_bias_stddev", context),
+        dynamic_bias_correlation_time_s=_not_negative(
+            tag, "dynamic_bias_correlation_time", context
+        ),
+        precision=child_float(tag, "precision", 0.0, context),
+        span=tag.span,
+    )
+
+
+def _read_noise_of(tag: Tag | None, *path: str, context: ReadContext) -> Noise:
+    """Return the noise of the ``<noise>`` reached by these child names."""
+    return _read_noise(tag.find(*path, "noise") if tag is not None else None, context)
+
+
+def _read_axis_noises(tag: Tag | None, context: ReadContext) -> Noise3:
+    """Return the noises of the x, y and z children, such as those of ``<angular_velocity>``."""
+    x, y, z = (_read_noise_of(tag, axis, context=context) for axis in _AXES)
+    return x, y, z
+
+
+def _read_camera(tag: Tag | None, kind: str, context: ReadContext) -> CameraSpec:
+    """Return the camera of a ``<camera>`` element; SDF's defaults when it is None.
+
+    Args:
+        tag: the ``<camera>`` element.
+        kind: ``rgb``, ``depth``, ``rgbd`` or ``wideangle``.
+        context: where problems are reported.
+    """
+    if tag is None:
+        return replace(_DEFAULTS, kind=kind)
+    image, clip = tag.find("image") or tag, tag.find("clip") or tag
+    depth_clip = tag.find("depth_camera", "clip")
+    return CameraSpec(
+        name=tag.attributes.get("name", _DEFAULTS.name),
+        kind=kind,
+        T_sensor_camera=pose_of(tag, context),
+        horizontal_fov_rad=_horizontal_fov(tag, kind, context),
+        width_px=_pixels(image, "width", _DEFAULTS.width_px, context),
+        height_px=_pixels(image, "height", _DEFAULTS.height_px, context),
+        pixel_format=image.text_of("format", default=_DEFAULTS.pixel_format),
+        near_m=child_float(clip, "near", _DEFAULTS.near_m, context),
+        far_m=child_float(clip, "far", _DEFAULTS.far_m, context),
+        depth_near_m=optional_float(depth_clip, "near", context),
+        depth_far_m=optional_float(depth_clip, "far", context),
+        noise=_read_noise(tag.find("noise"), context),
+        distortion=_distortion(tag.find("distortion"), context),
+        intrinsics=_intrinsics(tag.find("lens", "intrinsics"), context),
+        optical_frame_id=tag.text_of("optical_frame_id"),
+        camera_info_topic=tag.text_of("camera_info_topic"),
+        visibility_mask=_mask(tag, context),
+    )
+
+
+def _read_multicamera(tag: Tag, context: ReadContext) -> CameraSpec:
+    """Return a multicamera: the first camera with all of them as its members."""
+    members = tuple(_read_camera(child, "rgb", context) for child in tag.find_all("camera"))
+    first = members[0] if members else _DEFAULTS
+    return replace(first, members=members)
+
+
+def _read_lidar(tag: Tag | None, context: ReadContext, *, on_collisions: bool) -> LidarSpec:
+    """Return the lidar of a ``<ray>`` or ``<lidar>`` element.
+
+    Args:
+        tag: the element; None means SDF's defaults.
+        context: where problems are reported.
+        on_collisions: True for ``ray``, which hits collisions; False for kinds that see visuals.
+    """
+    if tag is None:
+        return LidarSpec(on_collisions=on_collisions)
+    horizontal = tag.find("scan", "horizontal") or tag
+    vertical, reach = tag.find("scan", "vertical"), tag.find("range") or tag
+    return LidarSpec(
+        samples=_samples(horizontal, _DEFAULT_SAMPLES, context),
+        min_angle_rad=child_float(horizontal, "min_angle", 0.0, context),
+        max_angle_rad=child_float(horizontal, "max_angle", 0.0, context),
+        resolution=child_float(horizontal, "resolution", 1.0, context),
+        vertical_samples=_samples(vertical, 1, context) if vertical else 1,
+        vertical_min_angle_rad=child_float(vertical, "min_angle", 0.0, context) if vertical else 0,
+        vertical_max_angle_rad=child_float(vertical, "max_angle", 0.0, context) if vertical else 0,
+        vertical_resolution=child_float(vertical, "resolution", 1.0, context) if vertical else 1,
+        range_min_m=child_float(reach, "min", 0.0, context),
+        range_max_m=_range_max(reach, context),
+        range_resolution_m=child_float(reach, "resolution", 0.0, context),
+        noise=_read_noise(tag.find("noise"), context),
+        on_collisions=on_collisions,
     )
 
 
@@ -312,15 +306,15 @@ def _topic(tag: Tag) -> str:
 
 
 def _ray(tag: Tag, context: ReadContext) -> SensorSpec:
-    return read_lidar(tag.find("ray") or tag.find("lidar"), context, on_collisions=True)
+    return _read_lidar(tag.find("ray") or tag.find("lidar"), context, on_collisions=True)
 
 
 def _gpu_ray(tag: Tag, context: ReadContext) -> SensorSpec:
-    return read_lidar(tag.find("ray") or tag.find("lidar"), context, on_collisions=False)
+    return _read_lidar(tag.find("ray") or tag.find("lidar"), context, on_collisions=False)
 
 
 def _camera(kind: str) -> _ReadSpec:
-    return lambda tag, context: read_camera(tag.find("camera"), kind, context)
+    return lambda tag, context: _read_camera(tag.find("camera"), kind, context)
 
 
 def _imu(tag: Tag, context: ReadContext) -> SensorSpec:
@@ -329,8 +323,8 @@ def _imu(tag: Tag, context: ReadContext) -> SensorSpec:
         return ImuSpec()
     old = imu.find("noise")
     reference = imu.find("orientation_reference_frame") or imu
-    angular = read_axis_noises(imu.find("angular_velocity"), context)
-    linear = read_axis_noises(imu.find("linear_acceleration"), context)
+    angular = _read_axis_noises(imu.find("angular_velocity"), context)
+    linear = _read_axis_noises(imu.find("linear_acceleration"), context)
     if old is not None:
         angular = _old_imu_noise(old, "rate", context)
         linear = _old_imu_noise(old, "accel", context)
@@ -354,7 +348,7 @@ def _old_imu_noise(tag: Tag, name: str, context: ReadContext) -> tuple[Noise, No
         {"type": tag.text_of("type", default="none")},
         part.children,
     )
-    noise = read_noise(with_type, context)
+    noise = _read_noise(with_type, context)
     return (noise, noise, noise)
 
 
@@ -374,8 +368,8 @@ def _force_torque(tag: Tag, context: ReadContext) -> SensorSpec:
     return ForceTorqueSpec(
         frame=force_torque.text_of("frame", default="child"),
         measure_direction=force_torque.text_of("measure_direction", default="child_to_parent"),
-        force_noise=read_axis_noises(force_torque.find("force"), context),
-        torque_noise=read_axis_noises(force_torque.find("torque"), context),
+        force_noise=_read_axis_noises(force_torque.find("force"), context),
+        torque_noise=_read_axis_noises(force_torque.find("torque"), context),
     )
 
 
@@ -383,7 +377,7 @@ def _gps(tag: Tag, context: ReadContext) -> SensorSpec:
     gps = tag.find("gps") or tag.find("navsat")
 
     def noise(quantity: str, direction: str) -> Noise:
-        return read_noise_of(gps, quantity, direction, context=context)
+        return _read_noise_of(gps, quantity, direction, context=context)
 
     return GpsSpec(
         noise("position_sensing", "horizontal"),
@@ -394,14 +388,14 @@ def _gps(tag: Tag, context: ReadContext) -> SensorSpec:
 
 
 def _magnetometer(tag: Tag, context: ReadContext) -> SensorSpec:
-    return MagnetometerSpec(read_axis_noises(tag.find("magnetometer"), context))
+    return MagnetometerSpec(_read_axis_noises(tag.find("magnetometer"), context))
 
 
 def _altimeter(tag: Tag, context: ReadContext) -> SensorSpec:
     altimeter = tag.find("altimeter")
     return AltimeterSpec(
-        read_noise_of(altimeter, "vertical_position", context=context),
-        read_noise_of(altimeter, "vertical_velocity", context=context),
+        _read_noise_of(altimeter, "vertical_position", context=context),
+        _read_noise_of(altimeter, "vertical_velocity", context=context),
     )
 
 
@@ -411,7 +405,7 @@ def _air_pressure(tag: Tag, context: ReadContext) -> SensorSpec:
         return PressureSpec()
     return PressureSpec(
         child_float(pressure, "reference_altitude", 0.0, context),
-        read_noise_of(pressure, "pressure", context=context),
+        _read_noise_of(pressure, "pressure", context=context),
     )
 
 
@@ -464,7 +458,7 @@ _READERS: dict[str, _ReadSpec] = {
     "lidar": _ray,
     "logical_camera": _logical_camera,
     "magnetometer": _magnetometer,
-    "multicamera": read_multicamera,
+    "multicamera": _read_multicamera,
     "navsat": _gps,
     "ray": _ray,
     "rfid": _other,

@@ -15,14 +15,14 @@ from gazelle.diagnostics import SourceSpan
 if TYPE_CHECKING:
     from gazelle.description.sdformat_emulation.element import SdfElement
 
-__all__ = ["NEWEST_VERSION", "OLDEST_VERSION", "OLD_ROOT", "upgraded", "version_from", "version_of"]
+__all__ = ["NEWEST_VERSION", "upgraded", "version_from", "version_of"]
 
 Version = tuple[int, int]
-OLDEST_VERSION: Version = (1, 4)
+_OLDEST_VERSION: Version = (1, 4)
 NEWEST_VERSION: Version = (1, 12)
 _FORM = re.compile(r"(\d+)\.(\d+)")
 # The outermost element up to SDF 1.2.
-OLD_ROOT = "gazebo"
+_OLD_ROOT = "gazebo"
 
 
 def version_from(text: str | None) -> Version | None:
@@ -40,10 +40,10 @@ def version_of(root: Tag, context: ReadContext) -> Version:
         message = f"{shown}; the file is read as SDF 1.6"
         context.diagnostics.report("sdf.version", message, root.span)
         return (1, 6)
-    if version < OLDEST_VERSION:
+    if version < _OLDEST_VERSION:
         message = f"SDF {written} is older than 1.4; it is read as 1.4"
         context.diagnostics.report("sdf.version", message, root.span)
-        return OLDEST_VERSION
+        return _OLDEST_VERSION
     if version > NEWEST_VERSION:
         message = f"SDF {written} is newer than 1.12; what it adds to 1.12 is not understood"
         context.diagnostics.report("sdf.version", message, root.span)
@@ -59,8 +59,8 @@ def upgraded(root: Tag, context: ReadContext) -> Tag:
     """
     written = root.attributes.get("version")
     version = version_from(written)
-    is_old = version is not None and version < OLDEST_VERSION
-    if root.name not in ("sdf", OLD_ROOT) or not (is_old or root.name == OLD_ROOT):
+    is_old = version is not None and version < _OLDEST_VERSION
+    if root.name not in ("sdf", _OLD_ROOT) or not (is_old or root.name == _OLD_ROOT):
         return root
     # Hardly anybody needs it, and it takes a third of a state publisher's start to import.
     from gazelle.description.sdformat_emulation.element import raw_element
@@ -74,7 +74,7 @@ def upgraded(root: Tag, context: ReadContext) -> Tag:
     element = raw_element(root)
     element.name = "sdf"
     if is_old:
-        target: tuple[int, int] = OLDEST_VERSION
+        target: tuple[int, int] = _OLDEST_VERSION
         upgrade(element, target, Console(Release.V9))
     return _tag(element, root.span)
 

@@ -46,13 +46,8 @@ from gazelle.diagnostics import Diagnostics, Severity, did_you_mean
 from gazelle.geometry import IDENTITY_POSE, Pose
 
 __all__ = [
-    "read_gravity",
-    "read_physics",
-    "read_scene",
-    "read_spherical_coordinates",
     "read_world",
     "report_actor",
-    "with_state",
 ]
 
 Vector3 = tuple[float, float, float]
@@ -65,23 +60,56 @@ _MAX_SHIFT_M = 1e-4
 _DEFAULTS = World()
 
 
-def chosen_physics(world: Tag) -> Tag | None:
+def read_world(tag: Tag, context: ReadContext) -> World:
+    """Return the world of a ``<world>`` element, with all it includes.
+
+    What cannot be loaded is reported and left out; the rest of the world is returned.
+    """
+    context = replace(context, in_world=True)
+    reader = _WorldReader(tag, context)
+    world = World(
+        name=name_of(tag, context, default="default"),
+        models=reader.models(),
+        lights=reader.lights(),
+        joints=reader.joints(),
+        frames=reader.frames(),
+        plugins=read_plugins(tag),
+        gravity_m_s2=_read_gravity(tag, context),
+        magnetic_field_t=child_vector3(tag, "magnetic_field", _DEFAULTS.magnetic_field_t, context),
+        wind_m_s=vector3_from(tag.find("wind", "linear_velocity"), (0.0, 0.0, 0.0), context),
+        physics=_read_physics(tag, context),
+        scene=_read_scene(tag, context),
+        spherical_coordinates=_read_spherical_coordinates(tag, context),
+        span=tag.span,
+    )
+    state = tag.find("state")
+    return _with_state(world, state, context) if state is not None else world
+
+
+def report_actor(tag: Tag, context: ReadContext) -> None:
+    """Say that an ``<actor>`` is left out."""
+    name = tag.attributes.get("name", "")
+    message = f"actor '{name}' is an animation; it is left out"
+    context.diagnostics.report("sdf.actor", message, tag.span)
+
+
+def _chosen_physics(world: Tag) -> Tag | None:
     """Return the ``<physics>`` with ``default="true"``, the first one when none says so."""
     profiles = world.find_all("physics")
     marked = (tag for tag in profiles if tag.attributes.get("default", "").lower() in _TRUE)
     return next(marked, profiles[0] if profiles else None)
 
 
-def read_gravity(world: Tag, context: ReadContext) -> Vector3:
+def _read_gravity(world: Tag, context: ReadContext) -> Vector3:
     """Return gravity: a child of ``<world>`` since SDF 1.6, of ``<physics>`` before."""
-    physics = chosen_physics(world)
+    physics = _chosen_physics(world)
     inner = physics.find("gravity") if physics is not None else None
     return vector3_from(world.find("gravity") or inner, _GRAVITY, context)
 
 
-def read_physics(world: Tag, context: ReadContext) -> Physics:
+def _read_physics(world: Tag, context: ReadContext) -> Physics:
     """Return a world's physics profile; the engine's name is kept as a word."""
-    tag = chosen_physics(world)
+    tag = _chosen_physics(world)
     if tag is None:
         return _PHYSICS_DEFAULTS
     engine = _engine(tag, context)
@@ -108,7 +136,7 @@ def read_physics(world: Tag, context: ReadContext) -> Physics:
     )
 
 
-def read_scene(world: Tag, context: ReadContext) -> Scene:
+def _read_scene(world: Tag, context: ReadContext) -> Scene:
     """Return how the world looks where nothing stands in the way."""
     view = _view(world, context)
     tag = world.find("scene")
@@ -125,7 +153,7 @@ def read_scene(world: Tag, context: ReadContext) -> Scene:
     )
 
 
-def read_spherical_coordinates(world: Tag, context: ReadContext) -> SphericalCoordinates | None:
+def _read_spherical_coordinates(world: Tag, context: ReadContext) -> SphericalCoordinates | None:
     """Return where the world lies on Earth; its axes are east, north and up."""
     tag = world.find("spherical_coordinates")
     if tag is None:
@@ -142,7 +170,7 @@ def read_spherical_coordinates(world: Tag, context: ReadContext) -> SphericalCoo
     )
 
 
-def with_state(world: World, tag: Tag, context: ReadContext) -> World:
+def _with_state(world: World, tag: Tag, context: ReadContext) -> World:
     """Return the world with the poses that a ``<state>`` holds.
 
     As Gazebo Classic's World::Load, the first state counts. Poses of models and lights are taken
@@ -167,39 +195,6 @@ def with_state(world: World, tag: Tag, context: ReadContext) -> World:
             if light.name not in deleted
         ),
     )
-
-
-def read_world(tag: Tag, context: ReadContext) -> World:
-    """Return the world of a ``<world>`` element, with all it includes.
-
-    What cannot be loaded is reported and left out; the rest of the world is returned.
-    """
-    context = replace(context, in_world=True)
-    reader = _WorldReader(tag, context)
-    world = World(
-        name=name_of(tag, context, default="default"),
-        models=reader.models(),
-        lights=reader.lights(),
-        joints=reader.joints(),
-        frames=reader.frames(),
-        plugins=read_plugins(tag),
-        gravity_m_s2=read_gravity(tag, context),
-        magnetic_field_t=child_vector3(tag, "magnetic_field", _DEFAULTS.magnetic_field_t, context),
-        wind_m_s=vector3_from(tag.find("wind", "linear_velocity"), (0.0, 0.0, 0.0), context),
-        physics=read_physics(tag, context),
-        scene=read_scene(tag, context),
-        spherical_coordinates=read_spherical_coordinates(tag, context),
-        span=tag.span,
-    )
-    state = tag.find("state")
-    return with_state(world, state, context) if state is not None else world
-
-
-def report_actor(tag: Tag, context: ReadContext) -> None:
-    """Say that an ``<actor>`` is left out."""
-    name = tag.attributes.get("name", "")
-    message = f"actor '{name}' is an animation; it is left out"
-    context.diagnostics.report("sdf.actor", message, tag.span)
 
 
 def _engine(tag: Tag, context: ReadContext) -> str:

@@ -34,15 +34,10 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.workspace import Workspace
 
 __all__ = [
-    "Names",
+    "RobotNames",
     "link_names",
     "load_srdf",
-    "read_default_collisions",
-    "read_groups",
-    "read_pairs",
-    "read_spheres",
     "read_srdf",
-    "read_states",
 ]
 
 _WORLD = "world"
@@ -70,7 +65,7 @@ _VIRTUAL_TYPES: tuple[VirtualJointType, ...] = ("fixed", "floating", "planar")
 
 
 @dataclass(frozen=True, slots=True)
-class Names:
+class RobotNames:
     """Links and joints of the robot; without a robot every name is taken as it is.
 
     Attributes:
@@ -133,86 +128,6 @@ def link_names(robot: Model) -> list[str]:
     return [_WORLD, *names] if is_root else names
 
 
-def read_pairs(root: Tag, element: str, names: Names) -> tuple[CollisionPair, ...]:
-    """Return the pairs of ``<disable_collisions>`` or ``<enable_collisions>``."""
-    found: list[CollisionPair] = []
-    for tag in root.find_all(element):
-        check_vocabulary(tag, names.diagnostics, attributes=("link1", "link2", "reason"))
-        pair = names.link(tag, "link1"), names.link(tag, "link2")
-        if all(pair):
-            found.append(CollisionPair(*pair, tag.attributes.get("reason", "").strip()))
-    return tuple(found)
-
-
-def read_default_collisions(root: Tag, names: Names) -> tuple[str, ...]:
-    """Return the links of ``<disable_default_collisions>``."""
-    tags = root.find_all("disable_default_collisions")
-    for tag in tags:
-        check_vocabulary(tag, names.diagnostics, attributes=("link", "reason"))
-    return tuple(name for tag in tags if (name := names.link(tag, "link")))
-
-
-def read_spheres(root: Tag, names: Names) -> tuple[LinkSpheres, ...]:
-    """Return ``<link_sphere_approximation>``; they are reported, for the shapes collide here."""
-    tags = root.find_all("link_sphere_approximation")
-    found: list[LinkSpheres] = []
-    for tag in tags:
-        check_vocabulary(tag, names.diagnostics, attributes=("link",), children=("sphere",))
-        link = names.link(tag, "link")
-        if link:
-            spheres = [_read_sphere(child, names) for child in tag.find_all("sphere")]
-            found.append(LinkSpheres(link, tuple(one for one in spheres if one is not None)))
-    if found:
-        links = ", ".join(f"'{one.link}'" for one in found)
-        message = f"the spheres of {links} have no effect: collisions are checked with the links'"
-        message += " own shapes, as MoveIt's FCL and Bullet do (only CHOMP uses spheres)"
-        names.diagnostics.report("srdf.spheres", message, tags[0].span)
-    return tuple(found)
-
-
-def read_states(
-    root: Tag, names: Names, virtual_joints: tuple[VirtualJoint, ...]
-) -> tuple[GroupState, ...]:
-    """Return the group states; values that no joint can have are reported.
-
-    Args:
-        root: the ``<robot>``.
-        names: what there is.
-        virtual_joints: joints besides those of the robot.
-    """
-    counts = {joint.name: _VIRTUAL_COUNTS[joint.type] for joint in virtual_joints}
-    counts |= {name: _COUNTS.get(joint.type, 1) for name, joint in names.joints.items()}
-    states: dict[tuple[str, str], GroupState] = {}
-    for tag in root.find_all("group_state"):
-        check_vocabulary(tag, names.diagnostics, attributes=("name", "group"), children=("joint",))
-        name, group = names.required(tag, "name"), names.group(tag, "group")
-        if not name or not group:
-            continue
-        if (group, name) in states:
-            message = f"group '{group}' has a second state '{name}'; the last one counts"
-            names.diagnostics.report("srdf.double-name", message, tag.span)
-        values: dict[str, tuple[float, ...]] = {}
-        for child in tag.find_all("joint"):
-            joint, value = _read_value(child, names, counts)
-            if joint:
-                values[joint] = value
-        states[group, name] = GroupState(name, group, values, tag.span)
-    return tuple(states.values())
-
-
-def read_groups(root: Tag, names: Names) -> tuple[Group, ...]:
-    """Return the groups that stand directly below the root, without those that cannot be."""
-    found: dict[str, Group] = {}
-    for tag in root.find_all("group"):
-        name = names.required(tag, "name")
-        if name in found:
-            message = f"a second <group> is named '{name}'; the first one counts, as in MoveIt"
-            names.diagnostics.report("srdf.double-name", message, tag.span)
-        elif name:
-            found[name] = _read_group(tag, name, names)
-    return _satisfied(found, names.diagnostics)
-
-
 def load_srdf(
     source: str | os.PathLike[str],
     *,
@@ -257,24 +172,104 @@ def read_srdf(root: Tag, *, robot: Model | None, diagnostics: Diagnostics) -> Sr
     virtual = frozenset(tag.attributes.get("name", "").strip() for tag in virtual_tags) - {""}
     tags = root.find_all("group")
     groups = frozenset(tag.attributes.get("name", "").strip() for tag in tags) - {""}
-    names = Names(robot, virtual, groups, diagnostics)
+    names = RobotNames(robot, virtual, groups, diagnostics)
     virtual_joints = _read_virtual_joints(root, names)
     return Srdf(
         name=root.attributes.get("name", "").strip(),
-        groups=read_groups(root, names),
-        states=read_states(root, names, virtual_joints),
+        groups=_read_groups(root, names),
+        states=_read_states(root, names, virtual_joints),
         end_effectors=_read_end_effectors(root, names),
         virtual_joints=virtual_joints,
         passive_joints=_read_passive_joints(root, names),
-        disabled_pairs=read_pairs(root, "disable_collisions", names),
-        enabled_pairs=read_pairs(root, "enable_collisions", names),
-        no_default_collisions=read_default_collisions(root, names),
-        spheres=read_spheres(root, names),
+        disabled_pairs=_read_pairs(root, "disable_collisions", names),
+        enabled_pairs=_read_pairs(root, "enable_collisions", names),
+        no_default_collisions=_read_default_collisions(root, names),
+        spheres=_read_spheres(root, names),
         joint_properties=_read_joint_properties(root, names),
     )
 
 
-def _read_sphere(tag: Tag, names: Names) -> tuple[float, float, float, float] | None:
+def _read_pairs(root: Tag, element: str, names: RobotNames) -> tuple[CollisionPair, ...]:
+    """Return the pairs of ``<disable_collisions>`` or ``<enable_collisions>``."""
+    found: list[CollisionPair] = []
+    for tag in root.find_all(element):
+        check_vocabulary(tag, names.diagnostics, attributes=("link1", "link2", "reason"))
+        pair = names.link(tag, "link1"), names.link(tag, "link2")
+        if all(pair):
+            found.append(CollisionPair(*pair, tag.attributes.get("reason", "").strip()))
+    return tuple(found)
+
+
+def _read_default_collisions(root: Tag, names: RobotNames) -> tuple[str, ...]:
+    """Return the links of ``<disable_default_collisions>``."""
+    tags = root.find_all("disable_default_collisions")
+    for tag in tags:
+        check_vocabulary(tag, names.diagnostics, attributes=("link", "reason"))
+    return tuple(name for tag in tags if (name := names.link(tag, "link")))
+
+
+def _read_spheres(root: Tag, names: RobotNames) -> tuple[LinkSpheres, ...]:
+    """Return ``<link_sphere_approximation>``; they are reported, for the shapes collide here."""
+    tags = root.find_all("link_sphere_approximation")
+    found: list[LinkSpheres] = []
+    for tag in tags:
+        check_vocabulary(tag, names.diagnostics, attributes=("link",), children=("sphere",))
+        link = names.link(tag, "link")
+        if link:
+            spheres = [_read_sphere(child, names) for child in tag.find_all("sphere")]
+            found.append(LinkSpheres(link, tuple(one for one in spheres if one is not None)))
+    if found:
+        links = ", ".join(f"'{one.link}'" for one in found)
+        message = f"the spheres of {links} have no effect: collisions are checked with the links'"
+        message += " own shapes, as MoveIt's FCL and Bullet do (only CHOMP uses spheres)"
+        names.diagnostics.report("srdf.spheres", message, tags[0].span)
+    return tuple(found)
+
+
+def _read_states(
+    root: Tag, names: RobotNames, virtual_joints: tuple[VirtualJoint, ...]
+) -> tuple[GroupState, ...]:
+    """Return the group states; values that no joint can have are reported.
+
+    Args:
+        root: the ``<robot>``.
+        names: what there is.
+        virtual_joints: joints besides those of the robot.
+    """
+    counts = {joint.name: _VIRTUAL_COUNTS[joint.type] for joint in virtual_joints}
+    counts |= {name: _COUNTS.get(joint.type, 1) for name, joint in names.joints.items()}
+    states: dict[tuple[str, str], GroupState] = {}
+    for tag in root.find_all("group_state"):
+        check_vocabulary(tag, names.diagnostics, attributes=("name", "group"), children=("joint",))
+        name, group = names.required(tag, "name"), names.group(tag, "group")
+        if not name or not group:
+            continue
+        if (group, name) in states:
+            message = f"group '{group}' has a second state '{name}'; the last one counts"
+            names.diagnostics.report("srdf.double-name", message, tag.span)
+        values: dict[str, tuple[float, ...]] = {}
+        for child in tag.find_all("joint"):
+            joint, value = _read_value(child, names, counts)
+            if joint:
+                values[joint] = value
+        states[group, name] = GroupState(name, group, values, tag.span)
+    return tuple(states.values())
+
+
+def _read_groups(root: Tag, names: RobotNames) -> tuple[Group, ...]:
+    """Return the groups that stand directly below the root, without those that cannot be."""
+    found: dict[str, Group] = {}
+    for tag in root.find_all("group"):
+        name = names.required(tag, "name")
+        if name in found:
+            message = f"a second <group> is named '{name}'; the first one counts, as in MoveIt"
+            names.diagnostics.report("srdf.double-name", message, tag.span)
+        elif name:
+            found[name] = _read_group(tag, name, names)
+    return _satisfied(found, names.diagnostics)
+
+
+def _read_sphere(tag: Tag, names: RobotNames) -> tuple[float, float, float, float] | None:
     check_vocabulary(tag, names.diagnostics, attributes=("center", "radius"))
     if not names.required(tag, "center") or not names.required(tag, "radius"):
         return None
@@ -283,7 +278,9 @@ def _read_sphere(tag: Tag, names: Names) -> tuple[float, float, float, float] | 
     return None if center is None or radius is None else (*center, radius)
 
 
-def _read_value(tag: Tag, names: Names, counts: dict[str, int]) -> tuple[str, tuple[float, ...]]:
+def _read_value(
+    tag: Tag, names: RobotNames, counts: dict[str, int]
+) -> tuple[str, tuple[float, ...]]:
     check_vocabulary(tag, names.diagnostics, attributes=("name", "value"))
     joint = names.joint(tag, "name")
     text = names.required(tag, "value") if joint else ""
@@ -310,7 +307,7 @@ def _read_value(tag: Tag, names: Names, counts: dict[str, int]) -> tuple[str, tu
     return joint, value
 
 
-def _check_limits(tag: Tag, joint: Joint, value: tuple[float, ...], names: Names) -> None:
+def _check_limits(tag: Tag, joint: Joint, value: tuple[float, ...], names: RobotNames) -> None:
     axis = joint.axis
     if axis is None or joint.type not in (JointType.REVOLUTE, JointType.PRISMATIC):
         return
@@ -322,7 +319,7 @@ def _check_limits(tag: Tag, joint: Joint, value: tuple[float, ...], names: Names
     names.diagnostics.report("srdf.state-outside-limits", message, span)
 
 
-def _read_group(tag: Tag, name: str, names: Names) -> Group:
+def _read_group(tag: Tag, name: str, names: RobotNames) -> Group:
     check_vocabulary(
         tag,
         names.diagnostics,
@@ -345,7 +342,7 @@ def _read_group(tag: Tag, name: str, names: Names) -> Group:
     return group
 
 
-def _read_chain(tag: Tag, group: str, names: Names) -> Chain | None:
+def _read_chain(tag: Tag, group: str, names: RobotNames) -> Chain | None:
     check_vocabulary(tag, names.diagnostics, attributes=("base_link", "tip_link"))
     base, tip = names.link(tag, "base_link"), names.link(tag, "tip_link")
     if not base or not tip:
@@ -416,7 +413,7 @@ def _check_robot_name(root: Tag, robot: Model | None, diagnostics: Diagnostics) 
         diagnostics.report("srdf.robot-name", message, attribute_span(root.span, "name"))
 
 
-def _read_virtual_joints(root: Tag, names: Names) -> tuple[VirtualJoint, ...]:
+def _read_virtual_joints(root: Tag, names: RobotNames) -> tuple[VirtualJoint, ...]:
     found: list[VirtualJoint] = []
     for tag in root.find_all("virtual_joint"):
         known = ("name", "type", "parent_frame", "child_link")
@@ -436,7 +433,7 @@ def _read_virtual_joints(root: Tag, names: Names) -> tuple[VirtualJoint, ...]:
     return tuple(found)
 
 
-def _read_end_effectors(root: Tag, names: Names) -> tuple[EndEffector, ...]:
+def _read_end_effectors(root: Tag, names: RobotNames) -> tuple[EndEffector, ...]:
     found: list[EndEffector] = []
     for tag in root.find_all("end_effector"):
         known = ("name", "group", "parent_link", "parent_group")
@@ -450,14 +447,14 @@ def _read_end_effectors(root: Tag, names: Names) -> tuple[EndEffector, ...]:
     return tuple(found)
 
 
-def _read_passive_joints(root: Tag, names: Names) -> tuple[str, ...]:
+def _read_passive_joints(root: Tag, names: RobotNames) -> tuple[str, ...]:
     tags = root.find_all("passive_joint")
     for tag in tags:
         check_vocabulary(tag, names.diagnostics, attributes=("name",))
     return tuple(name for tag in tags if (name := names.joint(tag, "name")))
 
 
-def _read_joint_properties(root: Tag, names: Names) -> dict[str, dict[str, str]]:
+def _read_joint_properties(root: Tag, names: RobotNames) -> dict[str, dict[str, str]]:
     found: dict[str, dict[str, str]] = {}
     for tag in root.find_all("joint_property"):
         check_vocabulary(

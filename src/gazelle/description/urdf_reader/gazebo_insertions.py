@@ -16,9 +16,9 @@ from gazelle.description.sdf_reader.models import ModelParts, model_around
 from gazelle.description.urdf_reader.fixed_joint_lumping import lumped_links
 from gazelle.description.xml import Tag
 
-__all__ = ["INSERTED_WORDS", "inserted_joints", "with_insertions"]
+__all__ = ["INSERTED_ELEMENTS", "inserted_joints", "with_insertions"]
 
-INSERTED_WORDS = ("frame", "gripper", "include", "joint", "link", "model")
+INSERTED_ELEMENTS = ("frame", "gripper", "include", "joint", "link", "model")
 # The version of the document that sdformat 9 and 12 make of a URDF.
 _VERSION = (1, 7)
 
@@ -57,7 +57,7 @@ def with_insertions(model: Model, blocks: Sequence[Tag], context: ReadContext) -
 
 
 def _inserted(blocks: Sequence[Tag]) -> Iterator[Tag]:
-    return (tag for block in blocks for tag in block.children if tag.name in INSERTED_WORDS)
+    return (tag for block in blocks for tag in block.children if tag.name in INSERTED_ELEMENTS)
 
 
 def _without_taken(tags: Iterator[Tag], model: Model, context: ReadContext) -> Iterator[Tag]:

@@ -26,25 +26,17 @@ from gazelle.description.sdf_reader.materials import read_material
 from gazelle.description.sdf_reader.sensors import read_sensor
 from gazelle.description.sdf_reader.surface_friction import read_surface
 from gazelle.description.urdf_reader.fixed_joint_lumping import with_watched_collisions
-from gazelle.description.urdf_reader.gazebo_insertions import INSERTED_WORDS
+from gazelle.description.urdf_reader.gazebo_insertions import INSERTED_ELEMENTS
 from gazelle.description.xml import Tag, bool_from, floats_from
 from gazelle.diagnostics import did_you_mean
 
 __all__ = [
     "apply_gazebo",
-    "apply_to_joint",
-    "apply_to_link",
-    "apply_visual_words",
     "blocks_by_reference",
-    "bool_value",
-    "float_value",
-    "report_passed_over",
-    "report_unknown",
-    "value_of",
 ]
 
 _VISUAL_CHILDREN = ("cast_shadows", "laser_retro", "material", "transparency")
-_SURFACE_WORDS = {
+_SURFACE_ELEMENTS = {
     "kd": "kd",
     "kp": "kp",
     "maxVel": "max_vel_m_s",
@@ -52,12 +44,12 @@ _SURFACE_WORDS = {
     "mu1": "mu1",
     "mu2": "mu2",
 }
-_COLLISION_WORDS = (*_SURFACE_WORDS, "collision", "fdir1", "laserRetro", "maxContacts")
-_VISUAL_WORDS = ("material", "visual")
+_COLLISION_ELEMENTS = (*_SURFACE_ELEMENTS, "collision", "fdir1", "laserRetro", "maxContacts")
+_VISUAL_ELEMENTS = ("material", "visual")
 # Read elsewhere: plug-ins go to the model, canonicalBody does nothing in sdformat either.
 _LINK_READ_WITH_MODEL = ("canonicalBody", "plugin")
 _JOINT_READ_WITH_MODEL = ("plugin",)
-_MODEL_WORDS = ("allow_auto_disable", "plugin", "self_collide", "static")
+_MODEL_ELEMENTS = ("allow_auto_disable", "plugin", "self_collide", "static")
 _WITHOUT_EFFECT = ("canonicalBody", "enable_wind")
 _OLD_PREFIX = "controller:"
 _WORLD = "world"
@@ -69,108 +61,6 @@ def blocks_by_reference(robot: Tag) -> dict[str, list[Tag]]:
     for tag in robot.find_all("gazebo"):
         blocks.setdefault(tag.attributes.get("reference", "").strip(), []).append(tag)
     return blocks
-
-
-def value_of(tag: Tag) -> str:
-    """Return the text or, as sdformat allows too, the ``value`` attribute."""
-    return tag.attributes.get("value", tag.text).strip()
-
-
-def float_value(tag: Tag, context: ReadContext) -> float | None:
-    """Return the number in an element; None (reported) when it holds none."""
-    found = floats_from(
-        value_of(tag), 1, (), what=f"<{tag.name}>", span=tag.span, diagnostics=context.diagnostics
-    )
-    return found[0] if found else None
-
-
-def bool_value(tag: Tag, default: bool, context: ReadContext) -> bool:
-    """Return the truth value in an element; `default` (reported) when it holds none."""
-    return bool_from(replace(tag, text=value_of(tag)), default, context.diagnostics)
-
-
-def report_unknown(tag: Tag, where: str, known: Iterable[str], context: ReadContext) -> None:
-    """Report an element that has no meaning in this ``<gazebo>`` block."""
-    message = f"<{tag.name}> is not known in <gazebo> for {where}; it has no effect"
-    context.diagnostics.report(
-        "xml.unknown-tag", message, tag.span, fix=did_you_mean(tag.name, known)
-    )
-
-
-def report_passed_over(
-    link: str, shapes: Iterable[Visual | Collision], tag: Tag, context: ReadContext
-) -> None:
-    """Report shapes that sdformat would not apply a link's ``<gazebo>`` values to."""
-    names = [shape.name for shape in shapes if link not in shape.name]
-    if names:
-        shown = ", ".join(f"'{name}'" for name in names)
-        message = (
-            f"<{tag.name}> acts on all shapes of link '{link}'; Gazebo would pass over {shown}"
-        )
-        context.diagnostics.report("urdf.gazebo-named-shape", message, tag.span)
-
-
-def apply_visual_words(link: Link, tags: list[Tag], context: ReadContext) -> Link:
-    """Return the link with ``<material>`` and ``<visual>`` elements applied to all its visuals.
-
-    ``<material>`` names a Gazebo script and wins over URDF's own colours, as in Gazebo.
-
-    Args:
-        link: the link.
-        tags: its ``<material>`` and ``<visual>`` elements, in document order.
-        context: where to report, and look-up of scripts.
-    """
-    visuals = link.visuals
-    if tags:
-        report_passed_over(link.name, visuals, tags[0], context)
-    for tag in tags:
-        if tag.name == "visual":
-            for plugin in tag.find_all("plugin"):
-                report_plugin_of(plugin, "visual", context)
-            visuals = tuple(_apply_block(visual, tag, context) for visual in visuals)
-            continue
-        material = _script_material(tag, context)
-        if material is not None:
-            visuals = tuple(replace(visual, material=material) for visual in visuals)
-    return replace(link, visuals=visuals)
-
-
-def apply_to_link(link: Link, blocks: list[Tag], context: ReadContext) -> Link:
-    """Return the link with all its ``<gazebo reference>`` blocks applied, the later ones last.
-
-    Args:
-        link: the link as URDF describes it.
-        blocks: the ``<gazebo>`` elements that refer to it.
-        context: where to report, and look-up of files.
-    """
-    tags = [tag for block in blocks for tag in block.children]
-    link = apply_visual_words(link, [tag for tag in tags if tag.name in _VISUAL_WORDS], context)
-    link = _apply_collision_words(link, tags, context)
-    for tag in tags:
-        handler = _LINK_WORDS.get(tag.name)
-        if handler is not None:
-            link = handler(link, tag, context)
-        elif tag.name not in _COLLISION_WORDS + _VISUAL_WORDS + _LINK_READ_WITH_MODEL:
-            known = (*_LINK_WORDS, *_COLLISION_WORDS, *_VISUAL_WORDS, *_LINK_READ_WITH_MODEL)
-            report_unknown(tag, f"link '{link.name}'", known, context)
-    return link
-
-
-def apply_to_joint(joint: Joint, blocks: list[Tag], context: ReadContext) -> Joint:
-    """Return the joint with all its ``<gazebo reference>`` blocks applied, the later ones last.
-
-    Args:
-        joint: the joint as URDF describes it.
-        blocks: the ``<gazebo>`` elements that refer to it.
-        context: where to report.
-    """
-    for tag in (tag for block in blocks for tag in block.children):
-        handler = _JOINT_WORDS.get(tag.name)
-        if handler is not None:
-            joint = handler(joint, tag, context)
-        elif tag.name not in _JOINT_READ_WITH_MODEL:
-            report_unknown(tag, f"joint '{joint.name}'", _JOINT_WORDS, context)
-    return joint
 
 
 def apply_gazebo(model: Model, robot: Tag, context: ReadContext) -> Model:
@@ -186,16 +76,16 @@ def apply_gazebo(model: Model, robot: Tag, context: ReadContext) -> Model:
     joints = {joint.name: joint for joint in model.joints}
     for reference, tags in blocks.items():
         if reference in links:
-            links[reference] = apply_to_link(links[reference], tags, context)
+            links[reference] = _apply_to_link(links[reference], tags, context)
         elif reference in joints:
-            joints[reference] = apply_to_joint(joints[reference], tags, context)
+            joints[reference] = _apply_to_joint(joints[reference], tags, context)
         elif reference:
             _report_reference(reference, tags, links, joints, context)
     model = replace(model, links=tuple(links.values()), joints=tuple(joints.values()))
     model = with_watched_collisions(model, robot)
     for block in blocks.get("", ()):
         for tag in block.children:
-            model = _apply_model_word(model, tag, context)
+            model = _apply_model_element(model, tag, context)
     plugins = tuple(
         read_plugin(tag, reference=reference)
         for reference, tags in blocks.items()
@@ -205,8 +95,117 @@ def apply_gazebo(model: Model, robot: Tag, context: ReadContext) -> Model:
     return replace(model, plugins=_in_document_order(plugins + model.plugins))
 
 
+def _value_of(tag: Tag) -> str:
+    """Return the text or, as sdformat allows too, the ``value`` attribute."""
+    return tag.attributes.get("value", tag.text).strip()
+
+
+def _float_value(tag: Tag, context: ReadContext) -> float | None:
+    """Return the number in an element; None (reported) when it holds none."""
+    found = floats_from(
+        _value_of(tag), 1, (), what=f"<{tag.name}>", span=tag.span, diagnostics=context.diagnostics
+    )
+    return found[0] if found else None
+
+
+def _bool_value(tag: Tag, default: bool, context: ReadContext) -> bool:
+    """Return the truth value in an element; `default` (reported) when it holds none."""
+    return bool_from(replace(tag, text=_value_of(tag)), default, context.diagnostics)
+
+
+def _report_unknown(tag: Tag, where: str, known: Iterable[str], context: ReadContext) -> None:
+    """Report an element that has no meaning in this ``<gazebo>`` block."""
+    message = f"<{tag.name}> is not known in <gazebo> for {where}; it has no effect"
+    context.diagnostics.report(
+        "xml.unknown-tag", message, tag.span, fix=did_you_mean(tag.name, known)
+    )
+
+
+def _report_passed_over(
+    link: str, shapes: Iterable[Visual | Collision], tag: Tag, context: ReadContext
+) -> None:
+    """Report shapes that sdformat would not apply a link's ``<gazebo>`` values to."""
+    names = [shape.name for shape in shapes if link not in shape.name]
+    if names:
+        shown = ", ".join(f"'{name}'" for name in names)
+        message = (
+            f"<{tag.name}> acts on all shapes of link '{link}'; Gazebo would pass over {shown}"
+        )
+        context.diagnostics.report("urdf.gazebo-named-shape", message, tag.span)
+
+
+def _apply_visual_elements(link: Link, tags: list[Tag], context: ReadContext) -> Link:
+    """Return the link with ``<material>`` and ``<visual>`` elements applied to all its visuals.
+
+    ``<material>`` names a Gazebo script and wins over URDF's own colours, as in Gazebo.
+
+    Args:
+        link: the link.
+        tags: its ``<material>`` and ``<visual>`` elements, in document order.
+        context: where to report, and look-up of scripts.
+    """
+    visuals = link.visuals
+    if tags:
+        _report_passed_over(link.name, visuals, tags[0], context)
+    for tag in tags:
+        if tag.name == "visual":
+            for plugin in tag.find_all("plugin"):
+                report_plugin_of(plugin, "visual", context)
+            visuals = tuple(_apply_block(visual, tag, context) for visual in visuals)
+            continue
+        material = _script_material(tag, context)
+        if material is not None:
+            visuals = tuple(replace(visual, material=material) for visual in visuals)
+    return replace(link, visuals=visuals)
+
+
+def _apply_to_link(link: Link, blocks: list[Tag], context: ReadContext) -> Link:
+    """Return the link with all its ``<gazebo reference>`` blocks applied, the later ones last.
+
+    Args:
+        link: the link as URDF describes it.
+        blocks: the ``<gazebo>`` elements that refer to it.
+        context: where to report, and look-up of files.
+    """
+    tags = [tag for block in blocks for tag in block.children]
+    link = _apply_visual_elements(
+        link, [tag for tag in tags if tag.name in _VISUAL_ELEMENTS], context
+    )
+    link = _apply_collision_elements(link, tags, context)
+    for tag in tags:
+        handler = _LINK_HANDLERS.get(tag.name)
+        if handler is not None:
+            link = handler(link, tag, context)
+        elif tag.name not in _COLLISION_ELEMENTS + _VISUAL_ELEMENTS + _LINK_READ_WITH_MODEL:
+            known = (
+                *_LINK_HANDLERS,
+                *_COLLISION_ELEMENTS,
+                *_VISUAL_ELEMENTS,
+                *_LINK_READ_WITH_MODEL,
+            )
+            _report_unknown(tag, f"link '{link.name}'", known, context)
+    return link
+
+
+def _apply_to_joint(joint: Joint, blocks: list[Tag], context: ReadContext) -> Joint:
+    """Return the joint with all its ``<gazebo reference>`` blocks applied, the later ones last.
+
+    Args:
+        joint: the joint as URDF describes it.
+        blocks: the ``<gazebo>`` elements that refer to it.
+        context: where to report.
+    """
+    for tag in (tag for block in blocks for tag in block.children):
+        handler = _JOINT_HANDLERS.get(tag.name)
+        if handler is not None:
+            joint = handler(joint, tag, context)
+        elif tag.name not in _JOINT_READ_WITH_MODEL:
+            _report_unknown(tag, f"joint '{joint.name}'", _JOINT_HANDLERS, context)
+    return joint
+
+
 def _script_material(tag: Tag, context: ReadContext) -> Material | None:
-    name = value_of(tag)
+    name = _value_of(tag)
     if not name and tag.children:
         message = "a <material> with elements inside has no effect here, where the text is the"
         message += " name of a material; the shapes keep their own look"
@@ -225,21 +224,21 @@ def _script_material(tag: Tag, context: ReadContext) -> Material | None:
 def _apply_block(visual: Visual, block: Tag, context: ReadContext) -> Visual:
     for tag in block.children:
         if tag.name == "transparency":
-            value = float_value(tag, context)
+            value = _float_value(tag, context)
             visual = visual if value is None else replace(visual, transparency=value)
         elif tag.name == "cast_shadows":
-            visual = replace(visual, cast_shadows=bool_value(tag, True, context))
+            visual = replace(visual, cast_shadows=_bool_value(tag, True, context))
         elif tag.name == "laser_retro":
-            value = float_value(tag, context)
+            value = _float_value(tag, context)
             visual = visual if value is None else replace(visual, laser_retro=value)
         elif tag.name == "material":
             visual = replace(visual, material=read_material(tag, context) or visual.material)
         elif tag.name not in (*_VISUAL_CHILDREN, "plugin"):
-            report_unknown(tag, "a visual", _VISUAL_CHILDREN, context)
+            _report_unknown(tag, "a visual", _VISUAL_CHILDREN, context)
     return visual
 
 
-def _apply_collision_words(link: Link, tags: list[Tag], context: ReadContext) -> Link:
+def _apply_collision_elements(link: Link, tags: list[Tag], context: ReadContext) -> Link:
     changes = _surface_changes(tags, context)
     base = next(
         (
@@ -252,11 +251,11 @@ def _apply_collision_words(link: Link, tags: list[Tag], context: ReadContext) ->
     retro = _laser_retro(tags, context)
     if base is None and not changes and retro is None:
         return link
-    first = next(tag for tag in tags if tag.name in _COLLISION_WORDS)
+    first = next(tag for tag in tags if tag.name in _COLLISION_ELEMENTS)
     if not link.collisions:
         message = f"<{first.name}> for link '{link.name}' has no effect: it has no <collision>"
         context.diagnostics.report("urdf.gazebo-no-collision", message, first.span)
-    report_passed_over(link.name, link.collisions, first, context)
+    _report_passed_over(link.name, link.collisions, first, context)
     return replace(
         link,
         collisions=tuple(
@@ -276,10 +275,10 @@ def _changed(
 def _surface_changes(tags: list[Tag], context: ReadContext) -> dict[str, Any]:
     changes: dict[str, Any] = {}
     for tag in tags:
-        if tag.name in _SURFACE_WORDS:
-            value = float_value(tag, context)
+        if tag.name in _SURFACE_ELEMENTS:
+            value = _float_value(tag, context)
             if value is not None:
-                changes[_SURFACE_WORDS[tag.name]] = value
+                changes[_SURFACE_ELEMENTS[tag.name]] = value
         elif tag.name == "fdir1":
             changes["fdir1"] = _direction(tag, context)
         elif tag.name == "maxContacts":
@@ -296,7 +295,7 @@ def _collision_block(tag: Tag, context: ReadContext) -> dict[str, Any]:
             changes["max_contacts"] = _whole_number(child, context)
         elif child.name not in ("laser_retro", "surface"):
             known = ("laser_retro", "max_contacts", "surface")
-            report_unknown(child, "a collision", known, context)
+            _report_unknown(child, "a collision", known, context)
     return changes
 
 
@@ -305,18 +304,18 @@ def _laser_retro(tags: list[Tag], context: ReadContext) -> float | None:
     found += [
         child for tag in tags if tag.name == "collision" for child in tag.find_all("laser_retro")
     ]
-    values = [float_value(tag, context) for tag in found]
+    values = [_float_value(tag, context) for tag in found]
     return values[-1] if values else None
 
 
 def _whole_number(tag: Tag, context: ReadContext) -> int | None:
-    value = float_value(tag, context)
+    value = _float_value(tag, context)
     return None if value is None else int(value)
 
 
 def _direction(tag: Tag, context: ReadContext) -> tuple[float, float, float] | None:
     found = floats_from(
-        value_of(tag), 3, (), what="<fdir1>", span=tag.span, diagnostics=context.diagnostics
+        _value_of(tag), 3, (), what="<fdir1>", span=tag.span, diagnostics=context.diagnostics
     )
     length = sum(value * value for value in found) ** 0.5
     if not found or length == 0.0:
@@ -325,23 +324,23 @@ def _direction(tag: Tag, context: ReadContext) -> tuple[float, float, float] | N
 
 
 def _turn_gravity_off(link: Link, tag: Tag, context: ReadContext) -> Link:
-    return replace(link, gravity=not bool_value(tag, True, context))
+    return replace(link, gravity=not _bool_value(tag, True, context))
 
 
 def _gravity(link: Link, tag: Tag, context: ReadContext) -> Link:
-    return replace(link, gravity=bool_value(tag, True, context))
+    return replace(link, gravity=_bool_value(tag, True, context))
 
 
 def _self_collide(link: Link, tag: Tag, context: ReadContext) -> Link:
-    return replace(link, self_collide=bool_value(tag, False, context))
+    return replace(link, self_collide=_bool_value(tag, False, context))
 
 
 def _kinematic(link: Link, tag: Tag, context: ReadContext) -> Link:
-    return replace(link, kinematic=bool_value(tag, False, context))
+    return replace(link, kinematic=_bool_value(tag, False, context))
 
 
 def _damping_factor(link: Link, tag: Tag, context: ReadContext) -> Link:
-    value = float_value(tag, context)
+    value = _float_value(tag, context)
     return link if value is None else replace(link, linear_damping=value, angular_damping=value)
 
 
@@ -350,7 +349,7 @@ def _velocity_decay(link: Link, tag: Tag, context: ReadContext) -> Link:
     if linear is None and angular is None:
         return _damping_factor(link, tag, context)
     for child, name in ((linear, "linear_damping"), (angular, "angular_damping")):
-        value = float_value(child, context) if child is not None else None
+        value = _float_value(child, context) if child is not None else None
         changes: dict[str, Any] = {} if value is None else {name: value}
         link = replace(link, **changes)
     return link
@@ -381,7 +380,7 @@ def _slip(link: Link, tag: Tag, context: ReadContext) -> Link:
 
 def _number(name: str) -> Callable[[Joint, Tag, ReadContext], Joint]:
     def apply(joint: Joint, tag: Tag, context: ReadContext) -> Joint:
-        value = float_value(tag, context)
+        value = _float_value(tag, context)
         changes: dict[str, Any] = {} if value is None else {name: value}
         return replace(joint, **changes)
 
@@ -390,7 +389,7 @@ def _number(name: str) -> Callable[[Joint, Tag, ReadContext], Joint]:
 
 def _flag(name: str) -> Callable[[Joint, Tag, ReadContext], Joint]:
     def apply(joint: Joint, tag: Tag, context: ReadContext) -> Joint:
-        changes: dict[str, Any] = {name: bool_value(tag, False, context)}
+        changes: dict[str, Any] = {name: _bool_value(tag, False, context)}
         return replace(joint, **changes)
 
     return apply
@@ -398,7 +397,7 @@ def _flag(name: str) -> Callable[[Joint, Tag, ReadContext], Joint]:
 
 def _spring(name: str) -> Callable[[Joint, Tag, ReadContext], Joint]:
     def apply(joint: Joint, tag: Tag, context: ReadContext) -> Joint:
-        value = float_value(tag, context)
+        value = _float_value(tag, context)
         if value is None:
             return joint
         if joint.axis is None:
@@ -412,7 +411,7 @@ def _spring(name: str) -> Callable[[Joint, Tag, ReadContext], Joint]:
 
 
 def _keep_fixed(joint: Joint, tag: Tag, context: ReadContext) -> Joint:
-    kept = joint.disable_fixed_joint_lumping or bool_value(tag, False, context)
+    kept = joint.disable_fixed_joint_lumping or _bool_value(tag, False, context)
     return replace(joint, disable_fixed_joint_lumping=kept)
 
 
@@ -432,32 +431,32 @@ def _physics(joint: Joint, tag: Tag, context: ReadContext) -> Joint:
     ode = tag.find("ode")
     for block in (block for block in (tag, ode) if block is not None):
         for child in block.children:
-            if child.name in _PHYSICS_WORDS:
-                joint = _PHYSICS_WORDS[child.name](joint, child, context)
+            if child.name in _PHYSICS_HANDLERS:
+                joint = _PHYSICS_HANDLERS[child.name](joint, child, context)
             elif child.name == "limit":
                 for value in child.children:
-                    if value.name in _LIMIT_WORDS:
-                        joint = _LIMIT_WORDS[value.name](joint, value, context)
+                    if value.name in _LIMIT_HANDLERS:
+                        joint = _LIMIT_HANDLERS[value.name](joint, value, context)
             elif child.name != "ode":
-                report_unknown(child, f"joint '{joint.name}'", _PHYSICS_WORDS, context)
+                _report_unknown(child, f"joint '{joint.name}'", _PHYSICS_HANDLERS, context)
     return joint
 
 
-def _apply_model_word(model: Model, tag: Tag, context: ReadContext) -> Model:
+def _apply_model_element(model: Model, tag: Tag, context: ReadContext) -> Model:
     if tag.name == "static":
-        return replace(model, static=bool_value(tag, False, context))
+        return replace(model, static=_bool_value(tag, False, context))
     if tag.name == "self_collide":
-        return replace(model, self_collide=bool_value(tag, False, context))
+        return replace(model, self_collide=_bool_value(tag, False, context))
     if tag.name == "allow_auto_disable":
-        return replace(model, allow_auto_disable=bool_value(tag, True, context))
+        return replace(model, allow_auto_disable=_bool_value(tag, True, context))
     if tag.name.startswith(_OLD_PREFIX):
         return replace(model, plugins=(*model.plugins, _old_controller(tag, context)))
     if tag.name in _WITHOUT_EFFECT:
         message = f"<{tag.name}> for the whole robot has no effect"
         context.diagnostics.report("urdf.gazebo-no-effect", message, tag.span)
-    elif tag.name not in (*_MODEL_WORDS, *INSERTED_WORDS):
-        known = (*_MODEL_WORDS, *INSERTED_WORDS, *_WITHOUT_EFFECT)
-        report_unknown(tag, "the whole robot", known, context)
+    elif tag.name not in (*_MODEL_ELEMENTS, *INSERTED_ELEMENTS):
+        known = (*_MODEL_ELEMENTS, *INSERTED_ELEMENTS, *_WITHOUT_EFFECT)
+        _report_unknown(tag, "the whole robot", known, context)
     return model
 
 
@@ -499,7 +498,7 @@ def _in_document_order(plugins: tuple[PluginTag, ...]) -> tuple[PluginTag, ...]:
     return tuple(sorted(plugins, key=lambda plugin: (plugin.span.line, plugin.span.column)))
 
 
-_LINK_WORDS: dict[str, Callable[[Link, Tag, ReadContext], Link]] = {
+_LINK_HANDLERS: dict[str, Callable[[Link, Tag, ReadContext], Link]] = {
     "dampingFactor": _damping_factor,
     "gravity": _gravity,
     "kinematic": _kinematic,
@@ -513,15 +512,15 @@ _LINK_WORDS: dict[str, Callable[[Link, Tag, ReadContext], Link]] = {
     "turnGravityOff": _turn_gravity_off,
     "velocity_decay": _velocity_decay,
 }
-_PHYSICS_WORDS: dict[str, Callable[[Joint, Tag, ReadContext], Joint]] = {
+_PHYSICS_HANDLERS: dict[str, Callable[[Joint, Tag, ReadContext], Joint]] = {
     "cfm": _number("cfm"),
     "cfm_damping": _flag("implicit_spring_damper"),
     "erp": _number("erp"),
     "implicit_spring_damper": _flag("implicit_spring_damper"),
     "provide_feedback": _flag("provide_feedback"),
 }
-_LIMIT_WORDS = {"cfm": _number("limit_cfm"), "erp": _number("limit_erp")}
-_JOINT_WORDS: dict[str, Callable[[Joint, Tag, ReadContext], Joint]] = {
+_LIMIT_HANDLERS = {"cfm": _number("limit_cfm"), "erp": _number("limit_erp")}
+_JOINT_HANDLERS: dict[str, Callable[[Joint, Tag, ReadContext], Joint]] = {
     "cfmDamping": _flag("implicit_spring_damper"),
     "disableFixedJointLumping": _keep_fixed,
     "fudgeFactor": _fudge_factor,

@@ -23,7 +23,7 @@ from gazelle.geometry import Pose
 
 __all__ = ["joint_block", "link_block", "model_blocks", "plugin_markup"]
 
-_SURFACE_WORDS = {
+_SURFACE_ELEMENTS = {
     "mu1": "mu1",
     "mu2": "mu2",
     "kp": "kp",
@@ -178,7 +178,7 @@ def _add_contact(block: Markup, link: Link) -> None:
     if not link.collisions:
         return
     surface = replace(link.collisions[0].surface, span=None)
-    elements = {name: getattr(surface, key) for key, name in _SURFACE_WORDS.items()}
+    elements = {name: getattr(surface, key) for key, name in _SURFACE_ELEMENTS.items()}
     rest = replace(
         surface, mu1=None, mu2=None, kp=None, kd=None, min_depth_m=None, max_vel_m_s=None,
         fdir1=None, max_contacts=None,

@@ -33,7 +33,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.documents import TEXT_BYTES, read_limited
 from gazelle.documents.files import exists, is_folder
 
-__all__ = ["declaration_problem", "normalised", "read_document", "read_document_file"]
+__all__ = ["normalised", "read_document", "read_document_file"]
 
 # What may hold "<?" without being one, and what is one; the longest first.
 _PIECES = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?(?P<value>.*?)\?>|<", re.DOTALL)
@@ -43,27 +43,6 @@ _NO_ROBOT = (
     "         at line 109 in ./urdf_parser/src/model.cpp"
 )
 Find = Callable[[str], Path | None]
-
-
-def declaration_problem(data: str | bytes) -> str:
-    """Return what sdformat 12 prints of a declaration that stands too late, empty for none.
-
-    TinyXML-2 (``XMLNode::ParseDeep``) takes declarations before anything else, comments included;
-    TinyXML 1, which sdformat 9 uses, takes them anywhere.
-    """
-    text = data if isinstance(data, str) else data.decode("utf-8", "replace")
-    is_start = True
-    for piece in _PIECES.finditer(text):
-        value = piece["value"]
-        if value is None:
-            is_start = False
-        elif not is_start:
-            line = text.count("\n", 0, piece.start()) + 1
-            return (
-                f"Error=XML_ERROR_PARSING_DECLARATION ErrorID=11 (0xb) Line number={line}: "
-                f"XMLDeclaration value={value}"
-            )
-    return ""
 
 
 def read_document_file(word: str, *, release: Release, find: Find) -> Document:
@@ -113,6 +92,27 @@ def normalised(element: SdfElement, release: Release) -> SdfElement | None:
     return read_document(text, release=release, file="<text>", find=lambda _word: None).root
 
 
+def _declaration_problem(data: str | bytes) -> str:
+    """Return what sdformat 12 prints of a declaration that stands too late, empty for none.
+
+    TinyXML-2 (``XMLNode::ParseDeep``) takes declarations before anything else, comments included;
+    TinyXML 1, which sdformat 9 uses, takes them anywhere.
+    """
+    text = data if isinstance(data, str) else data.decode("utf-8", "replace")
+    is_start = True
+    for piece in _PIECES.finditer(text):
+        value = piece["value"]
+        if value is None:
+            is_start = False
+        elif not is_start:
+            line = text.count("\n", 0, piece.start()) + 1
+            return (
+                f"Error=XML_ERROR_PARSING_DECLARATION ErrorID=11 (0xb) Line number={line}: "
+                f"XMLDeclaration value={value}"
+            )
+    return ""
+
+
 def _say_unfound(word: str, console: Console) -> None:
     if console.release.is_new:
         console.error(
@@ -156,7 +156,7 @@ def _read(
 ) -> Document:
     found = Diagnostics()
     tag = parse_xml(data, file, found)
-    reason = "" if tag is None or console.release is Release.V9 else declaration_problem(data)
+    reason = "" if tag is None or console.release is Release.V9 else _declaration_problem(data)
     if tag is None or reason:
         reason = reason or next(iter(found)).message
         console.error("parse-xml", f"Error parsing XML in file [{file}]: {reason}")

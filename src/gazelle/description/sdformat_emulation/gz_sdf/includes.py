@@ -40,7 +40,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.documents.files import is_folder
 from gazelle.geometry import Pose
 
-__all__ = ["flatten_into", "merge_into", "read_include"]
+__all__ = ["read_include"]
 
 _NAMED = ("link", "joint", "frame")
 _MERGED = frozenset({"link", "model", "joint", "frame", "gripper", "plugin"})
@@ -48,75 +48,6 @@ _TOP_LEVEL = ("model", "actor", "light")
 _PARAMS = "experimental:params"
 Open = Callable[[Path, Console], Document]
 Find = Callable[[str], Path | None]
-
-
-def flatten_into(
-    parent: SdfElement,
-    document: Document,
-    definition: Definition,
-    here: ElementLocation,
-    reading: Reading,
-) -> None:
-    """Add the parts of an included model to a model, as sdformat 9 does.
-
-    Names are exchanged in the printed text wherever they stand between quotes or tags: also in
-    plug-ins' parameters that happen to be equal to a link's name.
-    """
-    root = document.root
-    model = root.find("model") if root is not None else None
-    if root is None or model is None:
-        return
-    name = model.attributes["name"]
-    scope = f"{name}::__model__"
-    names = {"__model__": scope}
-    parent.children.append(_proxy_frame(model, scope, _first_link(model, f"{name}::")))
-    for part in model.children:
-        if part.name in _NAMED:
-            names[part.attributes["name"]] = f"{name}::{part.attributes['name']}"
-        if part.name == "link":
-            pose = part.find("pose") or part.add("pose", "0 0 0 0 -0 0")
-            if not pose.attributes.get("relative_to"):
-                pose.attributes["relative_to"] = scope
-        elif part.name == "frame" and not part.attributes.get("attached_to"):
-            part.attributes["attached_to"] = scope
-    text = _renamed(to_text(root, Release.V9), names)
-    tag = parse_xml(text, here.file, Diagnostics())
-    again = None
-    if tag is not None:
-        whole = specification(Release.V9)
-        again = read_element(raw_element(tag), whole, ElementLocation("/sdf", here.file), reading)
-    renamed = again.find("model") if again is not None else None
-    if renamed is not None:
-        parent.children += [part for part in renamed.children if part.name != "pose"]
-
-
-def merge_into(
-    parent: SdfElement,
-    document: Document,
-    top: SdfElement,
-    include: Include,
-    here: ElementLocation,
-    reading: Reading,
-) -> None:
-    """Add the parts of an included model to a model without changing their names."""
-    line = include.raw.line
-    if top.name != "model":
-        message = "Merge-include is only supported for included models"
-        reading.fail(Code.MERGE_INCLUDE_UNSUPPORTED, message, here, line)
-        return
-    if parent.name != "model":
-        message = f"Merge-include does not support parent element of type {parent.name}"
-        reading.fail(Code.MERGE_INCLUDE_UNSUPPORTED, message, here, line)
-        return
-    pose = _placed_pose(document, top, reading)
-    scope = f"_merged__{top.attributes['name']}__model__"
-    frame = _proxy_frame(top, scope, _first_link(top, ""))
-    frame.children[0].text = printed_pose(pose, signed_zero=True)
-    parent.children.append(frame)
-    for part in top.children:
-        _refer_to_proxy(part, scope)
-        if part.name in _MERGED or ":" in part.name:
-            parent.children.append(part)
 
 
 def read_include(reading: Reading, include: Include, find: Find, open_file: Open) -> bool:
@@ -162,6 +93,75 @@ def read_include(reading: Reading, include: Include, find: Find, open_file: Open
     reading.versions[id(top)] = version_numbers(document.original_version)
     _insert(document, top, include, here, reading)
     return True
+
+
+def _flatten_into(
+    parent: SdfElement,
+    document: Document,
+    definition: Definition,
+    here: ElementLocation,
+    reading: Reading,
+) -> None:
+    """Add the parts of an included model to a model, as sdformat 9 does.
+
+    Names are exchanged in the printed text wherever they stand between quotes or tags: also in
+    plug-ins' parameters that happen to be equal to a link's name.
+    """
+    root = document.root
+    model = root.find("model") if root is not None else None
+    if root is None or model is None:
+        return
+    name = model.attributes["name"]
+    scope = f"{name}::__model__"
+    names = {"__model__": scope}
+    parent.children.append(_proxy_frame(model, scope, _first_link(model, f"{name}::")))
+    for part in model.children:
+        if part.name in _NAMED:
+            names[part.attributes["name"]] = f"{name}::{part.attributes['name']}"
+        if part.name == "link":
+            pose = part.find("pose") or part.add("pose", "0 0 0 0 -0 0")
+            if not pose.attributes.get("relative_to"):
+                pose.attributes["relative_to"] = scope
+        elif part.name == "frame" and not part.attributes.get("attached_to"):
+            part.attributes["attached_to"] = scope
+    text = _renamed(to_text(root, Release.V9), names)
+    tag = parse_xml(text, here.file, Diagnostics())
+    again = None
+    if tag is not None:
+        whole = specification(Release.V9)
+        again = read_element(raw_element(tag), whole, ElementLocation("/sdf", here.file), reading)
+    renamed = again.find("model") if again is not None else None
+    if renamed is not None:
+        parent.children += [part for part in renamed.children if part.name != "pose"]
+
+
+def _merge_into(
+    parent: SdfElement,
+    document: Document,
+    top: SdfElement,
+    include: Include,
+    here: ElementLocation,
+    reading: Reading,
+) -> None:
+    """Add the parts of an included model to a model without changing their names."""
+    line = include.raw.line
+    if top.name != "model":
+        message = "Merge-include is only supported for included models"
+        reading.fail(Code.MERGE_INCLUDE_UNSUPPORTED, message, here, line)
+        return
+    if parent.name != "model":
+        message = f"Merge-include does not support parent element of type {parent.name}"
+        reading.fail(Code.MERGE_INCLUDE_UNSUPPORTED, message, here, line)
+        return
+    pose = _placed_pose(document, top, reading)
+    scope = f"_merged__{top.attributes['name']}__model__"
+    frame = _proxy_frame(top, scope, _first_link(top, ""))
+    frame.children[0].text = printed_pose(pose, signed_zero=True)
+    parent.children.append(frame)
+    for part in top.children:
+        _refer_to_proxy(part, scope)
+        if part.name in _MERGED or ":" in part.name:
+            parent.children.append(part)
 
 
 def _placed_pose(document: Document, top: SdfElement, reading: Reading) -> Pose:
@@ -396,9 +396,9 @@ def _insert(
 ) -> None:
     parent = include.parent
     if not reading.is_new and parent.name == "model":
-        flatten_into(parent, document, include.definition, here, reading)
+        _flatten_into(parent, document, include.definition, here, reading)
     elif reading.is_new and bool_of(include.raw.attributes.get("merge", "false")):
-        merge_into(parent, document, top, include, here, reading)
+        _merge_into(parent, document, top, include, here, reading)
     else:
         # Whatever stands first in the file is taken, also if it is not what was renamed.
         assert document.root is not None

@@ -15,36 +15,9 @@ from importlib.resources import files
 from gazelle.description.sdformat_emulation.element import SdfElement
 from gazelle.description.sdformat_emulation.gz_sdf.console import Console
 
-__all__ = ["unflatten", "upgrade"]
+__all__ = ["upgrade"]
 
 _FLATTENED = frozenset({"frame", "joint", "link", "model", "gripper"})
-
-
-def unflatten(model: SdfElement) -> None:
-    """Move the parts of a model that bear another model's name before ``::`` into a model of it.
-
-    Nested models come behind everything else. As in sdformat, the search stops at a nested model
-    that stands in the document already.
-    """
-    made: list[SdfElement] = []
-    pending = list(model.children)
-    while pending:
-        element = pending.pop(0)
-        name = element.attributes.get("name", "")
-        if element.name not in _FLATTENED or not name:
-            continue
-        prefix, found, _ = name.partition("::")
-        if not found:
-            if element.name == "model":
-                unflatten(element)
-                break
-            continue
-        nested = SdfElement("model", {"name": prefix}, line=element.line)
-        if _move_parts(model, nested, len(prefix) + 2, skip=made):
-            unflatten(nested)
-            model.children.append(nested)
-            made.append(nested)
-            pending = [child for child in model.children if not _is_one_of(child, made)]
 
 
 def upgrade(root: SdfElement, version: tuple[int, int], console: Console) -> bool:
@@ -70,6 +43,33 @@ def upgrade(root: SdfElement, version: tuple[int, int], console: Console) -> boo
     if current != wanted:
         console.error("convert", f"Unable to convert from SDF version {original} to {wanted}")
     return current == wanted
+
+
+def _unflatten(model: SdfElement) -> None:
+    """Move the parts of a model that bear another model's name before ``::`` into a model of it.
+
+    Nested models come behind everything else. As in sdformat, the search stops at a nested model
+    that stands in the document already.
+    """
+    made: list[SdfElement] = []
+    pending = list(model.children)
+    while pending:
+        element = pending.pop(0)
+        name = element.attributes.get("name", "")
+        if element.name not in _FLATTENED or not name:
+            continue
+        prefix, found, _ = name.partition("::")
+        if not found:
+            if element.name == "model":
+                _unflatten(element)
+                break
+            continue
+        nested = SdfElement("model", {"name": prefix}, line=element.line)
+        if _move_parts(model, nested, len(prefix) + 2, skip=made):
+            _unflatten(nested)
+            model.children.append(nested)
+            made.append(nested)
+            pending = [child for child in model.children if not _is_one_of(child, made)]
 
 
 def _move_parts(model: SdfElement, nested: SdfElement, cut: int, *, skip: list[SdfElement]) -> bool:
@@ -222,7 +222,7 @@ def _act(element: SdfElement, action: str, *tokens: str) -> None:
         if element.attributes.get(name) == "":
             del element.attributes[name]
     elif action == "unflatten":
-        unflatten(element)
+        _unflatten(element)
 
 
 def _rename(element: SdfElement, source: str, target: str) -> None:

@@ -40,7 +40,6 @@ __all__ = [
     "Extensions",
     "move_extensions",
     "read_extensions",
-    "replace_body",
     "vector_from",
 ]
 
@@ -155,39 +154,6 @@ def read_extensions(robot: Tag, console: Console) -> Extensions:
     return extensions
 
 
-def replace_body(
-    plugin: SdfElement,
-    word: str,
-    links: tuple[str, str],
-    poses: tuple[Origin, Origin],
-    console: Console,
-) -> None:
-    """Replace a link's name in a plug-in's ``bodyName`` or ``frameName``, and shift its offsets.
-
-    Args:
-        plugin: an element; anything but a ``<plugin>`` stays as it is.
-        word: name of the child.
-        links: the lumped link and its parent.
-        poses: where the block's own link went by lumping, and the lumped link in its parent.
-        console: receives complaints about the offsets.
-
-    Raises:
-        NumberCrashError: an offset is beyond any double.
-    """
-    child = plugin.find(word) if plugin.name == "plugin" else None
-    if child is None or value_of(child, console) != links[0]:
-        return
-    is_v9 = console.release is Release.V9
-    remove(plugin, child)
-    plugin.add(word, links[1])
-    offset = _offset(plugin, poses[0], console)
-    moved = (composed_by_inverse if is_v9 else chained)(poses[1], offset)
-    plugin.add("xyzOffset", brief_text(moved.xyz_m))
-    plugin.add("rpyOffset", brief_text(rpy_from_quaternion(moved.quat_xyzw)))
-    if not is_v9:
-        plugin.add(_CORRECTED, "1")
-
-
 def vector_from(text: str, scale: float, console: Console) -> Vector3:
     """Return three numbers with spaces between them, zeros when they are none or not three.
 
@@ -227,8 +193,41 @@ def move_extensions(
             for blob in extension.blobs:
                 for word in ("bodyName", "frameName"):
                     poses = (extension.T_link_reduced, T_parent_link)
-                    replace_body(blob.element, word, (link, parent), poses, console)
+                    _replace_body(blob.element, word, (link, parent), poses, console)
                 _rename(blob, link, parent, console)
+
+
+def _replace_body(
+    plugin: SdfElement,
+    word: str,
+    links: tuple[str, str],
+    poses: tuple[Origin, Origin],
+    console: Console,
+) -> None:
+    """Replace a link's name in a plug-in's ``bodyName`` or ``frameName``, and shift its offsets.
+
+    Args:
+        plugin: an element; anything but a ``<plugin>`` stays as it is.
+        word: name of the child.
+        links: the lumped link and its parent.
+        poses: where the block's own link went by lumping, and the lumped link in its parent.
+        console: receives complaints about the offsets.
+
+    Raises:
+        NumberCrashError: an offset is beyond any double.
+    """
+    child = plugin.find(word) if plugin.name == "plugin" else None
+    if child is None or value_of(child, console) != links[0]:
+        return
+    is_v9 = console.release is Release.V9
+    remove(plugin, child)
+    plugin.add(word, links[1])
+    offset = _offset(plugin, poses[0], console)
+    moved = (composed_by_inverse if is_v9 else chained)(poses[1], offset)
+    plugin.add("xyzOffset", brief_text(moved.xyz_m))
+    plugin.add("rpyOffset", brief_text(rpy_from_quaternion(moved.quat_xyzw)))
+    if not is_v9:
+        plugin.add(_CORRECTED, "1")
 
 
 def _joint_is_kept(

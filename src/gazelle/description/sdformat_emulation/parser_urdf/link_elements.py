@@ -26,8 +26,6 @@ __all__ = [
     "add_collisions",
     "add_inertial",
     "add_visuals",
-    "extend_collision",
-    "extend_visual",
     "pose_text",
 ]
 
@@ -39,7 +37,40 @@ _DIFFUSE = 0.8
 _AMBIENT = 0.4
 
 
-def extend_collision(
+def add_inertial(owner: SdfElement, inertial: Inertial) -> None:
+    """Append an ``<inertial>``."""
+    element = owner.add("inertial")
+    element.add("pose", pose_text(inertial.origin))
+    element.add("mass", exact_text([inertial.mass_kg]))
+    tensor = element.add("inertia")
+    for name, value in zip(_TENSOR, inertial.tensor, strict=True):
+        tensor.add(name, exact_text([value]))
+
+
+def add_collisions(owner: SdfElement, link: Link, extensions: Extensions, console: Console) -> None:
+    """Append a link's collisions, lumped ones included."""
+    for index, part in enumerate(link.collisions):
+        element = _part(owner, "collision", link, part, index)
+        _add_geometry(element, part, console)
+        _extend_collision(element, link.name, extensions, console)
+
+
+def add_visuals(owner: SdfElement, link: Link, extensions: Extensions, console: Console) -> None:
+    """Append a link's visuals; sdformat 9 leaves their colours out."""
+    for index, part in enumerate(link.visuals):
+        element = _part(owner, "visual", link, part, index)
+        _add_geometry(element, part, console)
+        _extend_visual(element, link.name, extensions, console)
+        if part.colour is not None and console.release is not Release.V9:
+            _add_colour(element, part.colour)
+
+
+def pose_text(pose: Origin) -> str:
+    """Return a pose as ignition-math's angles."""
+    return exact_text((*pose.xyz_m, *euler_of(pose.quat_xyzw)))
+
+
+def _extend_collision(
     collision: SdfElement, link: str, extensions: Extensions, console: Console
 ) -> None:
     """Add what the blocks say about a link's collisions.
@@ -67,8 +98,8 @@ def extend_collision(
         _set(collision, extension, element_names, console)
 
 
-def extend_visual(visual: SdfElement, link: str, extensions: Extensions, console: Console) -> None:
-    """Add what the blocks say about a link's visuals; arguments as in `extend_collision`."""
+def _extend_visual(visual: SdfElement, link: str, extensions: Extensions, console: Console) -> None:
+    """Add what the blocks say about a link's visuals; arguments as in `_extend_collision`."""
     for extension in _meant(visual, link, extensions):
         for element in extension.visuals:
             old = visual.find("material") if element.name == "material" else None
@@ -79,39 +110,6 @@ def extend_visual(visual: SdfElement, link: str, extensions: Extensions, console
             script = found_or_added(found_or_added(visual, "material"), "script")
             set_value(script, "name", extension.material, console)
             set_value(script, "uri", _MATERIALS, console)
-
-
-def add_inertial(owner: SdfElement, inertial: Inertial) -> None:
-    """Append an ``<inertial>``."""
-    element = owner.add("inertial")
-    element.add("pose", pose_text(inertial.origin))
-    element.add("mass", exact_text([inertial.mass_kg]))
-    tensor = element.add("inertia")
-    for name, value in zip(_TENSOR, inertial.tensor, strict=True):
-        tensor.add(name, exact_text([value]))
-
-
-def add_collisions(owner: SdfElement, link: Link, extensions: Extensions, console: Console) -> None:
-    """Append a link's collisions, lumped ones included."""
-    for index, part in enumerate(link.collisions):
-        element = _part(owner, "collision", link, part, index)
-        _add_geometry(element, part, console)
-        extend_collision(element, link.name, extensions, console)
-
-
-def add_visuals(owner: SdfElement, link: Link, extensions: Extensions, console: Console) -> None:
-    """Append a link's visuals; sdformat 9 leaves their colours out."""
-    for index, part in enumerate(link.visuals):
-        element = _part(owner, "visual", link, part, index)
-        _add_geometry(element, part, console)
-        extend_visual(element, link.name, extensions, console)
-        if part.colour is not None and console.release is not Release.V9:
-            _add_colour(element, part.colour)
-
-
-def pose_text(pose: Origin) -> str:
-    """Return a pose as ignition-math's angles."""
-    return exact_text((*pose.xyz_m, *euler_of(pose.quat_xyzw)))
 
 
 class _Surface:

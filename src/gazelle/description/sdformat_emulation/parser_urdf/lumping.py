@@ -30,7 +30,6 @@ __all__ = [
     "is_lumped",
     "is_reduced",
     "lump_fixed_joints",
-    "lump_inertia",
     "warn_of_massless",
 ]
 
@@ -48,20 +47,6 @@ _MAX_REPEATS = 100_000
 
 class EndlessRobotError(ValueError):
     """The library would recur until its stack is full, and crash."""
-
-
-def lump_inertia(link: Link, parent: Link, T_parent_link: Origin) -> None:
-    """Add a link's mass and inertia to its parent's, which may have none yet."""
-    if link.inertial is None:
-        return
-    if parent.inertial is None:
-        parent.inertial = Inertial()
-    total = _in_link_frame(parent.inertial)
-    other = _in_link_frame(link.inertial)
-    _turn_out(other, T_parent_link)
-    _translate(other, T_parent_link.xyz_m)
-    _add(total, other)
-    _store(total, parent.inertial)
 
 
 def warn_of_massless(link: Link, is_without_inertial: bool, console: Console) -> None:
@@ -123,6 +108,20 @@ def lump_fixed_joints(robot: Robot, extensions: Extensions, console: Console) ->
             _lump(link, extensions, console)
             lumped.append(link)
     return lumped
+
+
+def _lump_inertia(link: Link, parent: Link, T_parent_link: Origin) -> None:
+    """Add a link's mass and inertia to its parent's, which may have none yet."""
+    if link.inertial is None:
+        return
+    if parent.inertial is None:
+        parent.inertial = Inertial()
+    total = _in_link_frame(parent.inertial)
+    other = _in_link_frame(link.inertial)
+    _turn_out(other, T_parent_link)
+    _translate(other, T_parent_link.xyz_m)
+    _add(total, other)
+    _store(total, parent.inertial)
 
 
 @dataclass(slots=True)
@@ -264,7 +263,7 @@ def _lump(link: Link, extensions: Extensions, console: Console) -> None:
     if console.release is Release.V14:
         _remember(link, parent, joint, extensions)
     move_extensions(link.name, parent.name, joint.T_parent_joint, extensions, console)
-    lump_inertia(link, parent, joint.T_parent_joint)
+    _lump_inertia(link, parent, joint.T_parent_joint)
     _move_parts(link, parent, "visual", console)
     _move_parts(link, parent, "collision", console)
     for child in link.children:

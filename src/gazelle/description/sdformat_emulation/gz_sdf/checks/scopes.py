@@ -33,7 +33,6 @@ __all__ = [
     "Loader",
     "ModelScope",
     "WorldScope",
-    "counted_names",
     "load_model",
     "load_world",
     "shared_names",
@@ -159,23 +158,6 @@ class Loader:
     versions: dict[int, tuple[int, ...]]
 
 
-def counted_names(element: SdfElement, definition: Definition | None) -> Counter[str]:
-    """Return how often each name occurs among an element's children; plug-ins do not count.
-
-    A child that may have a name and has none counts under the specification's default.
-    """
-    names: Counter[str] = Counter()
-    for child in element.children:
-        if child.name == "plugin":
-            continue
-        name = child.attributes.get("name")
-        if name is None:
-            name = _default_name(child, definition)
-        if name is not None:
-            names[name] += 1
-    return names
-
-
 def shared_names(element: SdfElement, definition: Definition | None) -> list[SdfElement]:
     """Return the elements, depth first, among whose children two share a name.
 
@@ -183,7 +165,7 @@ def shared_names(element: SdfElement, definition: Definition | None) -> list[Sdf
     """
     if element.name == "plugin" or ":" in element.name:
         return []
-    found = [element] if any(n > 1 for n in counted_names(element, definition).values()) else []
+    found = [element] if any(n > 1 for n in _counted_names(element, definition).values()) else []
     children = definition.resolved.children if definition is not None else {}
     for child in element.children:
         found += shared_names(child, children.get(child.name))
@@ -254,6 +236,23 @@ def load_model(
     model.frames = _frames(element, errors)
     _resolve_collisions(model.frames, "frame", taken, model, version, loader)
     return model
+
+
+def _counted_names(element: SdfElement, definition: Definition | None) -> Counter[str]:
+    """Return how often each name occurs among an element's children; plug-ins do not count.
+
+    A child that may have a name and has none counts under the specification's default.
+    """
+    names: Counter[str] = Counter()
+    for child in element.children:
+        if child.name == "plugin":
+            continue
+        name = child.attributes.get("name")
+        if name is None:
+            name = _default_name(child, definition)
+        if name is not None:
+            names[name] += 1
+    return names
 
 
 def _default_name(child: SdfElement, definition: Definition | None) -> str | None:
@@ -374,7 +373,7 @@ def _rename(
 def _warn_of_names(
     element: SdfElement, definition: Definition, location: str, kind: str, loader: Loader
 ) -> None:
-    for name, count in sorted(counted_names(element, definition).items()):
+    for name, count in sorted(_counted_names(element, definition).items()):
         if count > 1:
             loader.console.warn(
                 location,

@@ -33,7 +33,12 @@ from gazelle.description.sdformat_emulation.gz_sdf.model_config import version_n
 from gazelle.description.sdformat_emulation.gz_sdf.printer import to_text
 from gazelle.description.sdformat_emulation.gz_sdf.specification import specification
 
-__all__ = ["Loaded", "check", "load", "name_problems", "validate_attached", "validate_relative"]
+__all__ = [
+    "Loaded",
+    "check",
+    "load",
+    "name_problems",
+]
 
 _MODELS = (Kind.MODEL, Kind.STATIC_MODEL)
 
@@ -53,32 +58,6 @@ class Loaded:
     worlds: list[WorldScope] = field(default_factory=list)
     model: ModelScope | None = None
     errors: list[SdfError] = field(default_factory=list)
-
-
-def validate_attached(scope: Scope, errors: list[SdfError]) -> None:
-    """Append what is wrong with a graph of attachments."""
-    if scope.vertex is None:
-        context = f"scope context name[{scope.context}]"
-        message = f"FrameAttachedToGraph error: {context} does not match __model__ or world."
-        errors.append(SdfError(Code.FRAME_ATTACHED_TO_GRAPH_ERROR, message))
-        return
-    for vertex in range(len(scope.graph.names)):
-        for problem in _attached_problems(scope, vertex):
-            message = f"FrameAttachedToGraph error, {problem}"
-            errors.append(SdfError(Code.FRAME_ATTACHED_TO_GRAPH_ERROR, message))
-    for name in scope.names():
-        body_of(scope, name, errors)
-
-
-def validate_relative(scope: Scope, errors: list[SdfError]) -> None:
-    """Append what is wrong with a graph of poses."""
-    assert scope.vertex is not None
-    for vertex in range(len(scope.graph.names)):
-        for problem in _relative_problems(scope, vertex):
-            message = f"PoseRelativeToGraph error, {problem}"
-            errors.append(SdfError(Code.POSE_RELATIVE_TO_GRAPH_ERROR, message))
-    numbers = (scope.number(name) for name in scope.names() if name != "__root__")
-    check_places(scope, (number for number in numbers if number is not None), errors)
 
 
 def load(document: Document) -> Loaded:
@@ -120,6 +99,32 @@ def name_problems(document: Document) -> list[str]:
     release = document.console.release
     found = shared_names(document.root, specification(release))
     return [f"Error: Non-unique names detected in {to_text(one, release)}" for one in found]
+
+
+def _validate_attached(scope: Scope, errors: list[SdfError]) -> None:
+    """Append what is wrong with a graph of attachments."""
+    if scope.vertex is None:
+        context = f"scope context name[{scope.context}]"
+        message = f"FrameAttachedToGraph error: {context} does not match __model__ or world."
+        errors.append(SdfError(Code.FRAME_ATTACHED_TO_GRAPH_ERROR, message))
+        return
+    for vertex in range(len(scope.graph.names)):
+        for problem in _attached_problems(scope, vertex):
+            message = f"FrameAttachedToGraph error, {problem}"
+            errors.append(SdfError(Code.FRAME_ATTACHED_TO_GRAPH_ERROR, message))
+    for name in scope.names():
+        body_of(scope, name, errors)
+
+
+def _validate_relative(scope: Scope, errors: list[SdfError]) -> None:
+    """Append what is wrong with a graph of poses."""
+    assert scope.vertex is not None
+    for vertex in range(len(scope.graph.names)):
+        for problem in _relative_problems(scope, vertex):
+            message = f"PoseRelativeToGraph error, {problem}"
+            errors.append(SdfError(Code.POSE_RELATIVE_TO_GRAPH_ERROR, message))
+    numbers = (scope.number(name) for name in scope.names() if name != "__root__")
+    check_places(scope, (number for number in numbers if number is not None), errors)
 
 
 def _attached_problems(scope: Scope, vertex: int) -> list[str]:
@@ -195,8 +200,8 @@ def _load_world(
     errors: list[SdfError] = []
     world = load_world(element, version, loader, errors)
     graph = attached_graph(world, errors)
-    validate_attached(graph, errors)
-    validate_relative(relative_graph(world, errors), errors)
+    _validate_attached(graph, errors)
+    _validate_relative(relative_graph(world, errors), errors)
     for model in world.models:
         graphs[id(model)] = graph.child(model.name)
     if errors:
@@ -231,8 +236,8 @@ def _load_root_model(
         loaded.errors.append(SdfError(Code.ELEMENT_INCORRECT_TYPE, message))
     model = loaded.model = models[0]
     graph = attached_graph(model, loaded.errors)
-    validate_attached(graph, loaded.errors)
-    validate_relative(relative_graph(model, loaded.errors), loaded.errors)
+    _validate_attached(graph, loaded.errors)
+    _validate_relative(relative_graph(model, loaded.errors), loaded.errors)
     graphs[id(model)] = graph.child(model.name)
 
 
