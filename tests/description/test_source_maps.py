@@ -135,7 +135,7 @@ def test_another_process_finds_the_places(expanded: Expanded, tmp_path: Path) ->
     (tmp_path / "pair.urdf").write_text(expanded.text, encoding="utf-8")
     script = (
         "import sys; from gazelle.description.source_maps import source_map_of;"
-        "print([str(p) for p in source_map_of(open(sys.argv[1]).read()).places][2])"
+        "print([str(p) for p in source_map_of(open(sys.argv[1]).read()).spans][2])"
     )
     done = subprocess.run(
         [sys.executable, "-c", script, "pair.urdf"],

@@ -50,7 +50,7 @@ Fail = Callable[..., Diagnostic]
 
 
 @pytest.mark.parametrize(
-    ("text", "code", "words", "place"),
+    ("text", "code", "words", "span"),
     [
         ('<a>\n<v a="${x}"/></a>', "xacro.undefined-name", "name 'x' is not defined", (3, 7, 4)),
         ('<v b="1"\n   a="p ${1+}"/>', "xacro.bad-expression", "invalid syntax", (3, 9, 5)),
@@ -477,7 +477,7 @@ BROKEN = [
 
 
 @pytest.mark.parametrize(
-    ("robot", "file", "good", "bad", "place", "code", "calls"),
+    ("robot", "file", "good", "bad", "span", "code", "calls"),
     BROKEN,
     ids=lambda item: str(item)[:20],
 )

@@ -55,7 +55,7 @@ def test_the_declared_encoding_counts_for_bytes_only():
 
 
 @pytest.mark.parametrize(
-    ("text", "reason", "place"),
+    ("text", "reason", "span"),
     [
         ("<a><b></a>", "mismatched tag", "a.urdf:1:9"),
         ("<a name=b/>", "not well-formed", "a.urdf:1:9"),
