@@ -30,7 +30,7 @@ class Entity(BaseEntity):
         self.__read_keys: set[str] = set()
         self.__asked_keys: set[str] = set()
         self.__children_called = False
-        self.span: SourceSpan | None = getattr(element, "place", None)
+        self.span: SourceSpan | None = getattr(element, "span", None)
         if self.span is None and parent is not None:
             self.span = parent.span
 
@@ -73,11 +73,11 @@ class Entity(BaseEntity):
             error = RuntimeError(
                 "Subentities must be a dictionary with only one key, which is the entity type"
             )
-            keep_span(error, getattr(item, "place", None) or self.span)
+            keep_span(error, getattr(item, "span", None) or self.span)
             raise error
         [(name, value)] = item.items()
         child = Entity(value, str(name), parent=self)
-        child.span = getattr(item, "place", None)
+        child.span = getattr(item, "span", None)
         return child
 
     def assert_entity_completely_parsed(self) -> None:
@@ -164,11 +164,11 @@ class Parser(BaseParser):
         if not isinstance(tree, dict) or len(tree) != 1:
             problem = RuntimeError("Expected only one root")
             begin = SourceSpan(name, 1)
-            keep_span(problem, getattr(tree, "place", None) or begin)
+            keep_span(problem, getattr(tree, "span", None) or begin)
             raise problem
         [(name, value)] = tree.items()
         entity = Entity(value, str(name))
-        entity.span = getattr(tree, "place", None)
+        entity.span = getattr(tree, "span", None)
         return entity, cls()
 
     @classmethod
