@@ -77,8 +77,9 @@ export class MotionStore {
   private channels: Channel[] = [];
   /** Counts readings of the robot: the answer to an older one is late. */
   private reading = 0;
-  /** Whether the graph has told of this move_group. */
-  private announced = false;
+  /** Planning services on the graph now, and those that were since the robot was asked for. */
+  private offered: ReadonlySet<string> = new Set();
+  private heard = new Set<string>();
   private timer = 0;
   private looking = 0;
   private readonly listeners = new Set<(what: Change) => void>();
@@ -190,16 +191,24 @@ export class MotionStore {
 
   /** Who is on the graph now: a move_group that was there may have ended. */
   follow(graph: GraphValue): void {
-    if (!this.robot) return;
-    const there = graph.services.some((each) => each.name === this.name(PLAN_SERVICE));
-    if (this.announced && !there && this.users) void this.load();
-    this.announced = there;
+    const names = graph.services.map((each) => each.name);
+    this.offered = new Set(names.filter((name) => name.endsWith(`/${PLAN_SERVICE}`)));
+    for (const name of this.offered) this.heard.add(name);
+    this.leaveEnded();
+  }
+
+  /** Read the robot anew when its move_group has ended, be it while the robot was read. */
+  private leaveEnded(): void {
+    const name = this.name(PLAN_SERVICE);
+    if (this.robot && this.users && this.heard.has(name) && !this.offered.has(name))
+      void this.load();
   }
 
   /** Read the robot; tried again while there is none. */
   private async load(): Promise<void> {
     this.stop();
     const reading = ++this.reading;
+    this.heard = new Set(this.offered);
     const { namespace, description } = this.names;
     try {
       const value = await this.connection.call('motion.robot', { namespace, description });
@@ -218,7 +227,6 @@ export class MotionStore {
 
   private adopt(robot: MotionRobot): void {
     this.problem = '';
-    this.announced = false;
     this.robot = robot;
     this.kinematics = new Kinematics(robot);
     this.current = { ...robot.defaults };
@@ -248,6 +256,7 @@ export class MotionStore {
       ),
     ];
     this.tell('robot');
+    this.leaveEnded();
   }
 
   private lose(problem: unknown): void {
