@@ -125,7 +125,8 @@ def test_meshes_are_held_kept_in_files_and_come_back(desk: Any, tmp_path: Path) 
             ui.press("Export")
         saved.value.save_as(file)
         assert saved.value.suggested_filename == "heron.scene"
-        return "-0.5 0.25 0" in file.read_text("utf-8")
+        text = file.read_text("utf-8")
+        return "-0.5 0.25 0" in text and "0.2474" in text
 
     ui.eventually(kept)
     ui.press("Clear scene")
