@@ -147,6 +147,7 @@ def test_revolute_joint_turns_the_shorter_way_only_within_its_limits() -> None:
     assert narrow.error(3.0, -3.0) == pytest.approx(-6.0)
     assert narrow.clip(9.0) == 3.1
     assert JointRange(JointType.PRISMATIC, -9.0, 9.0).error(4.0, -4.0) == -8.0
+    assert JointRange(JointType.CONTINUOUS).error(0.0, -math.pi) == pytest.approx(math.pi)
 
 
 def test_state_comes_every_tenth_update_and_only_to_somebody() -> None:

@@ -5,20 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from gazelle.control.angles import shortest_angular_distance
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.description.model import JointType
 
-__all__ = ["JointRange", "shortest_angular_distance"]
+__all__ = ["JointRange"]
 
 _TURN = 2.0 * math.pi
-
-
-def shortest_angular_distance(start_rad: float, end_rad: float) -> float:
-    """Return the way from one angle to another, in [-π, π] (``angles`` package)."""
-    way = math.fmod(end_rad - start_rad, _TURN)
-    if way > math.pi:
-        return way - _TURN
-    return way + _TURN if way < -math.pi else way
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.control.angles import shortest_angular_distance
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
-from gazelle.control.controllers.joint_error import shortest_angular_distance
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Array, Indices
 from gazelle.control.pid import Pid, PidGains, PidStatePort, offer_live_gains, read_gains
