@@ -18,6 +18,7 @@ from typing import Any
 
 import hypothesis
 import pytest
+from tests.capture import capfd, capsys  # noqa: F401 - fixtures
 from tests.distribution import (  # noqa: F401 - hooks
     pytest_collection,
     pytest_collection_modifyitems,
