@@ -62,7 +62,7 @@ SCAN = (
             Step("gazelle.engine.state", "a snapshot: where all links are after this step"),
             Step("gazelle.sensors.ray_scene", "moves the shapes of Embree's scene there"),
             Step("gazelle.sensors.lidar", "casts the rays: a record of ranges in metres"),
-            Step("gazelle.sensors.noise", "adds noise from the sensor's own seed"),
+            Step("gazelle.sensors.noise_streams", "adds noise from the sensor's own seed"),
             Step("gazelle.simulator.plugins.laser", "fills a LaserScan: frame, stamp, limits"),
             Step("gazelle.interfaces.codec", "writes it as CDR bytes, once for all who listen"),
             Step("gazelle.graph.publisher", "puts it on the graph, over Zenoh's local link"),

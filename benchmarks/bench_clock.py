@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.graph import Graph
-from gazelle.graph.clock_sharing import share_clock
+from gazelle.graph.shared_clock_discovery import share_clock
 from gazelle.interfaces import message_type
 
 CLOCK = message_type("rosgraph_msgs/msg/Clock")

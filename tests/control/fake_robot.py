@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.interface_values import InterfaceValues
-from gazelle.control.robot import JointResource, Robot
+from gazelle.control.resource_manager import JointResource, Robot
 from gazelle.description.model import Model
 from gazelle.parameters import Parameter, ParameterTable
 

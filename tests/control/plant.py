@@ -13,7 +13,7 @@ from tests.control.recording_ports import RecordingPorts
 from gazelle.control.controller_parameters import controller_parameters
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.interface_values import InterfaceValues
-from gazelle.control.robot import JointLimits, JointResource, Robot
+from gazelle.control.resource_manager import JointLimits, JointResource, Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.control.controller_node import GoalPort, LiveParameter
+from gazelle.control.controller_node_interface import GoalPort, LiveParameter
 
 __all__ = ["RecordedGoal", "RecordedPublisher", "RecordingPorts"]
 

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from gazelle.control.joint_limits import limits_from_parameters, limits_of
-from gazelle.control.robot import JointLimits
+from gazelle.control.resource_manager import JointLimits
 from gazelle.description.model import Joint, JointAxis, JointType, SafetyController
 
 

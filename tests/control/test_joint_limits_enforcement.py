@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gazelle.control.joint_limits import EffortLimits, PositionLimits, VelocityLimits
-from gazelle.control.robot import JointLimits
+from gazelle.control.resource_manager import JointLimits
 
 LIMITS = JointLimits(True, -1.0, 1.0, max_velocity=2.0, max_effort=8.0)
 SOFT = JointLimits(

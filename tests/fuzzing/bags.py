@@ -20,7 +20,7 @@ from gazelle.bag import (
     open_bag,
     ros1_connection,
 )
-from gazelle.bag.compression import compress_zstd
+from gazelle.bag.compression_formats import compress_zstd
 from gazelle.bag.export import reader_of, row_of
 from gazelle.bag.playing.player import outgoing
 from gazelle.bag.rosbag2.folder import Rosbag2, reindex

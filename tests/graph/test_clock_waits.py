@@ -4,7 +4,7 @@ import pytest
 
 from gazelle.graph import clock
 from gazelle.graph.clock import Waits
-from gazelle.graph.clock_sharing import _STILL_S
+from gazelle.graph.shared_clock_discovery import _STILL_S
 
 MS = 1_000_000
 

@@ -15,7 +15,7 @@ from gazelle.graph.ros2_parameter_values import (
     value_message,
 )
 from gazelle.interfaces import from_cdr, message_type, service_type, to_cdr
-from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.intra_process_node import LocalNode
 
 VALUES = {
     "joints": ["a", "b"],

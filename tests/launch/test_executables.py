@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.launch.config import LaunchConfig, NodeTag
 from gazelle.launch.executables import Executable, find_executable
+from gazelle.launch.launch_config import LaunchConfig, NodeTag
 from gazelle.launch.roslaunch import LaunchOptions, find_executables
 from gazelle.node_specs.registry import node_specs
 from gazelle.node_specs.unavailable_packages import missing_node

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gazelle.graph.graph_info import NodeInfo
-from gazelle.node_specs.patterns import expanded, holds
+from gazelle.node_specs.parameter_substitution import expanded, holds
 from gazelle.node_specs.spec import Direction, Interface, NodeSpec
 
 GIVES, TAKES = Direction.GIVES, Direction.TAKES

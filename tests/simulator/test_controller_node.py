@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from gazelle.control.controller_manager import ControllerManager
-from gazelle.control.controller_node import LiveParameter
+from gazelle.control.controller_node_interface import LiveParameter
 from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
-from gazelle.control.robot import Robot
+from gazelle.control.resource_manager import Robot
 from gazelle.description.model import Model, World
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError

@@ -6,7 +6,7 @@ import pytest
 
 from gazelle.errors import GazelleError
 from gazelle.simulator.controller_managers import ControlRegistry
-from gazelle.simulator.local_node import LocalParameters
+from gazelle.simulator.intra_process_node import LocalParameters
 from gazelle.simulator.simulation_parameters import give_parameters
 
 

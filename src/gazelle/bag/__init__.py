@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.bag.opening import create_bag, open_bag, storage_of
+from gazelle.bag.open_bag import create_bag, open_bag, storage_of
 from gazelle.bag.storage import (
     BagError,
     BagMessage,

@@ -10,7 +10,7 @@ from gazelle.bag import BagError, BagReader, create_bag, open_bag, storage_of
 from gazelle.bag.conversion import copy_bag
 from gazelle.bag.export import FORMATS, export_bag
 from gazelle.bag.formats import MCAP, OWN_FORMATS, storage_names
-from gazelle.bag.opening import warn_of_unindexed
+from gazelle.bag.open_bag import warn_of_unindexed
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.diagnostics import Diagnostics, render
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.launch.config import LaunchConfig
+from gazelle.launch.launch_config import LaunchConfig
 from gazelle.launch.roslaunch import LaunchOptions, launch
 from gazelle.workspace import Workspace
 

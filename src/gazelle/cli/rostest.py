@@ -19,9 +19,9 @@ from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError
 from gazelle.graph import Graph
-from gazelle.launch.config import LaunchConfig, TestTag
 from gazelle.launch.environment import node_environment
 from gazelle.launch.executables import find_executable
+from gazelle.launch.launch_config import LaunchConfig, TestTag
 from gazelle.launch.node_process import node_argv
 from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.process_lifetime import PARENT_VARIABLE

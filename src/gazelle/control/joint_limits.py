@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.control.interface_values import Array
-from gazelle.control.robot import JointLimits
+from gazelle.control.resource_manager import JointLimits
 from gazelle.description.model import Joint, JointAxis, JointType
 
 __all__ = [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.doctor.examine import examine
+from gazelle.doctor.command_line import examine
 from gazelle.doctor.report import Options, Report, Section
 
 __all__ = ["Options", "Report", "Section", "examine"]

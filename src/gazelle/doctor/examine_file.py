@@ -10,13 +10,13 @@ from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
-from gazelle.doctor.descriptions import examine_models
 from gazelle.doctor.dry_start import Program, StartPlan, dry_start
 from gazelle.doctor.file_kinds import Kind, is_semantic
 from gazelle.doctor.launch_ros1 import examine_launch
 from gazelle.doctor.launch_ros2 import check_launch
 from gazelle.doctor.parameters import check_package_parameters, check_parameter_file
 from gazelle.doctor.report import Examination
+from gazelle.doctor.robots_and_worlds import examine_models
 from gazelle.doctor.simulated_world import probe, simulation_sections
 from gazelle.doctor.target import package_at
 from gazelle.documents.files import is_file

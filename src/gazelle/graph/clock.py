@@ -11,14 +11,14 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
-from gazelle.graph.clock_sharing import ClockFinder
 from gazelle.graph.errors import TimeJumpError
+from gazelle.graph.shared_clock_discovery import ClockFinder
 from gazelle.graph.type_support import resolve_type
 from gazelle.interfaces.stamps import ns_of
 
 if TYPE_CHECKING:
-    from gazelle.graph.clock_page import PageView
     from gazelle.graph.node import Node
+    from gazelle.graph.shared_memory_clock import PageView
     from gazelle.graph.subscription import Subscription
 
 __all__ = ["Clock", "Waits"]
@@ -98,7 +98,7 @@ class Clock:
 
     It follows ``/clock`` while the parameter ``/use_sim_time`` is true, and subscribes only
     then. Simulated time is 0 until the first message, as in ROS 1. Where the publisher shows its
-    time on a page (`gazelle.graph.clock_sharing`), that is looked at and no messages come.
+    time on a page (`gazelle.graph.shared_clock_discovery`), that is looked at and no messages come.
     """
 
     def __init__(self, read_parameter: Callable[[], Any]) -> None:

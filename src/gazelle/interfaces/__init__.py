@@ -14,8 +14,8 @@ from gazelle.interfaces.message import Message
 from gazelle.interfaces.ros1_message import AnyMsg, Ros1Message
 from gazelle.interfaces.ros1_time import Duration, Time, TVal
 from gazelle.interfaces.services import ActionType, Ros1Service, ServiceType
-from gazelle.interfaces.store import TypeStore, default_types, types_of
 from gazelle.interfaces.type_names import ros1_name, ros1_type_of, split_name, wire_type
+from gazelle.interfaces.type_store import TypeStore, default_types, types_of
 
 if TYPE_CHECKING:
     from gazelle.interfaces.echo_text import strify

@@ -14,7 +14,7 @@ _T = TypeVar("_T")
 
 
 class Types(Protocol):
-    """Where definitions and classes come from; `gazelle.interfaces.store.TypeStore` is one."""
+    """Where definitions and classes come from; `gazelle.interfaces.type_store.TypeStore` is one."""
 
     def definition(self, name: str, ros_version: RosVersion) -> Definition:
         """Return a message's definition by the rules of one generation."""

@@ -35,9 +35,12 @@ class _Lazy:
         self._name = name
 
     def __get__(self, instance: object, owner: type[Ros1Message]) -> str:
-        from gazelle.interfaces import full_text, ros1_md5sum
+        from gazelle.interfaces import full_definition_text, ros1_md5sum
 
-        compute = {"_md5sum": ros1_md5sum.md5sum, "_full_text": full_text.ros1_definition}
+        compute = {
+            "_md5sum": ros1_md5sum.md5sum,
+            "_full_text": full_definition_text.ros1_definition,
+        }
         text = compute[self._name](owner._types, owner.TYPE_NAME)
         setattr(owner, self._name, text)
         return text

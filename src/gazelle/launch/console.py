@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TextIO
 
 from gazelle.documents.yaml import dump_yaml
-from gazelle.launch.config import LaunchConfig
+from gazelle.launch.launch_config import LaunchConfig
 from gazelle.log_files import LogStream
 from gazelle.parameters.trees import leaves_at
 from gazelle.process_lifetime import drop_output, when_nobody_reads

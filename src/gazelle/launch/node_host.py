@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from gazelle.launch.config import NodeTag
+from gazelle.launch.launch_config import NodeTag
 from gazelle.launch.node_process import node_argv
 from gazelle.process_lifetime import PARENT_VARIABLE
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from gazelle.node_specs.shared_rows import LIFECYCLE_SERVICES, LIFECYCLE_TOPICS, TF_LISTENED
 from gazelle.node_specs.spec import (
     ROS_1,
     ROS_2,
@@ -13,6 +12,7 @@ from gazelle.node_specs.spec import (
     offers,
     publishes,
 )
+from gazelle.node_specs.tf_and_lifecycle import LIFECYCLE_SERVICES, LIFECYCLE_TOPICS, TF_LISTENED
 
 __all__ = ["NAVIGATION"]
 

@@ -44,7 +44,7 @@ from gazelle.sensors.imu import ImuRecord, LinkMotion, imu_noise, imu_reading
 from gazelle.sensors.intrinsics import Intrinsics, camera_intrinsics
 from gazelle.sensors.kernel_warm_up import warm_up
 from gazelle.sensors.lidar import LidarRecord, ScanAngles, scan, scan_angles, scene_kind
-from gazelle.sensors.noise import VectorNoise, noise_stream, picture_noise
+from gazelle.sensors.noise_streams import VectorNoise, noise_stream, picture_noise
 from gazelle.sensors.ray_scene import RayScene
 from gazelle.sensors.row_threads import default_threads
 from gazelle.sensors.sonar import SonarRecord, sonar_range

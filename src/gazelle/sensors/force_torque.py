@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import ForceTorqueSpec
 from gazelle.geometry import Pose
-from gazelle.sensors.noise import VectorNoise
+from gazelle.sensors.noise_streams import VectorNoise
 
 __all__ = ["JointLoad", "WrenchRecord", "force_torque_reading"]
 

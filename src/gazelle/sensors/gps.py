@@ -15,7 +15,7 @@ from gazelle.sensors.earth_sensors import (
     enu_vector,
     geodetic_position,
 )
-from gazelle.sensors.noise import VectorNoise
+from gazelle.sensors.noise_streams import VectorNoise
 
 __all__ = ["GpsRecord", "flat_earth_position", "gps_noise", "gps_reading", "north_west_up"]
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import ImuSpec
 from gazelle.geometry import IDENTITY_POSE, Pose, cross, quat_xyzw_from_rpy
-from gazelle.sensors.noise import VectorNoise
+from gazelle.sensors.noise_streams import VectorNoise
 
 __all__ = ["ImuRecord", "LinkMotion", "imu_noise", "imu_reading"]
 

@@ -6,7 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from gazelle.control.controller_node import GoalPort, LiveParameter, LivePort, PublisherPort
+from gazelle.control.controller_node_interface import (
+    GoalPort,
+    LiveParameter,
+    LivePort,
+    PublisherPort,
+)
 from gazelle.graph.actions import ActionServer, ActionTiming
 from gazelle.graph.ros2_node_parameters import NodeParameters, ParameterPolicy
 from gazelle.simulator.plugins.context import Host, Resources, join_names

@@ -23,8 +23,8 @@ from gazelle.description.model import (
 )
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.geometry import Pose
-from gazelle.simulator.measurements import Measurements
 from gazelle.simulator.plugins.context import SensorPlace
+from gazelle.simulator.sensor_readings import Measurements
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine, Snapshot

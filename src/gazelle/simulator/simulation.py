@@ -16,7 +16,7 @@ from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.description_sources import Source, loaded_from, models_from, world_from
-from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.intra_process_node import LocalNode
 from gazelle.simulator.node_interfaces import NodePort, SubscriptionPort
 from gazelle.simulator.simulation_handles import (
     SimJoint,

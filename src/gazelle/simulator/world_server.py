@@ -16,7 +16,7 @@ from gazelle.simulator.command_queue import CommandQueue, error_text, telling
 from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.divergence_recovery import OnDivergence, Recovery
 from gazelle.simulator.input_validation import Arrival, Inputs
-from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.intra_process_node import LocalNode
 from gazelle.simulator.node_interfaces import NodePort
 from gazelle.simulator.plugins.bumper import publish_contact_sensor
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace

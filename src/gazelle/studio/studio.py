@@ -11,9 +11,9 @@ from gazelle.studio.bags.player import Playing
 from gazelle.studio.bags.recorder import Recording
 from gazelle.studio.displays.topic_display import DisplayContext
 from gazelle.studio.downloads import Downloads
-from gazelle.studio.frames import Frames
+from gazelle.studio.frame_manager import Frames
 from gazelle.studio.graph_view.methods import graph_parts
-from gazelle.studio.lazy import closed_with
+from gazelle.studio.lazy_parts import closed_with
 from gazelle.studio.pages import Pages
 from gazelle.studio.plugins.shown_panels import ShownPanels
 from gazelle.studio.scenes.assets import Assets

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.bag import BagError, Storage, open_bag
-from gazelle.bag.compression import compress_zstd
+from gazelle.bag.compression_formats import compress_zstd
 from gazelle.bag.rosbag2 import Rosbag2Writer, reindex
 
 Fill = Callable[..., Path]

@@ -20,11 +20,11 @@ from gazelle.control.checks import (
     table_text,
 )
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
-from gazelle.control.robot import JointResource
+from gazelle.control.resource_manager import JointResource
 from gazelle.description.model import Joint, JointAxis, JointType
 from gazelle.diagnostics import Diagnostics
 from gazelle.simulator import Simulation
-from gazelle.simulator.local_node import LocalParameters
+from gazelle.simulator.intra_process_node import LocalParameters
 
 ARM = {
     "arm_controller": {

@@ -13,7 +13,7 @@ from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.controllers import registry
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 from gazelle.diagnostics import Diagnostics
-from gazelle.simulator.local_node import LocalParameters
+from gazelle.simulator.intra_process_node import LocalParameters
 
 
 class FakePorts:

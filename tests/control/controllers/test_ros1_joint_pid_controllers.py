@@ -16,7 +16,7 @@ from gazelle.control.controllers.ros1_joint_pid_controllers import (
     JointPositionController,
 )
 from gazelle.control.errors import ControllerError
-from gazelle.control.robot import JointLimits
+from gazelle.control.resource_manager import JointLimits
 from gazelle.description.model import JointType
 from gazelle.diagnostics import Diagnostics
 from gazelle.interfaces import message_type

@@ -15,7 +15,7 @@ from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
-from gazelle.simulator.local_node import LocalParameters
+from gazelle.simulator.intra_process_node import LocalParameters
 
 __all__ = ["Scenario", "TypeBench"]
 

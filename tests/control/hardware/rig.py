@@ -12,13 +12,13 @@ from gazelle.control.hardware.gazebo_system import SystemOptions
 from gazelle.control.hardware.ros1_robot import RobotParameters, build_ros1_robot
 from gazelle.control.hardware.ros2_robot import build_ros2_robot
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
-from gazelle.control.robot import Robot
+from gazelle.control.resource_manager import Robot
 from gazelle.description.model import Model, World
 from gazelle.description.read_context import ReadContext
 from gazelle.description.urdf_reader.reader import read_urdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
-from gazelle.simulator.local_node import LocalParameters
+from gazelle.simulator.intra_process_node import LocalParameters
 
 INERTIA = 0.5
 STEP_S = 0.001

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
-from gazelle.simulator.local_node import LocalParameters
+from gazelle.simulator.intra_process_node import LocalParameters
 
 
 def _store() -> LocalParameters:

@@ -12,10 +12,10 @@ import pytest
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
-from gazelle.control.robot import JointResource, Robot
+from gazelle.control.resource_manager import JointResource, Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
-from gazelle.simulator.local_node import LocalParameters
+from gazelle.simulator.intra_process_node import LocalParameters
 from gazelle.workspace import Workspace
 
 PACKAGE = """\

@@ -35,7 +35,7 @@ from gazelle.doctor.parameters.check_parameters import check_parameter_file
 from gazelle.documents.yaml import YamlError
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph.names import parse_command_line
-from gazelle.launch.config import LaunchConfig
+from gazelle.launch.launch_config import LaunchConfig
 from gazelle.launch.ros1.loader import load_launch_text
 from gazelle.launch.ros2.actions.for_loop import ForEach
 from gazelle.launch.ros2.error_diagnostics import diagnose

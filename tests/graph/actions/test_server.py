@@ -16,7 +16,7 @@ from gazelle.graph.actions import (
 )
 from gazelle.graph.errors import ServiceRefusedError
 from gazelle.interfaces import message_type, service_type
-from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.intra_process_node import LocalNode
 
 FIBONACCI = "actionlib_tutorials/Fibonacci"
 GOAL = message_type("actionlib_tutorials/FibonacciActionGoal")

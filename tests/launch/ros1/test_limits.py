@@ -71,7 +71,7 @@ def test_files_that_include_each_other_under_new_names_are_a_cycle(tmp_path: Pat
 def test_files_that_include_others_twice_are_ended(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("gazelle.launch.ros1.element_reader._MAX_INCLUDES", 100)
+    monkeypatch.setattr("gazelle.launch.ros1.element_attributes._MAX_INCLUDES", 100)
     for number in range(40):
         include = f'<include file="{number + 1}.launch"/>'
         (tmp_path / f"{number}.launch").write_text(f"<launch>{include}{include}</launch>")

@@ -9,8 +9,8 @@ import pytest
 import yaml
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.launch.config import LaunchConfig
 from gazelle.launch.console import dump_text
+from gazelle.launch.launch_config import LaunchConfig
 from gazelle.launch.ros1.loader import load_launch_files, load_launch_text
 from gazelle.workspace import Workspace
 

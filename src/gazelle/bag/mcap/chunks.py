@@ -6,7 +6,7 @@ import struct
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from gazelle.bag.compression import compress_zstd, decompressed
+from gazelle.bag.compression_formats import compress_zstd, decompressed
 from gazelle.bag.mcap.records import HEAD, Cursor, Op, records_in
 from gazelle.bag.storage import BagError, Connection, Encoding
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from queue import Queue
 from typing import Any, NamedTuple
 
-from gazelle.bag.definition_sharing import TextShare
+from gazelle.bag.message_definitions import TextShare
 from gazelle.bag.playing.controls import Controls
 from gazelle.bag.rosbag2.metadata import read_qos
 from gazelle.bag.storage import BagMessage, BagReader, Connection, Encoding

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from gazelle.bag.definition_sharing import fetch_text
+from gazelle.bag.message_definitions import fetch_text
 from gazelle.bag.rosbag2.metadata import offered_qos
 from gazelle.bag.storage import BagWriter, Connection, Encoding
 from gazelle.bag.types import cdr_connection, ros1_connection

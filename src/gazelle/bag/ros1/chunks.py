@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.bag.compression import decompressed
+from gazelle.bag.compression_formats import decompressed
 from gazelle.bag.ros1.records import Op, read_fields, unpack_stamp
 from gazelle.bag.storage import BagError, Connection, Encoding
 

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from gazelle.bag.compression import decompress_file, decompressed
+from gazelle.bag.compression_formats import decompress_file, decompressed
 from gazelle.bag.storage import (
     BagError,
     BagMessage,

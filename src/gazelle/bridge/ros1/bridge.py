@@ -6,7 +6,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
-from gazelle.bag.definition_sharing import TextShare
+from gazelle.bag.message_definitions import TextShare
 from gazelle.bridge.node_mirrors import NodeMirrors
 from gazelle.bridge.ros1.addresses import Address, MasterAddress
 from gazelle.bridge.ros1.connections import Connections

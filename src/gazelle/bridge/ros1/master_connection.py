@@ -10,7 +10,7 @@ from typing import Any, Protocol
 from gazelle.bridge.ros1.addresses import Address, MasterAddress, address_of_master
 from gazelle.bridge.ros1.master import Master
 from gazelle.bridge.ros1.master_registry import State
-from gazelle.bridge.ros1.server_socket import ServerSocket
+from gazelle.bridge.ros1.tcpros_server import ServerSocket
 from gazelle.bridge.ros1.xmlrpc_call import RemoteRefusedError, call
 from gazelle.errors import GraphError
 from gazelle.graph import ParameterStore

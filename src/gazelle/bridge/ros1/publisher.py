@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
-from gazelle.bag.definition_sharing import fetch_text
+from gazelle.bag.message_definitions import fetch_text
 from gazelle.bridge.raw_subscription import RawSubscription, Sample
 from gazelle.bridge.ros1.subscriber_link import SubscriberLink
 from gazelle.bridge.ros1.tcpros import send_all, write_header

@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 from gazelle.bridge.ros1.connections import Connections
 from gazelle.bridge.ros1.master_registry import State
 from gazelle.bridge.ros1.publisher import PublishedTopic
-from gazelle.bridge.ros1.server_socket import ServerSocket
 from gazelle.bridge.ros1.tcpros import read_header, write_header
+from gazelle.bridge.ros1.tcpros_server import ServerSocket
 from gazelle.bridge.ros1.types import ServiceKind
 from gazelle.bridge.ros1.xmlrpc_call import RemoteRefusedError
 

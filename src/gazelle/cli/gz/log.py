@@ -22,7 +22,7 @@ from xml.sax.saxutils import quoteattr
 
 from gazelle.bag import BagError, Encoding, bag_types, open_bag, ros1_name_of
 from gazelle.bag.formats import ROS1
-from gazelle.bag.opening import warn_of_unindexed
+from gazelle.bag.open_bag import warn_of_unindexed
 from gazelle.cli.gz.options import GzCommand, GzError, GzOption, number
 from gazelle.cli.gz.world_link import WorldLink, pose_line, world_link
 from gazelle.graph.gazebo_names import offered_name, world_names

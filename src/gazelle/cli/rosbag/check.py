@@ -9,7 +9,7 @@ from pathlib import Path
 from gazelle.bag import BagReader, BagWriter, Connection, Encoding, create_bag, open_bag
 from gazelle.bag.conversion import copy_bag
 from gazelle.bag.formats import ROS1
-from gazelle.bag.opening import warn_of_unindexed
+from gazelle.bag.open_bag import warn_of_unindexed
 from gazelle.bag.type_migration import Change, Migration, migration_of
 from gazelle.cli.ros_types import learn_workspace_types
 from gazelle.cli.tool import ToolError, add_flag, option_parser

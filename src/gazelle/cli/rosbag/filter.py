@@ -20,7 +20,7 @@ from gazelle.bag import (
     storage_of,
 )
 from gazelle.bag.conversion import copy_bag
-from gazelle.bag.opening import warn_of_unindexed
+from gazelle.bag.open_bag import warn_of_unindexed
 from gazelle.cli.rosbag.compress import ProgressMeter
 from gazelle.cli.tool import ToolError, option_parser
 from gazelle.diagnostics import Diagnostics, render

@@ -11,7 +11,7 @@ from itertools import pairwise
 from statistics import median
 
 from gazelle.bag import BagError, BagReader, Summary, open_bag, ros1_name_of
-from gazelle.bag.opening import warn_of_unindexed
+from gazelle.bag.open_bag import warn_of_unindexed
 from gazelle.cli.tool import add_flag, option_parser
 from gazelle.interfaces import md5sum
 

@@ -16,7 +16,7 @@ from gazelle.bag import (
     open_bag,
     ros1_name_of,
 )
-from gazelle.bag.opening import warn_of_unindexed
+from gazelle.bag.open_bag import warn_of_unindexed
 from gazelle.cli.ros_types import learn_workspace_types, topic_class
 from gazelle.cli.rostopic.topics import FoundTopic, find_topic
 from gazelle.cli.text.fields import Step

@@ -14,7 +14,7 @@ from typing import Any
 
 from gazelle.description.source_maps import remember
 from gazelle.description.xacro import expand_xacro
-from gazelle.description.xacro.library_run import run_library
+from gazelle.description.xacro.xacro_library import run_library
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import YamlError, problem_of, read_yaml

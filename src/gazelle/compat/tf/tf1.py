@@ -12,7 +12,6 @@ from gazelle.compat.rospy.rostime import Time
 from gazelle.compat.rospy.state import STATE
 from gazelle.compat.tf.buffer import Buffer
 from gazelle.compat.tf.conversions import nanoseconds
-from gazelle.compat.tf.endpoints import TransformListener as Tf2TransformListener
 from gazelle.compat.tf.exceptions import (
     ConnectivityException,
     ExtrapolationException,
@@ -20,6 +19,7 @@ from gazelle.compat.tf.exceptions import (
     TransformException,
     as_tf2_error,
 )
+from gazelle.compat.tf.listener_and_broadcasters import TransformListener as Tf2TransformListener
 from gazelle.compat.tf.tf2_geometry_msgs import (
     do_transform_point,
     do_transform_pose,

@@ -14,7 +14,7 @@ from gazelle.control.checks.configured_controllers import (
 from gazelle.control.checks.gain_stability import largest_stable_factor
 from gazelle.control.checks.joint_names import disagreements, table_text
 from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
-from gazelle.control.robot import JointResource
+from gazelle.control.resource_manager import JointResource
 from gazelle.description.model import Joint
 from gazelle.diagnostics import Diagnostics, SourceSpan
 

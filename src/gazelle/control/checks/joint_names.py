@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from gazelle.control.checks.configured_controllers import ConfiguredController, MoveItController
-from gazelle.control.robot import JointResource
+from gazelle.control.resource_manager import JointResource
 from gazelle.diagnostics import did_you_mean
 from gazelle.diagnostics.suggestions import nearest_names
 

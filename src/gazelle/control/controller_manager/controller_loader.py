@@ -11,7 +11,7 @@ from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.registry import controller_class, known_types
 from gazelle.control.errors import ControllerError
 from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
-from gazelle.control.robot import Robot
+from gazelle.control.resource_manager import Robot
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.parameters.reader import ParameterReader
 from gazelle.parameters.trees import flattened

@@ -15,7 +15,7 @@ from gazelle.control.controller_manager.controller_spec import (
 from gazelle.control.controller_manager.switching import SwitchPlan, plan_switch
 from gazelle.control.errors import ControllerError
 from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
-from gazelle.control.robot import Robot
+from gazelle.control.resource_manager import Robot
 from gazelle.diagnostics import Diagnostics, did_you_mean
 
 if TYPE_CHECKING:

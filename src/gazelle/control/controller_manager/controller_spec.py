@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, Protocol
 
-from gazelle.control.controller_node import Ports
+from gazelle.control.controller_node_interface import Ports
 from gazelle.control.controllers.controller import Controller
 
 __all__ = ["ControllerRecord", "ControllerState", "OwnedPorts"]

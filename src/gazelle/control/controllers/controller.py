@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from gazelle.control.controller_node import Ports
+from gazelle.control.controller_node_interface import Ports
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import Indices
-from gazelle.control.robot import JointResource, Robot
+from gazelle.control.resource_manager import JointResource, Robot
 from gazelle.deprecation import warn_renamed
 from gazelle.diagnostics import did_you_mean
 from gazelle.parameters.reader import ParameterReader

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.control.controller_node import LiveParameter
+from gazelle.control.controller_node_interface import LiveParameter
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from gazelle.control.controller_node import GoalPort
+from gazelle.control.controller_node_interface import GoalPort
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.gripper_action_controller import GRIPPER_ROWS, GripperGoal, Outcome

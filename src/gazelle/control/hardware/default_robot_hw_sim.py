@@ -11,7 +11,7 @@ from gazelle.control.hardware.ros1_joints import Ros1Joint
 from gazelle.control.hardware.sensor_states import SensorStates
 from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.pid import PidArray, PidGains
-from gazelle.control.robot import JointResource
+from gazelle.control.resource_manager import JointResource
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine

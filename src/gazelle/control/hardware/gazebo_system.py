@@ -18,7 +18,7 @@ from gazelle.control.hardware.ros2_joints import Ros2Joint, Ros2Mimic
 from gazelle.control.hardware.ros2_tags import HardwareTag
 from gazelle.control.hardware.sensor_states import SensorStates
 from gazelle.control.interface_values import Array, InterfaceValues
-from gazelle.control.robot import JointResource
+from gazelle.control.resource_manager import JointResource
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine

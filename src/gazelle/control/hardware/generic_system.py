@@ -13,7 +13,7 @@ from typing import NamedTuple
 from gazelle.control.hardware.ros2_joints import Ros2Mimic
 from gazelle.control.hardware.ros2_tags import HardwareTag, InterfaceTag, PartTag
 from gazelle.control.interface_values import InterfaceValues
-from gazelle.control.robot import JointResource
+from gazelle.control.resource_manager import JointResource
 
 __all__ = ["GENERIC_PARAMETERS", "GenericSystem"]
 

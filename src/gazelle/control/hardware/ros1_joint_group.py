@@ -26,7 +26,7 @@ from gazelle.control.hardware.ros1_joints import Ros1Joint
 from gazelle.control.interface_values import Array, InterfaceValues
 from gazelle.control.joint_limits import EffortLimits, PositionLimits, VelocityLimits
 from gazelle.control.pid import PidArray
-from gazelle.control.robot import JointLimits
+from gazelle.control.resource_manager import JointLimits
 from gazelle.description.model import JointType
 
 if TYPE_CHECKING:

@@ -12,7 +12,12 @@ from gazelle.control.joint_limits import limits_from_parameters, limits_of
 from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
 from gazelle.control.pid import PidGains, read_gains
 from gazelle.control.pid.gains import gain_rows
-from gazelle.control.robot import HardwareHost, JointLimits, JointResource, ParameterStore
+from gazelle.control.resource_manager import (
+    HardwareHost,
+    JointLimits,
+    JointResource,
+    ParameterStore,
+)
 from gazelle.control.transmissions.transmission import read_transmission
 from gazelle.description.model import (
     JointType,

@@ -15,7 +15,7 @@ from gazelle.control.hardware.ros1_joints import (
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates, sensor_parts
 from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.parameter_sources.ros1_parameter_server import ParameterSource
-from gazelle.control.robot import HardwareHost, ParameterStore, Robot
+from gazelle.control.resource_manager import HardwareHost, ParameterStore, Robot
 from gazelle.description.model import Model
 
 __all__ = ["RobotParameters", "build_ros1_robot"]

@@ -10,7 +10,7 @@ from gazelle.control.hardware.engine_joints import JOINT_STATES
 from gazelle.control.hardware.ros2_tags import HardwareTag, InterfaceTag, PartTag
 from gazelle.control.joint_limits import limits_of
 from gazelle.control.pid import AntiWindup, PidGains
-from gazelle.control.robot import HardwareHost, JointLimits, JointResource
+from gazelle.control.resource_manager import HardwareHost, JointLimits, JointResource
 from gazelle.description.model import JointType, Model
 from gazelle.diagnostics import did_you_mean
 

@@ -12,7 +12,7 @@ from gazelle.control.hardware.ros2_joints import read_mimics, read_ros2_joints, 
 from gazelle.control.hardware.ros2_tags import HardwareTag, read_hardware_tags
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates
 from gazelle.control.interface_values import InterfaceValues
-from gazelle.control.robot import HardwareHost, Robot
+from gazelle.control.resource_manager import HardwareHost, Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import did_you_mean
 

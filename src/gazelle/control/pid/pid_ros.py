@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from gazelle.control.controller_node import LiveParameter, LivePort, Ports
+from gazelle.control.controller_node_interface import LiveParameter, LivePort, Ports
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.pid.gains import PidGains
 from gazelle.control.pid.pid import Pid

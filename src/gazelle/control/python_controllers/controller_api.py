@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.control.controller_node import PublisherPort
+from gazelle.control.controller_node_interface import PublisherPort
 from gazelle.control.controllers.controller import ControllerContext
 from gazelle.control.errors import ControllerError
 from gazelle.control.interface_values import InterfaceValues

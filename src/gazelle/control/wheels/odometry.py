@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from gazelle.control.controller_node import Ports
+from gazelle.control.controller_node_interface import Ports
 
 __all__ = [
     "PlanarOdometry",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from gazelle.control.controller_node import Ports
+from gazelle.control.controller_node_interface import Ports
 from gazelle.control.wheels.kinematics import PlanarTwist
 from gazelle.interfaces.stamps import ns_of
 

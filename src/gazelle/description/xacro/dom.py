@@ -8,7 +8,7 @@ from types import FrameType
 from typing import Any, NamedTuple
 from xml.dom import expatbuilder, minidom
 
-from gazelle.description.xacro.rerun_patches import RerunPatches
+from gazelle.description.xacro.error_recovery import RerunPatches
 from gazelle.diagnostics import SourceSpan
 
 __all__ = ["EntityRefusedError", "Tracker", "node_in", "span_of"]

@@ -12,6 +12,7 @@ from typing import Any
 from xml.parsers.expat import ExpatError
 
 from gazelle.description.xacro.error_explanations import Explanation
+from gazelle.description.xacro.error_recovery import RerunPatches
 from gazelle.description.xacro.failure import Failure
 from gazelle.description.xacro.failure_reports import (
     found_failure,
@@ -20,9 +21,8 @@ from gazelle.description.xacro.failure_reports import (
     report_left_out,
     report_printed,
 )
-from gazelle.description.xacro.library_run import Console, run_library
-from gazelle.description.xacro.rerun_patches import RerunPatches
-from gazelle.description.xacro.silent_mistakes import report_silent_mistakes
+from gazelle.description.xacro.lint import report_silent_mistakes
+from gazelle.description.xacro.xacro_library import Console, run_library
 from gazelle.description.xacro.xml_output import Written, written
 from gazelle.description.xml import Tag, parse_xml, with_spans
 from gazelle.diagnostics import Diagnostics, SourceSpan

@@ -12,8 +12,8 @@ from types import FrameType, ModuleType, TracebackType
 from typing import Any, NamedTuple
 
 from gazelle.description.xacro.dom import node_in, span_of
-from gazelle.description.xacro.library_run import LibraryRun, causes_of
-from gazelle.description.xacro.rerun_patches import UNKNOWN
+from gazelle.description.xacro.error_recovery import UNKNOWN
+from gazelle.description.xacro.xacro_library import LibraryRun, causes_of
 from gazelle.description.xml import attribute_holding, attribute_span, text_span
 from gazelle.diagnostics import SourceSpan
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 from types import ModuleType
 
 from gazelle.description.xacro.error_explanations import Explanation, explain
+from gazelle.description.xacro.error_recovery import RerunPatches
 from gazelle.description.xacro.failure import Failure, failure_of
-from gazelle.description.xacro.library_run import LibraryRun
-from gazelle.description.xacro.rerun_patches import RerunPatches
+from gazelle.description.xacro.xacro_library import LibraryRun
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean
 
 __all__ = [

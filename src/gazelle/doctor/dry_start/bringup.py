@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
-from gazelle.doctor.descriptions import texts_known
 from gazelle.doctor.dry_start.plan import DryNode, DryStart, StartPlan
 from gazelle.doctor.dry_start.spawners import Spawning, managers_of, start_controllers
+from gazelle.doctor.robots_and_worlds import texts_known
 from gazelle.documents.files import is_folder
 from gazelle.errors import GazelleError, NotFoundError, SimulationDivergedError, UserFileError
 from gazelle.geometry import without_splitting

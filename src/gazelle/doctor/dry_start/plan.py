@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.description.model import Model, World
 from gazelle.diagnostics import SourceSpan
 from gazelle.graph.names import remap, resolve
-from gazelle.simulator.local_node import (
+from gazelle.simulator.intra_process_node import (
     LocalNode,
     LocalPublisher,
     LocalService,

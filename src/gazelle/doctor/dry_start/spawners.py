@@ -17,7 +17,7 @@ from gazelle.doctor.dry_start.plan import ControllerStart, Manager, Program
 from gazelle.errors import GazelleError
 from gazelle.graph.gazebo_names import world_names
 from gazelle.graph.names import is_hidden, remap, resolve
-from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.intra_process_node import LocalNode
 from gazelle.simulator.spawn_model import spawn_model
 
 __all__ = ["Spawning", "managers_of", "start_controllers"]

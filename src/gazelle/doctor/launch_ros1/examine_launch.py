@@ -7,7 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
-from gazelle.doctor.descriptions import examine_models, examine_text, texts_known
 from gazelle.doctor.dry_start import DryStart, dry_start
 from gazelle.doctor.launch_ros1.frames import check_frames, frames_of, frames_section
 from gazelle.doctor.launch_ros1.launched_nodes import (
@@ -26,9 +25,10 @@ from gazelle.doctor.launch_ros1.node_checks import (
 )
 from gazelle.doctor.launch_ros1.topics import topics_of
 from gazelle.doctor.report import Examination
+from gazelle.doctor.robots_and_worlds import examine_models, examine_text, texts_known
 from gazelle.doctor.simulated_world import probe, simulation_sections
-from gazelle.launch.config import LaunchConfig
 from gazelle.launch.executables import Executable, find_executable
+from gazelle.launch.launch_config import LaunchConfig
 from gazelle.launch.ros1.loader import load_launch_files
 
 __all__ = ["examine_launch"]

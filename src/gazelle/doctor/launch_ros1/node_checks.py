@@ -10,7 +10,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.report import Section
-from gazelle.nodes.idle_parameters import idle_parameters
+from gazelle.nodes.unsupported_parameters import idle_parameters
 
 __all__ = ["check_clock", "check_idle_parameters", "check_nodes", "nodes_section"]
 

@@ -12,7 +12,7 @@ from gazelle.compat.python2 import is_python2, translated
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.graph.names import resolve
-from gazelle.node_specs.patterns import ValueOf, expanded, holds
+from gazelle.node_specs.parameter_substitution import ValueOf, expanded, holds
 from gazelle.node_specs.registry import node_specs
 from gazelle.node_specs.spec import Direction, Interface, NodeSpec
 from gazelle.node_specs.unavailable_packages import Sends, what_it_sends

@@ -7,19 +7,19 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.launch_ros2.argument_checks import check_arguments
-from gazelle.doctor.launch_ros2.file_checks import (
-    check_commands,
-    check_packages,
-    check_paths,
-    paths_of,
-    robots_of,
-)
 from gazelle.doctor.launch_ros2.launch_file import LaunchReading
 from gazelle.doctor.launch_ros2.launch_tree import Followed, follow, located
 from gazelle.doctor.launch_ros2.node_checks import (
     check_clocks,
     check_executables,
     check_spawners,
+)
+from gazelle.doctor.launch_ros2.reference_checks import (
+    check_commands,
+    check_packages,
+    check_paths,
+    paths_of,
+    robots_of,
 )
 from gazelle.doctor.report import Section
 from gazelle.documents.files import is_file

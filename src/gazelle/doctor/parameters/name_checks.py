@@ -16,7 +16,7 @@ from gazelle.control.checks import (
 )
 from gazelle.control.hardware.ros1_joints import HARDWARE_INTERFACES
 from gazelle.control.hardware.ros2_tags import read_hardware_tags
-from gazelle.control.robot import JointResource
+from gazelle.control.resource_manager import JointResource
 from gazelle.description.model import Model
 from gazelle.description.srdf import link_names
 from gazelle.description.xml import Tag, read_xml

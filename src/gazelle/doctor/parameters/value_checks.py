@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterator
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan
 from gazelle.doctor.parameters.parameter_file import MARK, Document, Layout, plain, scalars
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, duplicates
-from gazelle.nodes.idle_parameters import idle_parameters, node_of_name
+from gazelle.nodes.unsupported_parameters import idle_parameters, node_of_name
 
 __all__ = ["check_idle", "check_values"]
 

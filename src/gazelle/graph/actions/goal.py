@@ -259,7 +259,7 @@ class GoalOwner(Protocol):
 
 
 class ServerGoal:
-    """One goal of an action server; satisfies `gazelle.control.controller_node.GoalPort`.
+    """One goal of an action server; satisfies `gazelle.control.controller_node_interface.GoalPort`.
 
     A goal is new until `accept` or `reject`; it ends with one of `succeed`, `abort`, `cancel`.
     A result may be a message of the action's result class, another message or a mapping with

@@ -15,9 +15,9 @@ from gazelle.documents.command_output import run_limited
 from gazelle.documents.files import exists, is_file, is_folder
 from gazelle.documents.yaml import ROSPARAM, YamlError, YamlProblem, read_yaml
 from gazelle.graph.names import resolve
-from gazelle.launch.config import ArgDeclaration, Machine, NodeTag, ParamDump, TestTag
 from gazelle.launch.environment import node_environment
-from gazelle.launch.ros1.element_reader import Reading, Scope, TagError, param_value
+from gazelle.launch.launch_config import ArgDeclaration, Machine, NodeTag, ParamDump, TestTag
+from gazelle.launch.ros1.element_attributes import Reading, Scope, TagError, param_value
 from gazelle.launch.ros1.substitution_args import UNREADABLE
 from gazelle.parameters.trees import leaves_at
 

@@ -9,9 +9,9 @@ from pathlib import Path
 from gazelle.description.xml import Tag, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.documents.files import is_file
-from gazelle.launch.config import LaunchConfig
 from gazelle.launch.environment import ros1_variables
-from gazelle.launch.ros1.element_reader import ELEMENTS, Reading, Scope, TagError
+from gazelle.launch.launch_config import LaunchConfig
+from gazelle.launch.ros1.element_attributes import ELEMENTS, Reading, Scope, TagError
 from gazelle.launch.ros1.elements import HANDLERS
 from gazelle.launch.ros1.substitution_args import REPORTED
 from gazelle.workspace import Workspace

@@ -14,7 +14,7 @@ from gazelle.mapping.pose_graph.constraints import Edges, doubtful, seen_from
 from gazelle.mapping.scan_matching.branch_and_bound import WideSearch
 from gazelle.mapping.scan_matching.likelihood_field import Field
 from gazelle.mapping.scan_matching.scan_matcher import Prior, refined
-from gazelle.mapping.scan_matching.surfaces import even_points
+from gazelle.mapping.scan_matching.surface_points import even_points
 from gazelle.mapping.se2 import Poses, between, transform_points
 
 if TYPE_CHECKING:

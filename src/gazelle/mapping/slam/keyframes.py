@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.mapping.laser_scan import Scan
 from gazelle.mapping.scan_matching.likelihood_field import Field, field_of
 from gazelle.mapping.scan_matching.matching_kernels import placed
-from gazelle.mapping.scan_matching.surfaces import dense_surface, even_points
+from gazelle.mapping.scan_matching.surface_points import dense_surface, even_points
 from gazelle.mapping.se2 import Poses
 from gazelle.mapping.slam.slam_parameters import SlamParameters
 

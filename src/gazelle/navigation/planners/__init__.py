@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.navigation.planners.path_planning import make_plan
+from gazelle.navigation.planners.make_plan import make_plan
 from gazelle.navigation.planners.planner import (
     NoPlan,
     Plan,

@@ -19,7 +19,7 @@ from gazelle.control.hardware.gazebo_system import SystemOptions
 from gazelle.control.hardware.lifecycle import HardwareState, initial_states
 from gazelle.control.hardware.ros2_robot import MOCK_VARIABLE, build_ros2_robot
 from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
-from gazelle.control.robot import Robot
+from gazelle.control.resource_manager import Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, Severity, did_you_mean, render
 from gazelle.errors import LaunchError

@@ -9,7 +9,7 @@ from functools import partial
 from optparse import OptionParser, Values
 
 from gazelle.bag import BagReader, bag_types, open_bag
-from gazelle.bag.opening import warn_of_unindexed
+from gazelle.bag.open_bag import warn_of_unindexed
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.playing.controls import keyboard
 from gazelle.graph import Graph, Node

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.geometry import Pose
 from gazelle.graph import Publisher
-from gazelle.graph.clock_sharing import share_clock
+from gazelle.graph.shared_clock_discovery import share_clock
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import pose_message, twist_message
 from gazelle.interfaces.stamps import stamp_message
@@ -16,7 +16,7 @@ from gazelle.simulator.scheduler import ORDER_CLOCK, ORDER_STATE, period_in_step
 from gazelle.simulator.wall_clock import Mode
 
 if TYPE_CHECKING:
-    from gazelle.graph.clock_sharing import SharedClock
+    from gazelle.graph.shared_clock_discovery import SharedClock
     from gazelle.simulator.node_interfaces import PublisherPort
     from gazelle.simulator.plugins.context import Resources
     from gazelle.simulator.world_server import WorldServer

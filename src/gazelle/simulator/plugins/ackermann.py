@@ -11,6 +11,7 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import transform_stamped
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
+from gazelle.simulator.plugins.diff_drive_geometry import wheel_radius_m
 from gazelle.simulator.plugins.drive import (
     GZ_COMMANDS,
     GZ_NO_JERK,
@@ -29,7 +30,6 @@ from gazelle.simulator.plugins.drive import (
 from gazelle.simulator.plugins.drive_odometry import DriveOdometry, OdometrySetup, given_covariance
 from gazelle.simulator.plugins.gazebo_pid import GazeboPid
 from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
-from gazelle.simulator.plugins.wheel_geometry import wheel_radius_m
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["GZ_TABLE", "TABLE", "load", "steering_angles"]

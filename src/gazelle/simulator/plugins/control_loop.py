@@ -12,7 +12,7 @@ from gazelle.control.hardware.sensor_states import (
     IMU_STATES,
     SensorReadout,
 )
-from gazelle.control.robot import Robot
+from gazelle.control.resource_manager import Robot
 from gazelle.description.model import ForceTorqueSpec, ImuSpec, Model
 from gazelle.simulator.plugins.context import Host, PluginContext, SensorPlace
 from gazelle.simulator.sensor_set import sensor_places

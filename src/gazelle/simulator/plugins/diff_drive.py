@@ -12,6 +12,7 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.diff_drive_geometry import check_drive, exchange_wheels
 from gazelle.simulator.plugins.diff_drive_kinematics import EncoderOdometry, WheelRamp, wheel_speeds
 from gazelle.simulator.plugins.drive import (
     ALWAYS_ON,
@@ -43,7 +44,6 @@ from gazelle.simulator.plugins.drive_odometry import (
     wheel_transform,
 )
 from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
-from gazelle.simulator.plugins.wheel_geometry import check_drive, exchange_wheels
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["GZ_TABLE", "TABLE", "load"]

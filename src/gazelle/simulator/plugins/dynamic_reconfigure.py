@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from gazelle.graph.dynamic_reconfigure import DynamicParameter, ReconfigureServer, Value
-from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.intra_process_node import LocalNode
 from gazelle.simulator.plugins.context import Host, Resources
 
 __all__ = ["DynamicParameter", "DynamicParameters"]

@@ -14,11 +14,11 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import vector_message
 from gazelle.interfaces.stamps import header
 from gazelle.parameters import Parameter, ParameterTable, Topic
-from gazelle.simulator.measurements import joint_load
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 from gazelle.simulator.plugins.sensor_publisher import gaussian, publish_at
 from gazelle.simulator.scheduler import measured_period_in_steps
+from gazelle.simulator.sensor_readings import joint_load
 
 if TYPE_CHECKING:
     from gazelle.engine import LinkHandle

@@ -6,6 +6,7 @@ import math
 
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.diff_drive import GZ_TABLE
+from gazelle.simulator.plugins.diff_drive_geometry import check_drive
 from gazelle.simulator.plugins.diff_drive_kinematics import (
     EncoderOdometry,
     SpeedLimiter,
@@ -14,7 +15,6 @@ from gazelle.simulator.plugins.diff_drive_kinematics import (
 from gazelle.simulator.plugins.drive import Velocity, gz_topic, run_drive, take_velocities
 from gazelle.simulator.plugins.drive_odometry import DriveOdometry, gz_odometry_setup
 from gazelle.simulator.plugins.plugin_parameters import PluginReader
-from gazelle.simulator.plugins.wheel_geometry import check_drive
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["load"]

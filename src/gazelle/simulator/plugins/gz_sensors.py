@@ -22,7 +22,6 @@ from gazelle.description.model import (
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import vector_message
 from gazelle.interfaces.stamps import header
-from gazelle.simulator.measurements import Measurements
 from gazelle.simulator.plugins.bumper import gz_contacts_message
 from gazelle.simulator.plugins.camera_info import Calibration
 from gazelle.simulator.plugins.camera_stream import CameraStream
@@ -33,6 +32,7 @@ from gazelle.simulator.plugins.gps import fix_message
 from gazelle.simulator.plugins.imu import publish_readings
 from gazelle.simulator.plugins.laser import cloud_builder, scan_builder, start_scans
 from gazelle.simulator.plugins.sensor_publisher import publish_at, sensor_period
+from gazelle.simulator.sensor_readings import Measurements
 
 __all__ = ["publish_measurement", "publish_sensor"]
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from gazelle.control.controller_manager import ControllerManager
     from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
     from gazelle.control.hardware.robot_description import ControlDescription
-    from gazelle.control.robot import Robot
+    from gazelle.control.resource_manager import Robot
 
 __all__ = ["DEFAULT_ROBOT_SIM", "OF_2011", "TABLE", "load"]
 

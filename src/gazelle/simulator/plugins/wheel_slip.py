@@ -16,9 +16,9 @@ from gazelle.graph.ros2_node_parameters import NodeParameters, ParameterPolicy
 from gazelle.interfaces import message_type
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
+from gazelle.simulator.plugins.diff_drive_geometry import wheel_radius_m
 from gazelle.simulator.plugins.dynamic_reconfigure import DynamicParameter, DynamicParameters
 from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
-from gazelle.simulator.plugins.wheel_geometry import wheel_radius_m
 from gazelle.simulator.scheduler import period_in_steps
 
 __all__ = ["GAZEBO_TABLE", "GZ_TABLE", "TABLE", "load", "load_gazebo", "load_gz"]

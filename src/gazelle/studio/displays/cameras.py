@@ -14,7 +14,7 @@ from gazelle.studio.displays.image_encodings import (
 )
 from gazelle.studio.displays.topic_display import DisplayContext, Site, open_newest, open_on
 from gazelle.studio.errors import StudioError
-from gazelle.studio.frames import pose_values
+from gazelle.studio.frame_manager import pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, Frame, OpenStream

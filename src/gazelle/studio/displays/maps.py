@@ -15,7 +15,7 @@ from gazelle.geometry import Pose
 from gazelle.interfaces.poses import unit_pose_of
 from gazelle.studio.displays.topic_display import Site, open_newest
 from gazelle.studio.errors import StudioError
-from gazelle.studio.frames import pose_values
+from gazelle.studio.frame_manager import pose_values
 from gazelle.studio.streams import Frame, OpenStream
 from gazelle.studio.subscriptions import Sample, stamp_s
 

@@ -10,7 +10,7 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.sensors.scene_json_types import Floats7, MeshFile
 from gazelle.studio.displays.topic_display import Site
 from gazelle.studio.errors import StudioError
-from gazelle.studio.frames import pose_values
+from gazelle.studio.frame_manager import pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.scenes.shapes import MeshPartValue, mesh_geometry
 from gazelle.studio.streams import OpenStream, every

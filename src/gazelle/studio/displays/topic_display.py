@@ -13,7 +13,7 @@ from gazelle.geometry import Pose
 from gazelle.graph.tf import TransformError
 from gazelle.interfaces.stamps import ns_of
 from gazelle.studio.errors import StudioError
-from gazelle.studio.frames import Frames, pose_values
+from gazelle.studio.frame_manager import Frames, pose_values
 from gazelle.studio.json_text import message_value
 from gazelle.studio.request_params import Params
 from gazelle.studio.scenes.assets import Assets

@@ -6,7 +6,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 
 from gazelle.graph import Node
-from gazelle.studio.frames import Frames
+from gazelle.studio.frame_manager import Frames
 from gazelle.studio.graph_view.actions import open_action
 from gazelle.studio.graph_view.nodes import get_node, kill_node, list_loggers, set_logger
 from gazelle.studio.graph_view.parameters import (
@@ -39,7 +39,7 @@ from gazelle.studio.graph_view.topics import open_echo, open_stats
 from gazelle.studio.graph_view.topology import Topology, get_graph, open_graph
 from gazelle.studio.graph_view.transforms import open_tf, open_tree
 from gazelle.studio.graph_view.types import get_type, list_types
-from gazelle.studio.lazy import Lazy, closed_with
+from gazelle.studio.lazy_parts import Lazy, closed_with
 from gazelle.studio.pages import Pages
 from gazelle.studio.routing import Method, methods_of, methods_without, streams_of
 from gazelle.studio.streams import StreamKind

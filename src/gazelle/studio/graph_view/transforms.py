@@ -6,7 +6,7 @@ from typing import TypedDict
 
 import numpy as np
 
-from gazelle.studio.frames import NO_POSE, Frames, pose_values, poses_in
+from gazelle.studio.frame_manager import NO_POSE, Frames, pose_values, poses_in
 from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, Frame, OpenStream, Pace, every
 

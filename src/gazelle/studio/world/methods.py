@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import ExitStack
 from dataclasses import dataclass
 
-from gazelle.studio.lazy import Lazy, closed_with
+from gazelle.studio.lazy_parts import Lazy, closed_with
 from gazelle.studio.routing import Method, Route, methods_of, methods_without, streams_of
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.streams import StreamKind

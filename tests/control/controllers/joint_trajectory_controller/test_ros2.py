@@ -17,7 +17,7 @@ from tests.control.plant import PlantJoint
 from tests.control.trajectory_messages import goal, point, trajectory
 
 from gazelle.control.errors import ControllerError
-from gazelle.control.robot import JointLimits
+from gazelle.control.resource_manager import JointLimits
 from gazelle.control.trajectory.waypoints import ErrorCode
 from gazelle.interfaces import message_type
 

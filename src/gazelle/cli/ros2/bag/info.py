@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from gazelle.bag import BagReader, Summary, open_bag, wire_name_of
-from gazelle.bag.opening import warn_of_unindexed
+from gazelle.bag.open_bag import warn_of_unindexed
 
 __all__ = ["main"]
 

@@ -7,7 +7,7 @@ import re
 from functools import partial
 
 from gazelle.bag import Connection, bag_types, open_bag
-from gazelle.bag.opening import warn_of_unindexed
+from gazelle.bag.open_bag import warn_of_unindexed
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.bag.playing.controls import keyboard
 from gazelle.cli.ros2.bag import log_line

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from gazelle.control.controller_manager.controller_manager import ControllerManager
-from gazelle.control.controller_node import Ports
+from gazelle.control.controller_node_interface import Ports
 from gazelle.control.errors import ControllerError
 from gazelle.diagnostics import Diagnostic, Severity, brief
 

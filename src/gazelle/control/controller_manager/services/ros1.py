@@ -7,7 +7,7 @@ from typing import Any
 from gazelle.control.controller_manager.controller_manager import ControllerManager
 from gazelle.control.controller_manager.controller_spec import ControllerRecord
 from gazelle.control.controller_manager.services.requests import Actor
-from gazelle.control.controller_node import Ports
+from gazelle.control.controller_node_interface import Ports
 from gazelle.control.controllers.registry import known_types
 
 __all__ = ["offer_ros1"]

@@ -9,7 +9,7 @@ from gazelle.control.controller_manager.controller_spec import ControllerRecord,
 from gazelle.control.controller_manager.services.requests import Actor
 from gazelle.control.controllers.registry import known_types
 from gazelle.control.hardware.lifecycle import HardwareState
-from gazelle.control.robot import HardwareComponent
+from gazelle.control.resource_manager import HardwareComponent
 from gazelle.diagnostics import did_you_mean
 from gazelle.parameters.trees import flattened
 

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gazelle.control.controller_node import GoalPort
+from gazelle.control.controller_node_interface import GoalPort
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.controllers.joint_trajectory_controller.ros1 import ROS1_TABLE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gazelle.control.controller_node import GoalPort, Ports, PublisherPort
+from gazelle.control.controller_node_interface import GoalPort, Ports, PublisherPort
 from gazelle.control.interface_values import Array
 from gazelle.control.trajectory.waypoints import ErrorCode
 from gazelle.interfaces import message_type

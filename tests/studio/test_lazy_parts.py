@@ -7,7 +7,7 @@ from threading import Barrier, Thread
 
 import pytest
 
-from gazelle.studio.lazy import Lazy, closed_with
+from gazelle.studio.lazy_parts import Lazy, closed_with
 
 
 class _Part:

@@ -10,7 +10,7 @@ import lz4.frame
 import pytest
 
 from gazelle.bag import BagError, create_bag, open_bag, ros1_connection
-from gazelle.bag.compression import compress_zstd, decompress_file, decompressed
+from gazelle.bag.compression_formats import compress_zstd, decompress_file, decompressed
 from gazelle.bag.ros1 import Compression
 from gazelle.bag.storage import Storage
 

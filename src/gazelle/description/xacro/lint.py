@@ -9,9 +9,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.xacro.error_explanations.files import NAMESPACE
-from gazelle.description.xacro.library_run import LibraryRun
 from gazelle.description.xacro.macro_definitions import definitions_in
 from gazelle.description.xacro.unprefixed_tags import NEEDED_ATTRIBUTES, OF_ROBOTS
+from gazelle.description.xacro.xacro_library import LibraryRun
 from gazelle.description.xacro.xml_output import Written
 from gazelle.description.xml import Tag, attribute_span, parse_xml, read_xml
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean

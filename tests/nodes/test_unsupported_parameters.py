@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.nodes.idle_parameters import idle_parameters, node_of_name
+from gazelle.nodes.unsupported_parameters import idle_parameters, node_of_name
 
 
 def test_slam_and_localisation_by_their_names() -> None:

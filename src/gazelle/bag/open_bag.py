@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gazelle.bag.compression import ZSTD_MAGIC
+from gazelle.bag.compression_formats import ZSTD_MAGIC
 from gazelle.bag.formats import (
     OWN_FORMATS,
     ROS1,

@@ -2,8 +2,8 @@
 
 A simulator publishes ``/clock`` a thousand times a second. To take a message costs a process a
 tenth of a millisecond, so each node would spend a tenth of a core on knowing the time. So who
-publishes it shows it on a page (`gazelle.graph.clock_page`) as well, and tells of that by a
-liveliness token. Processes on the same machine look there when they want to know and let no
+publishes it shows it on a page (`gazelle.graph.shared_memory_clock`) as well, and tells of that by
+a liveliness token. Processes on the same machine look there when they want to know and let no
 messages come. Everybody else (another machine or user, other programs, two clocks at once) goes
 on with messages.
 """
@@ -16,8 +16,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.graph.callback_queue import CallbackQueue
-from gazelle.graph.clock_page import ClockPage, PageView, machine_name
 from gazelle.graph.key_expressions import Entity, Kind, clock_key
+from gazelle.graph.shared_memory_clock import ClockPage, PageView, machine_name
 from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:

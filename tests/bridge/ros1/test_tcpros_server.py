@@ -13,8 +13,8 @@ from tests.bridge.ros1.peer import ask, pack_header, post, read_fields
 
 from gazelle.bridge.ros1 import Address, MasterAddress, master_address, own_address
 from gazelle.bridge.ros1.addresses import address_of_master
-from gazelle.bridge.ros1.server_socket import ServerSocket
 from gazelle.bridge.ros1.tcpros import read_header, write_header
+from gazelle.bridge.ros1.tcpros_server import ServerSocket
 from gazelle.bridge.ros1.xmlrpc_call import RemoteError, RemoteRefusedError, call
 from gazelle.errors import GraphError
 

@@ -12,7 +12,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.documents import scaled
 from gazelle.documents.files import is_folder
 from gazelle.documents.yaml import ROSPARAM, load_yaml
-from gazelle.launch.config import LaunchConfig
+from gazelle.launch.launch_config import LaunchConfig
 from gazelle.launch.ros1.substitution_args import Substitution, SubstitutionError, directory_of
 from gazelle.workspace import Workspace
 

@@ -20,7 +20,7 @@ from gazelle.description.model import (
     Sphere,
 )
 from gazelle.geometry import Pose
-from gazelle.simulator.plugins.wheel_geometry import drive_geometry, wheel_radius_m
+from gazelle.simulator.plugins.diff_drive_geometry import drive_geometry, wheel_radius_m
 
 ROUND = Cylinder(0.1, 0.05)
 LYING = Pose.from_xyz_rpy((0.0, 0.0, 0.0), (-math.pi / 2, 0.0, 0.0))

@@ -13,7 +13,7 @@ from tests.graph.test_process_queries_requests import HOSTILE
 from tests.patience import eventually, stretched
 
 from gazelle.bag import Connection, Encoding, Storage, create_bag, open_bag
-from gazelle.bag.definition_sharing import TextShare, fetch_text
+from gazelle.bag.message_definitions import TextShare, fetch_text
 from gazelle.bag.playing import Controls, Player, PlayOptions
 from gazelle.graph import Graph
 from gazelle.interfaces import RosVersion, md5sum

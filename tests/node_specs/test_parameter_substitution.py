@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.node_specs.patterns import expanded, holds
+from gazelle.node_specs.parameter_substitution import expanded, holds
 
 
 def _value_of(name: str, default: str) -> str:

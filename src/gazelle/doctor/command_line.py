@@ -8,13 +8,13 @@ from pathlib import Path
 
 from gazelle.description.downgraded_errors import strict
 from gazelle.diagnostics import Diagnostic
-from gazelle.doctor.descriptions import without_superseded
 from gazelle.doctor.examine_file import examine_file, kind_name
 from gazelle.doctor.examine_package import examine_folder, examine_package
 from gazelle.doctor.file_kinds import Kind, kind_of
 from gazelle.doctor.merged_findings import condensed
 from gazelle.doctor.packages import check_environment
 from gazelle.doctor.report import Examination, Options, Report
+from gazelle.doctor.robots_and_worlds import without_superseded
 from gazelle.doctor.target import Target, find_target, package_at
 from gazelle.workspace import Workspace
 

@@ -14,8 +14,8 @@ import pytest
 from tests.graph.conftest import sleep_in_thread
 from tests.patience import stretched
 
-from gazelle.graph import Graph, Node, Publisher, clock, clock_page, clock_sharing
-from gazelle.graph.clock_sharing import SharedClock, share_clock
+from gazelle.graph import Graph, Node, Publisher, clock, shared_clock_discovery, shared_memory_clock
+from gazelle.graph.shared_clock_discovery import SharedClock, share_clock
 from gazelle.interfaces import message_type
 
 ClockMessage = message_type("rosgraph_msgs/msg/Clock")
@@ -142,7 +142,7 @@ def test_sleepers_hear_of_time_that_goes_on_after_a_pause(
     monkeypatch.setattr(reader.clock._waits, "still", count)
     thread, outcome = sleep_in_thread(lambda: reader.clock.sleep_until(6 * S))
     eventually(lambda: looks[0] > 1)
-    monkeypatch.setattr(clock_sharing, "_STILL_S", 0.0)
+    monkeypatch.setattr(shared_clock_discovery, "_STILL_S", 0.0)
     simulator.show(6 * S)
     thread.join(stretched(30))
     assert outcome == [True]
@@ -286,7 +286,7 @@ def test_a_sleep_goes_on_when_the_page_goes(
 _KILLED = """
 import sys, threading
 from gazelle.graph import Graph
-from gazelle.graph.clock_sharing import share_clock
+from gazelle.graph.shared_clock_discovery import share_clock
 from gazelle.interfaces import message_type
 graph = Graph.open(role="hub")
 graph.clock.use(False)
@@ -327,7 +327,7 @@ def test_the_page_of_a_killed_simulator_stops_nobody(
 def test_another_machine_goes_by_messages(
     simulator: _Simulator, node: Node, eventually: Wait, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(clock_sharing, "machine_name", lambda: "00" * 16)
+    monkeypatch.setattr(shared_clock_discovery, "machine_name", lambda: "00" * 16)
     eventually(_follows(node, simulator, 5 * S))
     finder = node.clock._finder
     assert finder is not None
@@ -351,10 +351,10 @@ def test_who_cannot_open_the_page_goes_by_messages(
         tried.set()
         if why == "removed":
             Path(path).unlink(missing_ok=True)
-            return clock_page.PageView(path, secret)
+            return shared_memory_clock.PageView(path, secret)
         raise PermissionError(path)
 
-    monkeypatch.setattr(clock_sharing, "PageView", refuse)
+    monkeypatch.setattr(shared_clock_discovery, "PageView", refuse)
     eventually(_follows(node, simulator, 5 * S))
     assert tried.wait(stretched(30))
     eventually(_follows(node, simulator, 1000 * S))
@@ -365,7 +365,7 @@ def test_who_cannot_open_the_page_goes_by_messages(
 def test_where_no_page_can_be_made_messages_do(
     world: Graph, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(clock_page, "_folders", list)
+    monkeypatch.setattr(shared_memory_clock, "_folders", list)
     publisher = world.create_node("simulator").create_publisher("/clock", ClockMessage)
     assert share_clock(publisher) is None
 

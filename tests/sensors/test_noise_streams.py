@@ -11,7 +11,7 @@ import pytest
 
 from gazelle.noise import Noise
 from gazelle.sensors import noise_stream, picture_noise
-from gazelle.sensors.noise import seed_words
+from gazelle.sensors.noise_streams import seed_words
 
 
 def test_gaussian_noise_adds_mean_and_sigma() -> None:
@@ -66,7 +66,10 @@ def test_streams_depend_on_seed_and_name_only() -> None:
 
 
 def test_seeds_are_the_same_in_every_process() -> None:
-    code = "from gazelle.sensors.noise import seed_words; print(seed_words(42, 'robot::laser'))"
+    code = (
+        "from gazelle.sensors.noise_streams import seed_words\n"
+        "print(seed_words(42, 'robot::laser'))"
+    )
     run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert run.stdout.strip() == str(seed_words(42, "robot::laser"))
 

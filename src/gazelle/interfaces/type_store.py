@@ -274,7 +274,7 @@ class TypeStore:
             ros_version: whose rules it follows.
             text: with the texts of all that the message contains.
         """
-        from gazelle.interfaces.full_text import KeptTexts
+        from gazelle.interfaces.full_definition_text import KeptTexts
 
         with self._lock:
             if self._texts is None:
@@ -332,7 +332,7 @@ class TypeStore:
         Raises:
             NotFoundError: nothing defines it.
         """
-        from gazelle.interfaces.full_text import ros1_definition
+        from gazelle.interfaces.full_definition_text import ros1_definition
 
         return ros1_definition(self, name)
 
@@ -342,7 +342,7 @@ class TypeStore:
         Raises:
             NotFoundError: nothing defines it.
         """
-        from gazelle.interfaces.full_text import ros2_definition
+        from gazelle.interfaces.full_definition_text import ros2_definition
 
         return ros2_definition(self, name)
 

@@ -18,8 +18,8 @@ from types import CodeType, FrameType, ModuleType
 from typing import Any
 
 from gazelle.description.xacro.dom import Tracker, node_in, span_of
+from gazelle.description.xacro.error_recovery import UNKNOWN, UNKNOWN_NAME, RerunPatches
 from gazelle.description.xacro.expansion_limits import ExpansionBudget, ExpansionLimitError
-from gazelle.description.xacro.rerun_patches import UNKNOWN, UNKNOWN_NAME, RerunPatches
 from gazelle.description.xacro.unprefixed_tags import (
     add_prefixes,
     takes_unprefixed,

@@ -4,7 +4,7 @@ import pytest
 
 from gazelle.errors import NotFoundError
 from gazelle.interfaces import message_type, service_type
-from gazelle.simulator.local_node import LocalNode
+from gazelle.simulator.intra_process_node import LocalNode
 
 STRING = "std_msgs/String"
 

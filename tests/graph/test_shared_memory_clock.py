@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.graph import clock_page
-from gazelle.graph.clock_page import ClockPage, PageView
+from gazelle.graph import shared_memory_clock
+from gazelle.graph.shared_memory_clock import ClockPage, PageView
 
 
 @pytest.fixture
 def page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ClockPage:
-    monkeypatch.setattr(clock_page, "_folders", lambda: [tmp_path])
+    monkeypatch.setattr(shared_memory_clock, "_folders", lambda: [tmp_path])
     return ClockPage()
 
 
@@ -94,20 +94,20 @@ def test_what_a_killed_process_left_is_removed(page: ClockPage, tmp_path: Path) 
 
 
 def test_without_a_folder_there_is_no_page(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(clock_page, "_folders", list)
+    monkeypatch.setattr(shared_memory_clock, "_folders", list)
     with pytest.raises(OSError, match="no folder"):
         ClockPage()
 
 
 def test_the_machine_has_one_name() -> None:
-    assert bytes.fromhex(clock_page.machine_name())
-    code = "from gazelle.graph.clock_page import machine_name; print(machine_name())"
+    assert bytes.fromhex(shared_memory_clock.machine_name())
+    code = "from gazelle.graph.shared_memory_clock import machine_name; print(machine_name())"
     told = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
-    assert told.stdout.strip() == clock_page.machine_name()
+    assert told.stdout.strip() == shared_memory_clock.machine_name()
 
 
 def test_the_machine_has_a_name_where_the_kernel_gives_none(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(clock_page, "_BOOT", tmp_path / "nothing")
-    assert bytes.fromhex(clock_page.machine_name.__wrapped__())
+    monkeypatch.setattr(shared_memory_clock, "_BOOT", tmp_path / "nothing")
+    assert bytes.fromhex(shared_memory_clock.machine_name.__wrapped__())
