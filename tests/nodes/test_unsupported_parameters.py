@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from gazelle.nodes.unsupported_parameters import idle_parameters, node_of_name
+from gazelle.nodes.unsupported_parameters import node_of_name, unsupported_parameters
 
 
 def test_slam_and_localisation_by_their_names() -> None:
-    (one,) = idle_parameters("gmapping/slam_gmapping", {"particles": 30, "delta": 0.05}, 1)
+    (one,) = unsupported_parameters("gmapping/slam_gmapping", {"particles": 30, "delta": 0.05}, 1)
     assert one == ("particles", "the map is a graph of poses, not a filter with particles")
     values = {"odom0": "/o", "odom0_queue_size": 2, "use_control": False, "debug": True}
-    found = idle_parameters("robot_localization/ekf_node", values, 2)
+    found = unsupported_parameters("robot_localization/ekf_node", values, 2)
     assert [item.key for item in found] == ["odom0_queue_size", "debug"]
-    assert idle_parameters("my_robot/driver", {"particles": 1}, 1) == ()
+    assert unsupported_parameters("my_robot/driver", {"particles": 1}, 1) == ()
 
 
 def test_every_node_with_a_table_is_known() -> None:
-    found = idle_parameters("joint_state_publisher/joint_state_publisher", {"delta": 0.1}, 1)
+    found = unsupported_parameters("joint_state_publisher/joint_state_publisher", {"delta": 0.1}, 1)
     assert found == (("delta", "joints stand where nothing moves them"),)
     values = {"override_timestamps_with_wall_time": False, "override_frame_id": "lidar"}
-    (one,) = idle_parameters("ros_ign_bridge/parameter_bridge", values, 2)
+    (one,) = unsupported_parameters("ros_ign_bridge/parameter_bridge", values, 2)
     assert one == ("override_frame_id", "frames stay")
-    assert idle_parameters("ros_ign_bridge/parameter_bridge", values, 1) == ()
+    assert unsupported_parameters("ros_ign_bridge/parameter_bridge", values, 1) == ()
 
 
 def test_plug_ins_and_layers_are_looked_through() -> None:
@@ -31,11 +31,11 @@ def test_plug_ins_and_layers_are_looked_through() -> None:
         "global_costmap/still/map_topic": "/map",
         "local_costmap": {"resolution": 0.05, "always_send_full_costmap": True},
     }
-    found = idle_parameters("move_base/move_base", values, 1)
+    found = unsupported_parameters("move_base/move_base", values, 1)
     assert [item.key for item in found] == ["DWAPlannerROS.publish_traj_pc"]
     values = {"static_layer": {"plugin": "nav2_costmap_2d::StaticLayer",
                                "map_subscribe_transient_local": True}}  # fmt: skip
-    (one,) = idle_parameters("costmap", values, 2)
+    (one,) = unsupported_parameters("costmap", values, 2)
     assert one.key == "static_layer.map_subscribe_transient_local"
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.model import Joint, JointType, Link, Model, World
+from gazelle.description.model import Joint, Link, Model, World
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.engine.compiler import Compiled, Extras, compile_world
 from gazelle.engine.contacts import Contact, read_contacts, waking_copy
@@ -343,7 +343,7 @@ class Engine:
             EngineError: the joint does not turn, or a value is negative or not finite.
         """
         kind = self.description_of_joint(joint).type
-        if kind not in (JointType.REVOLUTE, JointType.CONTINUOUS):
+        if not kind.is_hinge:
             raise EngineError(f"joint '{joint}' ({kind.value}) carries no wheel that could slip")
         slip = Slip(lateral, longitudinal, radius_m)
         if not (all(map(math.isfinite, slip)) and min(slip) >= 0 and radius_m > 0):

@@ -151,7 +151,7 @@ def _add_gearbox(
     for name, axis in ((joint.parent, joint.axis), (joint.child, joint.axis2 or joint.axis)):
         entry = holders.get(name)
         hinge = entry.joint if entry is not None else None
-        turns = hinge is not None and hinge.type in (JointType.REVOLUTE, JointType.CONTINUOUS)
+        turns = hinge is not None and hinge.type.is_hinge
         if entry is None or hinge is None or not turns:
             _report_gearbox(joint, name, diagnostics)
             return

@@ -21,7 +21,6 @@ from gazelle.description.model import (
     Cylinder,
     Joint,
     JointAxis,
-    JointType,
     Link,
     Sphere,
     World,
@@ -47,7 +46,6 @@ CENTRING_STEPS = 10
 _MIN_SLIP = 1e-8
 """Stands for none, m/s per N: a wheel under 100 N creeps a micrometre a second."""
 
-_TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 _ALONG = 0.99
 _MASS_KG = 1e-6
 _SPIN, _SLIDE = "slip-spin", "slip-slide"
@@ -102,7 +100,7 @@ def described_slips(world: World) -> dict[str, Slip]:
     for model in world.models:
         for joint in () if model.static else model.joints:
             link = model.link(joint.child)
-            if link is not None and joint.type in _TURNING:
+            if link is not None and joint.type.is_hinge:
                 slips = (_described(link, joint, collision) for collision in link.collisions)
                 slip = next((item for item in slips if item is not None), None)
                 if slip is not None:

@@ -38,8 +38,6 @@ DESCRIPTION = "robot_description"
 _LOOK_S = 0.1
 _WORLD = "world"
 
-_TURNING = frozenset({JointType.REVOLUTE, JointType.CONTINUOUS})
-
 
 @dataclass(frozen=True, slots=True)
 class TreeJoint:
@@ -60,7 +58,7 @@ class TreeJoint:
     def T_parent_child(self, position: float) -> Pose:
         """Return the child link's pose in the parent link at a joint position (rad or m)."""
         axis = self.joint.axis.xyz if self.joint.axis is not None else (1.0, 0.0, 0.0)
-        if self.joint.type in _TURNING:
+        if self.joint.type.is_hinge:
             return self.T_parent_joint @ Pose(quat_xyzw=quat_xyzw_about_axis(axis, position))
         if self.joint.type is JointType.PRISMATIC:
             x, y, z = (part * position for part in axis)

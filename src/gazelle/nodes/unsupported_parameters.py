@@ -28,7 +28,7 @@ from gazelle.nodes.robot_localization.parameters import EKF, ekf_table
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.trees import flattened, nested, values_only
 
-__all__ = ["IdleParameter", "idle_parameters", "node_of_name"]
+__all__ = ["UnsupportedParameter", "node_of_name", "unsupported_parameters"]
 
 RosVersion = Literal[1, 2]
 
@@ -47,16 +47,16 @@ _TOLD_ELSEWHERE = (
 )
 
 
-class IdleParameter(NamedTuple):
+class UnsupportedParameter(NamedTuple):
     """A parameter without effect: its name with dots, and why it has none."""
 
     key: str
     reason: str
 
 
-def idle_parameters(
+def unsupported_parameters(
     node: str, values: Mapping[str, Any], ros_version: RosVersion
-) -> tuple[IdleParameter, ...]:
+) -> tuple[UnsupportedParameter, ...]:
     """Return the parameters of a node that are known and have no effect here.
 
     Args:
@@ -86,7 +86,7 @@ def node_of_name(name: str) -> str:
 
 def _walk(
     table: ParameterTable, tree: Mapping[str, Any], prefix: str, ros_version: RosVersion
-) -> Iterator[IdleParameter]:
+) -> Iterator[UnsupportedParameter]:
     kinds = _kinds(tree)
     for key, value in tree.items():
         if isinstance(value, Mapping):
@@ -97,7 +97,7 @@ def _walk(
         for name, leaf in values_only(flattened({key: value})):
             row = table.row_for(name)
             if row is not None and row.asks_in_vain(leaf):
-                yield IdleParameter(f"{prefix}{name}", row.meaning)
+                yield UnsupportedParameter(f"{prefix}{name}", row.meaning)
 
 
 def _below(

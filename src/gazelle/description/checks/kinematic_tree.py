@@ -13,7 +13,6 @@ from gazelle.diagnostics import Diagnostics
 
 __all__ = ["check_joints", "check_root"]
 
-_TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 # The PR2's joints need up to three times their effort for their top speed.
 _MAX_SHARE = 5.0
 
@@ -69,7 +68,7 @@ def _check_start(joint: Joint, axis: JointAxis, diagnostics: Diagnostics) -> Non
 
 
 def _check_resistance(joint: Joint, axis: JointAxis, diagnostics: Diagnostics) -> None:
-    effort, unit = axis.effort, "N·m" if joint.type in _TURNING else "N"
+    effort, unit = axis.effort, "N·m" if joint.type.is_hinge else "N"
     if not 0.0 < effort < math.inf:
         return
     if axis.friction >= effort:
@@ -83,7 +82,7 @@ def _check_resistance(joint: Joint, axis: JointAxis, diagnostics: Diagnostics) -
     if not 0.0 < axis.velocity < math.inf:
         return
     if axis.damping * axis.velocity > _MAX_SHARE * effort:
-        speed = "rad/s" if joint.type in _TURNING else "m/s"
+        speed = "rad/s" if joint.type.is_hinge else "m/s"
         text = (
             f"joint '{joint.name}' has a damping of {axis.damping:g} {unit}·s/{speed[:-2]}: its "
             f"{effort:g} {unit} drive it at {effort / axis.damping:.3g} {speed} at most, its limit "

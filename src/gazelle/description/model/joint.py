@@ -29,6 +29,11 @@ class JointType(Enum):
     REVOLUTE2 = "revolute2"
     GEARBOX = "gearbox"
 
+    @property
+    def is_hinge(self) -> bool:
+        """True for joints that turn about one axis, with limits or without."""
+        return self in (JointType.REVOLUTE, JointType.CONTINUOUS)
+
 
 @dataclass(frozen=True, slots=True)
 class JointAxis:

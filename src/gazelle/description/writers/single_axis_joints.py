@@ -168,7 +168,7 @@ def _without_gearbox(model: Model, gearbox: Joint, diagnostics: Diagnostics) -> 
     """Return the model with ``θ(child) = −ratio · θ(parent)`` as a mimic of the holding joints."""
     rest = tuple(joint for joint in model.joints if joint is not gearbox)
     ends = [
-        next((joint for joint in rest if joint.child == name and _turns(joint)), None)
+        next((joint for joint in rest if joint.child == name and joint.type.is_hinge), None)
         for name in (gearbox.parent, gearbox.child)
     ]
     leader, follower = ends
@@ -191,10 +191,6 @@ def _without_gearbox(model: Model, gearbox: Joint, diagnostics: Diagnostics) -> 
     mimic = Mimic(leader.name, ratio)
     joints = tuple(replace(item, mimic=mimic) if item is follower else item for item in rest)
     return replace(model, joints=joints)
-
-
-def _turns(joint: Joint) -> bool:
-    return joint.type in (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 
 def _sign(gearbox: Joint, axis: JointAxis | None, hinge: Joint) -> float:

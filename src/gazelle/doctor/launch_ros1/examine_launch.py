@@ -19,8 +19,8 @@ from gazelle.doctor.launch_ros1.launched_nodes import (
 from gazelle.doctor.launch_ros1.name_checks import check_descriptions, check_remaps, check_topics
 from gazelle.doctor.launch_ros1.node_checks import (
     check_clock,
-    check_idle_parameters,
     check_nodes,
+    check_unsupported_parameters,
     nodes_section,
 )
 from gazelle.doctor.launch_ros1.topics import topics_of
@@ -159,7 +159,7 @@ def _check(launched: Launched, starts: dict[str, DryStart], examination: Examina
     topics = topics_of(launched, starts)
     check_descriptions(launched, diagnostics)
     check_nodes(launched, diagnostics)
-    check_idle_parameters(launched, diagnostics)
+    check_unsupported_parameters(launched, diagnostics)
     check_clock(launched, starts, diagnostics)
     check_remaps(launched, topics, diagnostics)
     check_topics(launched, topics, diagnostics)

@@ -10,9 +10,9 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.report import Section
-from gazelle.nodes.unsupported_parameters import idle_parameters
+from gazelle.nodes.unsupported_parameters import unsupported_parameters
 
-__all__ = ["check_clock", "check_idle_parameters", "check_nodes", "nodes_section"]
+__all__ = ["check_clock", "check_nodes", "check_unsupported_parameters", "nodes_section"]
 
 _NAME = "/use_sim_time"
 _WORD = "use_sim_time"
@@ -65,14 +65,14 @@ def check_nodes(launched: Launched, diagnostics: Diagnostics) -> None:
             diagnostics.report("doctor.respawn-ends", text, node.spec.span)
 
 
-def check_idle_parameters(launched: Launched, diagnostics: Diagnostics) -> None:
+def check_unsupported_parameters(launched: Launched, diagnostics: Diagnostics) -> None:
     """Report parameters of built-in nodes that are known and change nothing here."""
     for node in launched.nodes:
         builtin = node.executable.builtin if node.executable is not None else None
         values = launched.parameters.get(node.full_name) if _has_own(launched, node) else {}
         if builtin is None or not isinstance(values, dict):
             continue
-        for item in idle_parameters(f"{builtin.package}/{builtin.executable}", values, 1):
+        for item in unsupported_parameters(f"{builtin.package}/{builtin.executable}", values, 1):
             text = f"'{node.full_name}': parameter '{item.key}' has no effect here: {item.reason}"
             name = f"{node.full_name}/{item.key.replace('.', '/')}"
             span = launched.spans.get(name, node.spec.span)

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterator
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan
 from gazelle.doctor.parameters.parameter_file import MARK, Document, Layout, plain, scalars
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, duplicates
-from gazelle.nodes.unsupported_parameters import idle_parameters, node_of_name
+from gazelle.nodes.unsupported_parameters import node_of_name, unsupported_parameters
 
 __all__ = ["check_idle", "check_values"]
 
@@ -37,7 +37,7 @@ def check_idle(document: Document, diagnostics: Diagnostics) -> None:
         found = plain(values)
         if not node or not isinstance(found, dict):
             continue
-        for item in idle_parameters(node, found, 2):
+        for item in unsupported_parameters(node, found, 2):
             text = f"/{'/'.join(path)}: parameter '{item.key}' has no effect here: {item.reason}"
             diagnostics.report("parameter.idle", text, _span(values, item.key))
 

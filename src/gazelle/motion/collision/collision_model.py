@@ -250,9 +250,9 @@ def _add_motion(body: Any, joint: RobotJoint) -> None:
 
     x, y, z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     names = joint.variables
-    if joint.kind is JointKind.TURNING:
+    if joint.kind is JointKind.REVOLUTE:
         add(types.mjJNT_HINGE, names[0], joint.axis)
-    elif joint.kind is JointKind.SLIDING:
+    elif joint.kind is JointKind.PRISMATIC:
         add(types.mjJNT_SLIDE, names[0], joint.axis)
     elif joint.kind is JointKind.PLANAR:
         add(types.mjJNT_SLIDE, names[0], x)

@@ -351,7 +351,7 @@ class _Reaches:
         for number, body in enumerate(bodies):
             if not body.is_object:
                 self._climb(number, body)
-        turning = [joint.kind is JointKind.TURNING for joint in self._joints]
+        turning = [joint.kind is JointKind.REVOLUTE for joint in self._joints]
         self.motions = Motions(
             np.array(
                 [
@@ -392,7 +392,7 @@ class _Reaches:
         """Return how far a joint turns when a variable changes by one; 0 where it does not turn."""
         found = np.zeros(len(self._places))
         leader, factor, _ = self._robot.mimic_of(joint.variables[0])
-        if joint.kind is JointKind.TURNING and leader in self._places:
+        if joint.kind is JointKind.REVOLUTE and leader in self._places:
             found[self._places[leader]] = factor
         return found
 
@@ -402,7 +402,7 @@ class _Reaches:
             leader, factor, _ = self._robot.mimic_of(name)
             if leader not in self._places:
                 continue
-            if joint.kind is JointKind.TURNING:
+            if joint.kind is JointKind.REVOLUTE:
                 metres = turn
             elif joint.kind is JointKind.PLANAR and nth == 2:
                 metres = reach
@@ -417,7 +417,7 @@ class _Reaches:
         """Return how far a joint's sliding carries what it moves at most."""
         if joint.kind in {JointKind.PLANAR, JointKind.FLOATING}:
             return _UNLIMITED_M
-        if joint.kind is not JointKind.SLIDING:
+        if joint.kind is not JointKind.PRISMATIC:
             return 0.0
         leader, factor, offset = self._robot.mimic_of(joint.variables[0])
         if leader not in self._places:

@@ -17,8 +17,8 @@ __all__ = ["Chain", "Goal", "LinkTree", "chain_to", "link_tree"]
 IntArray = NDArray[np.int64]
 _TREE_KINDS = {
     JointKind.FIXED: 0,
-    JointKind.TURNING: 1,
-    JointKind.SLIDING: 2,
+    JointKind.REVOLUTE: 1,
+    JointKind.PRISMATIC: 2,
     JointKind.PLANAR: 4,
     JointKind.FLOATING: 5,
 }
@@ -183,9 +183,9 @@ class _Builder:
         leader, factor, offset = self._leader(joint)
         if joint.kind is JointKind.FIXED or leader[0] not in self._places:
             self._before = self._before @ _motion(joint, positions)
-        elif joint.kind is JointKind.TURNING:
+        elif joint.kind is JointKind.REVOLUTE:
             self._step(TURN, joint.axis, leader[0], factor, offset)
-        elif joint.kind is JointKind.SLIDING:
+        elif joint.kind is JointKind.PRISMATIC:
             self._step(SLIDE, joint.axis, leader[0], factor, offset)
         else:
             count = 2 if joint.kind is JointKind.PLANAR else 3

@@ -243,7 +243,7 @@ class Solver:
 
     def _turning(self) -> BoolArray:
         kinds = {
-            name: joint.kind is JointKind.TURNING or name.endswith("/theta")
+            name: joint.kind is JointKind.REVOLUTE or name.endswith("/theta")
             for joint in self.robot.joints
             for name in joint.variables
         }

@@ -35,8 +35,8 @@ class JointKind(Enum):
     """How a joint moves; fixed, planar and floating are the words of virtual joints as well."""
 
     FIXED = "fixed"
-    TURNING = "turning"
-    SLIDING = "sliding"
+    REVOLUTE = "revolute"
+    PRISMATIC = "prismatic"
     PLANAR = "planar"
     FLOATING = "floating"
 
@@ -174,9 +174,9 @@ def _value(flag: bool | None, value: float | None, old: float) -> float:
 
 
 _KINDS = {
-    JointType.REVOLUTE: JointKind.TURNING,
-    JointType.CONTINUOUS: JointKind.TURNING,
-    JointType.PRISMATIC: JointKind.SLIDING,
+    JointType.REVOLUTE: JointKind.REVOLUTE,
+    JointType.CONTINUOUS: JointKind.REVOLUTE,
+    JointType.PRISMATIC: JointKind.PRISMATIC,
     JointType.FIXED: JointKind.FIXED,
     JointType.PLANAR: JointKind.PLANAR,
     JointType.FLOATING: JointKind.FLOATING,
@@ -268,7 +268,7 @@ def _robot_joint(joint: Joint, model: Model, diagnostics: Diagnostics) -> RobotJ
     if mimic is not None:
         found = replace(found, mimic=MimicRule(mimic.joint, mimic.multiplier, mimic.offset))
     found = _with_variables(found)
-    if kind in (JointKind.TURNING, JointKind.SLIDING):
+    if kind in (JointKind.REVOLUTE, JointKind.PRISMATIC):
         found = replace(found, limits=(limit_of_joint(joint, diagnostics),))
     return found
 

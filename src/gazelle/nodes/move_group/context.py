@@ -169,7 +169,7 @@ def _executor(
     endless = [
         joint.name
         for joint in robot.joints
-        if joint.kind is JointKind.TURNING and joint.limits and joint.limits[0].continuous
+        if joint.kind is JointKind.REVOLUTE and joint.limits and joint.limits[0].continuous
     ]
     return TrajectoryExecutor(node, specs, config.execution, states, endless_joints=endless)
 

@@ -135,7 +135,7 @@ def _waypoints(problem: GroupProblem, request: Any, link: str) -> list[Any]:
 
 def _sliding(context: MoveGroupContext, problem: GroupProblem) -> list[bool]:
     kinds = {name: one.kind for one in context.robot.joints for name in one.variables}
-    return [kinds[name] is JointKind.SLIDING for name in problem.group.variables]
+    return [kinds[name] is JointKind.PRISMATIC for name in problem.group.variables]
 
 
 def _scaling(request: Any, name: str) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.description.model import Joint, JointType
+from gazelle.description.model import Joint
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import floats_from
 from gazelle.diagnostics import did_you_mean
@@ -117,8 +117,6 @@ _PREFIX = "slip_compliance_unitless_"
 
 # Gazebo sets the slip at every step; a hundredth of a second is fine enough for a wheel's rate.
 _UPDATE_HZ = 100.0
-
-_TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 
 def load(context: PluginContext) -> None:
@@ -238,7 +236,7 @@ def _wheel(context: PluginContext, tag: Tag) -> _Wheel | None:
 
 def _axle(context: PluginContext, link: str) -> Joint | None:
     joints = (joint for joint in context.model.joints if joint.child == link)
-    return next((joint for joint in joints if joint.type in _TURNING), None)
+    return next((joint for joint in joints if joint.type.is_hinge), None)
 
 
 def _number(context: PluginContext, tag: Tag, name: str) -> float:
