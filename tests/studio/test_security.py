@@ -17,7 +17,7 @@ from websockets.sync.client import connect
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
 from gazelle.studio import Server, Studio
-from gazelle.studio.security import CONTENT_SECURITY_POLICY, Guard
+from gazelle.studio.security import CONTENT_SECURITY_POLICY, Guard, Secret
 
 _TOKEN = "a-token"
 
@@ -221,3 +221,9 @@ def _headers(host: str) -> Any:
     from websockets.datastructures import Headers
 
     return Headers({"Host": host})
+
+
+def test_logs_and_tracebacks_show_no_secret() -> None:
+    secret = Secret(Path("page"), "me", "4711")
+    assert repr(secret) == f"Secret(path={Path('page')!r}, user='me', password='***')"
+    assert repr(Guard("127.0.0.1", 80, "4711")) == "Guard(bound='127.0.0.1', port=80, token='***')"

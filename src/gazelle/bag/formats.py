@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from gazelle.bag.db3 import SQLITE_MAGIC, SqliteBag, SqliteWriter
 from gazelle.bag.mcap import McapBag, McapWriter
 from gazelle.bag.mcap.records import MAGIC as MCAP_MAGIC
 from gazelle.bag.ros1 import Compression, Ros1Bag, Ros1Writer
 from gazelle.bag.ros1.records import MAGIC as ROS1_MAGIC
-from gazelle.bag.rosbag2.db3 import SQLITE_MAGIC, SqliteBag, SqliteWriter
 from gazelle.bag.storage import BagError, BagReader, BagWriter, Encoding, Storage
 from gazelle.diagnostics import did_you_mean
 from gazelle.extensions import ExtensionGroup, entry_points_of, load_extensions

@@ -63,6 +63,10 @@ class Secret(NamedTuple):
     user: str
     password: str
 
+    def __repr__(self) -> str:
+        """Without the password: logs and tracebacks show values."""
+        return f"Secret(path={self.path!r}, user={self.user!r}, password='***')"
+
 
 def secret_of_user() -> Secret:
     """Return the secret that `VARIABLE` names, or the user's own; it is made where there is none.
@@ -104,6 +108,10 @@ class Guard(NamedTuple):
     bound: str
     port: int
     token: str
+
+    def __repr__(self) -> str:
+        """Without the token: logs and tracebacks show values."""
+        return f"Guard(bound={self.bound!r}, port={self.port}, token='***')"
 
     @property
     def is_local(self) -> bool:
