@@ -19,7 +19,7 @@ from gazelle.graph.dynamic_reconfigure import (
     enum_edit_method,
 )
 from gazelle.graph.ros2_node_parameters import NodeParameters
-from gazelle.launch.executables import find_executable
+from gazelle.launch.node_commands import find_executable
 from gazelle.workspace import Workspace
 
 SIZES = enum_edit_method((EnumConstant("Small", 0), EnumConstant("Large", 2)), "Sizes")

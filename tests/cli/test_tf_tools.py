@@ -13,7 +13,7 @@ from gazelle.cli.tf_monitor import FrameDelays, NetDelay
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Node
 from gazelle.interfaces import message_type
-from gazelle.launch.executables import find_executable
+from gazelle.launch.node_commands import find_executable
 from gazelle.workspace import Workspace
 
 _STAMP_S = 1000

@@ -55,7 +55,7 @@ UNREAD: dict[str, tuple[str, str]] = {
     "rclpy/callback_groups.py MutuallyExclusiveCallbackGroup.can_execute": ("entity", _SAME),
     "rclpy/init_shutdown.py shutdown": ("uninstall_handlers", "they only pass signals on then"),
     "rclpy/clock.py ROSClock.__new__": ("clock_type", "__init__ reads it"),
-    "rclpy/endpoints.py Publisher.wait_for_all_acked": (
+    "rclpy/publisher_subscription_service.py Publisher.wait_for_all_acked": (
         "timeout",
         "what was sent needs no word back",
     ),
@@ -103,7 +103,7 @@ UNREAD: dict[str, tuple[str, str]] = {
     ),
     "rospy/topics.py SubscribeListener.peer_unsubscribe": ("topic_name num_peers", _HOOK),
     "rospy/topics.py Subscriber.__init__": ("buff_size tcp_nodelay", _SOCKETS),
-    "tf/endpoints.py TransformListener.__init__": (
+    "tf/listener_and_broadcasters.py TransformListener.__init__": (
         "buff_size tcp_nodelay queue_size spin_thread qos static_qos",
         "frames are taken as they come, in a thread of their own, from ends of any quality",
     ),

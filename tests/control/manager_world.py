@@ -12,7 +12,7 @@ from tests.control.fake_robot import RECORDER, Recorder, fake_robot
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.controllers import registry
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
-from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph

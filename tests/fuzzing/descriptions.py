@@ -13,7 +13,7 @@ from tests.control.recording_ports import RecordingPorts
 from tests.fuzzing.kind import SCOUT, Kind
 
 from gazelle.control.controller_manager import ControllerManager
-from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 from gazelle.control.parameter_sources.ros2_parameter_file import read_parameter_file
 from gazelle.description.materials.ogre_scripts import parse_material_script
 from gazelle.description.read_context import ReadContext

@@ -20,7 +20,7 @@ from gazelle.description.moveit.parameter_reader import Settings as MoveItSettin
 from gazelle.description.srdf import Srdf, load_srdf
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.launch_tree import follow
-from gazelle.doctor.parameters.check_parameters import check_parameter_file
+from gazelle.doctor.parameters.all_checks import check_parameter_file
 from gazelle.documents.yaml import load_yaml
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.launch.ros2.error_diagnostics import diagnose
@@ -41,7 +41,7 @@ from gazelle.nodes.nav2.collision_monitor.parameters import (
     report_others,
 )
 from gazelle.nodes.nav2.parameters import controller_table, planner_table
-from gazelle.nodes.navigation.costmap_parameters import assemble
+from gazelle.nodes.navigation.costmap_from_parameters import assemble
 from gazelle.nodes.parameters import node_reader
 from gazelle.nodes.robot_localization.ekf_node import config_of, matrix_of
 from gazelle.nodes.robot_localization.parameters import ekf_table

@@ -6,8 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.launch.executables import Executable, find_executable
 from gazelle.launch.launch_config import NodeTag
+from gazelle.launch.node_commands import Executable, find_executable
 from gazelle.launch.spawner_sequence import HeldStart, holds_time, starts_in_turn
 from gazelle.workspace import Workspace
 

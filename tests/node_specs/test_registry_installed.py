@@ -10,7 +10,7 @@ from tests.installed_packages import code_of_page, installed
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.extensions import ExtensionError
-from gazelle.launch.executables import find_executable
+from gazelle.launch.node_commands import find_executable
 from gazelle.node_specs.registry import builtin_executables, builtin_packages, node_spec
 from gazelle.workspace import Workspace
 

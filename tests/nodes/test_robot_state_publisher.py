@@ -14,7 +14,7 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Node
 from gazelle.interfaces import message_type
 from gazelle.nodes import robot_state_publisher
-from gazelle.nodes.robot_description import joint_tree, read_description, segment_names
+from gazelle.nodes.link_tree import joint_tree, read_description, segment_names
 from gazelle.nodes.robot_state_publisher import StateToTf
 
 ROBOT = """<robot name="r">

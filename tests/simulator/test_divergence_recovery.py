@@ -16,8 +16,8 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.simulator import Mode, Simulation
 from gazelle.simulator.divergence_recovery import OnDivergence
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
+from gazelle.simulator.gui import offer_views
 from gazelle.simulator.scheduler import Task
-from gazelle.simulator.viewing import offer_views
 from gazelle.simulator.world_server import WorldServer
 
 # A milligram on a rail without an end: what is far too light for its efforts.

@@ -18,7 +18,7 @@ from gazelle.graph.gazebo_names import shown_transport_name
 from gazelle.interfaces import service_type
 from gazelle.interfaces.poses import twist_message
 from gazelle.simulator import Simulation
-from gazelle.simulator.viewing import offer_views
+from gazelle.simulator.gui import offer_views
 from gazelle.workspace import Workspace
 
 skip_module_without_shared()

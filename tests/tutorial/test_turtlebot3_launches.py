@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.launch.executables import find_executable
+from gazelle.launch.node_commands import find_executable
 from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.workspace import Workspace
 

@@ -12,7 +12,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.diagnostics.share_links import as_written, written_file
-from gazelle.launch.executables import find_executable
+from gazelle.launch.node_commands import find_executable
 from gazelle.workspace import Workspace, ament_index
 
 LISTS = """project(heron)

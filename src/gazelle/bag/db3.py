@@ -10,7 +10,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from gazelle.bag.storage import BagError, BagMessage, Connection, Encoding, Storage, Summary, Wanted
+from gazelle.bag.storage import (
+    BagError,
+    BagMessage,
+    Connection,
+    Encoding,
+    Storage,
+    Summary,
+    Wanted,
+)
 
 __all__ = ["SQLITE_MAGIC", "SqliteBag", "SqliteWriter"]
 

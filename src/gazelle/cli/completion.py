@@ -12,8 +12,8 @@ from importlib import import_module
 from pathlib import Path
 
 from gazelle.cli.commands import COMMANDS
+from gazelle.cli.ros_tool import Tool
 from gazelle.cli.ros_types import learn_workspace_types, shown_type
-from gazelle.cli.tool import Tool
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph

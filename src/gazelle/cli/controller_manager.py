@@ -7,7 +7,7 @@ import sys
 import threading
 
 from gazelle.cli.error_text import error_text
-from gazelle.cli.tool import ToolError, join_graph
+from gazelle.cli.ros_tool import ToolError, join_graph
 from gazelle.graph.names import parse_command_line
 from gazelle.nodes.controller_manager.command import USAGE, command
 

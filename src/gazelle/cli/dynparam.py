@@ -10,8 +10,8 @@ from optparse import OptionParser
 from pathlib import Path
 from typing import Any
 
+from gazelle.cli.ros_tool import Tool, ToolError, hint, join_graph, run_tool
 from gazelle.cli.text.fill_message import yaml_words
-from gazelle.cli.tool import Tool, ToolError, hint, join_graph, run_tool
 from gazelle.graph import (
     Graph,
     Node,

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.cli.tool import ToolError, option_parser
+from gazelle.cli.ros_tool import ToolError, option_parser
 from gazelle.errors import InterfaceError, NotFoundError
 from gazelle.interfaces import (
     message_type,

@@ -11,8 +11,8 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostics, did_you_mean, render
 from gazelle.errors import NotFoundError
 from gazelle.launch.console import dump_text
-from gazelle.launch.executables import find_executable
 from gazelle.launch.launch_config import LaunchConfig, NodeTag
+from gazelle.launch.node_commands import find_executable
 from gazelle.launch.node_process import node_argv
 from gazelle.launch.ros1.loader import load_launch_files, load_launch_text
 from gazelle.launch.roslaunch import LaunchOptions, launch

@@ -7,8 +7,8 @@ from functools import partial
 from optparse import OptionParser
 from typing import NamedTuple
 
+from gazelle.cli.ros_tool import Tool, ToolError, add_flag, hint, option_parser, run_tool
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.cli.tool import Tool, ToolError, add_flag, hint, option_parser, run_tool
 from gazelle.errors import NotFoundError
 from gazelle.interfaces import (
     definition,

@@ -9,8 +9,7 @@ import time
 from collections.abc import Iterable, Iterator
 
 from gazelle.cli.node_processes import Processes
-from gazelle.cli.ros_types import shown_type
-from gazelle.cli.tool import (
+from gazelle.cli.ros_tool import (
     Tool,
     ToolError,
     add_flag,
@@ -20,6 +19,7 @@ from gazelle.cli.tool import (
     option_parser,
     run_tool,
 )
+from gazelle.cli.ros_types import shown_type
 from gazelle.errors import NotFoundError
 from gazelle.graph import Endpoint, Entity, Graph, Kind, NodeInfo
 from gazelle.graph.graph_info import node_info, nodes_of

@@ -9,7 +9,7 @@ from optparse import OptionParser, Values
 from pathlib import Path
 from typing import Any
 
-from gazelle.cli.tool import (
+from gazelle.cli.ros_tool import (
     Tool,
     ToolError,
     add_flag,

@@ -9,7 +9,7 @@ from contextlib import nullcontext
 
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.launch.environment import is_own_command, node_environment
-from gazelle.launch.executables import find_executable
+from gazelle.launch.node_commands import find_executable
 from gazelle.launch.spawner_sequence import is_simulator
 from gazelle.process_lifetime import interrupts_held
 from gazelle.workspace import Workspace

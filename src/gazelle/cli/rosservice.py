@@ -8,9 +8,7 @@ from optparse import Values
 from typing import Any
 
 from gazelle.cli.node_processes import Processes
-from gazelle.cli.ros_types import service_class, shown_type, wanted_type
-from gazelle.cli.text.fill_message import documents, fill_from_words, printable_args, yaml_words
-from gazelle.cli.tool import (
+from gazelle.cli.ros_tool import (
     Tool,
     ToolError,
     add_flag,
@@ -20,6 +18,8 @@ from gazelle.cli.tool import (
     option_parser,
     run_tool,
 )
+from gazelle.cli.ros_types import service_class, shown_type, wanted_type
+from gazelle.cli.text.fill_message import documents, fill_from_words, printable_args, yaml_words
 from gazelle.graph import Graph, ServiceClient, ServiceInfo
 from gazelle.graph.gazebo_names import other_version_hint
 from gazelle.graph.names import is_hidden

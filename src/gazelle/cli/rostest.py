@@ -20,8 +20,8 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError
 from gazelle.graph import Graph
 from gazelle.launch.environment import node_environment
-from gazelle.launch.executables import find_executable
 from gazelle.launch.launch_config import LaunchConfig, TestTag
+from gazelle.launch.node_commands import find_executable
 from gazelle.launch.node_process import node_argv
 from gazelle.launch.ros1.loader import load_launch_files
 from gazelle.process_lifetime import PARENT_VARIABLE

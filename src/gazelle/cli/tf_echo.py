@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gazelle.cli.error_text import error_text
-from gazelle.cli.tool import Tool, ToolError, join_graph, run_tool
+from gazelle.cli.ros_tool import Tool, ToolError, join_graph, run_tool
 from gazelle.graph import Graph, Node, TimeJumpError
 from gazelle.graph.names import parse_command_line
 

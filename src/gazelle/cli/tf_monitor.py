@@ -7,7 +7,7 @@ import threading
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.cli.tool import Tool, join_graph, run_tool
+from gazelle.cli.ros_tool import Tool, join_graph, run_tool
 from gazelle.graph import Graph
 from gazelle.graph.names import parse_command_line
 from gazelle.graph.tf import TransformBuffer, TransformError, TransformListener

@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 from gazelle.cli.graphviz import typeset
-from gazelle.cli.tool import Tool, join_graph, run_tool
+from gazelle.cli.ros_tool import Tool, join_graph, run_tool
 from gazelle.graph import Graph
 from gazelle.graph.names import parse_command_line
 from gazelle.graph.tf import TransformBuffer, TransformListener, frames_as_dot

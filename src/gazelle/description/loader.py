@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
-from gazelle.description.downgraded_errors import lenient_document, lenient_robot
+from gazelle.description.errors_as_warnings import lenient_document, lenient_robot
 from gazelle.description.model import Model, World
 from gazelle.description.read_context import ReadContext
 from gazelle.description.robot_description import TEXT_NAME, file_of_text, read_text

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from gazelle.description.downgraded_errors import strict
+from gazelle.description.errors_as_warnings import strict
 from gazelle.diagnostics import Diagnostic
 from gazelle.doctor.examine_file import examine_file, kind_name
 from gazelle.doctor.examine_package import examine_folder, examine_package

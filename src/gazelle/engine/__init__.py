@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.engine.contacts import Contact
+from gazelle.engine.contact_readings import Contact
 from gazelle.engine.engine import Engine, EngineState
 from gazelle.engine.joint_group import JointGroup
 from gazelle.engine.joint_handles import JointHandle

@@ -12,14 +12,14 @@ from gazelle.description.model import World
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine.contact_pairs import ExplicitPair, apply_pair_springs, set_up_contacts
 from gazelle.engine.decomposition_workers import split_ahead
-from gazelle.engine.joints import implicit_damping, keeps_turning
 from gazelle.engine.kinematic_loops import add_loop, add_world_joint
+from gazelle.engine.mjspec_builder import SpecBuilder, VelocityDecay, mesh_collisions
+from gazelle.engine.mjspec_joints import implicit_damping, keeps_turning
 from gazelle.engine.motors import add_motor, flywheel_inertia
 from gazelle.engine.mujoco_library import compiled as compiled_spec
 from gazelle.engine.mujoco_library import mujoco, report_library_warnings
 from gazelle.engine.position_locks import add_lock
 from gazelle.engine.scoped_names import root_joint, rotor_joint, scoped
-from gazelle.engine.spec_builder import SpecBuilder, VelocityDecay, mesh_collisions
 from gazelle.engine.unsupported_elements import report_ignored_parameters
 from gazelle.engine.welds import add_weld
 from gazelle.engine.wheel_slip import copy_contact_weights

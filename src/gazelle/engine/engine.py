@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from gazelle.description.model import Joint, Link, Model, World
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.engine.compiler import Compiled, Extras, compile_world
-from gazelle.engine.contacts import Contact, read_contacts, waking_copy
+from gazelle.engine.contact_readings import Contact, read_contacts, waking_copy
 from gazelle.engine.divergence import (
     divergence_error,
     find_culprit,

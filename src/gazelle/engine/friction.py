@@ -1,6 +1,6 @@
 """Friction: ``mu``, ``mu2`` and ``fdir1`` of collisions, torsional friction, friction of wheels.
 
-Gazebo takes the smaller coefficients of two surfaces (`gazelle.engine.contact_parameters`),
+Gazebo takes the smaller coefficients of two surfaces (`gazelle.engine.contact_springs`),
 MuJoCo the larger, which priorities make up for (`gazelle.engine.contact_pairs`). The formulas are
 derived in docs/contact.md.
 """
@@ -21,7 +21,7 @@ from gazelle.description.model import (
     Surface,
 )
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.joints import INFINITE_LIMIT
+from gazelle.engine.mjspec_joints import INFINITE_LIMIT
 from gazelle.engine.scoped_names import scoped
 
 __all__ = [

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engine.contacts import constraint_forces
+from gazelle.engine.contact_readings import constraint_forces
 from gazelle.engine.motors import UNLIMITED_EFFORT, MotorCommand
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.errors import EngineError

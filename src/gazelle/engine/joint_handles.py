@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType
-from gazelle.engine.contacts import joint_reaction
+from gazelle.engine.contact_readings import joint_reaction
 from gazelle.engine.divergence import finite, within_bounds
 from gazelle.engine.motors import MotorCommand
 from gazelle.engine.state import Wrench

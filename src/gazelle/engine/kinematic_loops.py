@@ -8,8 +8,8 @@ import numpy as np
 
 from gazelle.description.model import Joint, JointAxis, JointType, Model
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.joints import add_joint, couple, equality_solver
 from gazelle.engine.kinematic_tree import WORLD, KinematicTree
+from gazelle.engine.mjspec_joints import add_joint, couple, equality_solver
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import bridge, scoped
 from gazelle.geometry import Pose

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.engine.contacts import constraint_forces
+from gazelle.engine.contact_readings import constraint_forces
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import lock
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.engine.joints import equality_solver
+from gazelle.engine.mjspec_joints import equality_solver
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import weld
 from gazelle.engine.state import wake_tree

@@ -25,8 +25,8 @@ from gazelle.description.model import (
     Sphere,
     World,
 )
-from gazelle.engine.joints import implicit_damping
 from gazelle.engine.kinematic_tree import TreeLink
+from gazelle.engine.mjspec_joints import implicit_damping
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import joint_part, scoped, slip_body
 

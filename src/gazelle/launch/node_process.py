@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from gazelle.launch.executables import Executable
 from gazelle.launch.launch_config import NodeTag
+from gazelle.launch.node_commands import Executable
 from gazelle.process_lifetime import PARENT_VARIABLE, interrupts_held
 
 __all__ = [

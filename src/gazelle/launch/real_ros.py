@@ -105,8 +105,8 @@ def join(seen: Sequence[RealRos], supervisor: Supervisor, graph: Graph, console:
     They would take the place of those that the launch sets sooner.
     """
     # Only launches do: a simulator by itself looks for real ROS without importing them.
-    from gazelle.launch.executables import Executable
     from gazelle.launch.launch_config import NodeTag
+    from gazelle.launch.node_commands import Executable
 
     for one in seen:
         console.plain(

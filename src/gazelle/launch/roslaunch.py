@@ -25,8 +25,8 @@ from gazelle.graph.gazebo_names import offered_name
 from gazelle.interfaces import service_type
 from gazelle.launch.console import Console, RunLog, begin_log, run_log, summary
 from gazelle.launch.environment import node_environment
-from gazelle.launch.executables import Executable, find_executable
 from gazelle.launch.launch_config import LaunchConfig, NodeTag
+from gazelle.launch.node_commands import Executable, find_executable
 from gazelle.launch.real_ros import join, real_ros
 from gazelle.launch.spawner_sequence import (
     HeldStart,

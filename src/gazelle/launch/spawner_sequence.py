@@ -7,8 +7,8 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from gazelle.launch.executables import Executable
 from gazelle.launch.launch_config import NodeTag
+from gazelle.launch.node_commands import Executable
 from gazelle.node_specs.spec import NodeRole
 
 __all__ = [

@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any, Self
 
 from gazelle.launch.console import Console
-from gazelle.launch.executables import Executable
 from gazelle.launch.launch_config import NodeTag
+from gazelle.launch.node_commands import Executable
 from gazelle.launch.node_host import HostEnded, NodeEnded, NodeHost, NodeReady
 from gazelle.launch.node_process import (
     LaunchedProcess,

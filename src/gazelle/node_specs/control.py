@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from gazelle.node_specs.common_topics import TF_LISTENED
 from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeRole, NodeSpec, listens, offers
-from gazelle.node_specs.tf_and_lifecycle import TF_LISTENED
 
 __all__ = ["CONTROL"]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gazelle.node_specs.common_topics import LIFECYCLE_SERVICES, LIFECYCLE_TOPICS, TF_LISTENED
 from gazelle.node_specs.spec import (
     ROS_1,
     ROS_2,
@@ -12,7 +13,6 @@ from gazelle.node_specs.spec import (
     offers,
     publishes,
 )
-from gazelle.node_specs.tf_and_lifecycle import LIFECYCLE_SERVICES, LIFECYCLE_TOPICS, TF_LISTENED
 
 __all__ = ["NAVIGATION"]
 

@@ -10,11 +10,11 @@ from gazelle.node_specs.driving import DRIVING
 from gazelle.node_specs.guis import WINDOWS
 from gazelle.node_specs.localization import LOCALISATION
 from gazelle.node_specs.navigation import NAVIGATION
+from gazelle.node_specs.robot_state_and_tf import TRANSFORMS
 from gazelle.node_specs.simulation import SIMULATION
 from gazelle.node_specs.slam import SLAM
 from gazelle.node_specs.spec import ROS_1, ROS_2, NodeName, NodeSpec
 from gazelle.node_specs.topics import TOPICS
-from gazelle.node_specs.transforms import TRANSFORMS
 from gazelle.node_specs.turtlesim import TURTLES
 
 __all__ = [

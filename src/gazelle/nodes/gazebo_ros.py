@@ -9,7 +9,7 @@ from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_output import print_ros2
 from gazelle.nodes.parameters import start_node
-from gazelle.simulator.gzserver_parameters import PARAMETERS
+from gazelle.simulator.gzserver_ros_parameters import PARAMETERS
 
 __all__ = ["PARAMETERS", "run_gzserver", "run_spawn_entity", "run_spawn_model"]
 
@@ -31,7 +31,7 @@ def run_gzserver(
         falls_back: run the empty world where the named one is not found.
         found: what is wrong with its parameters already, to be told with the rest.
     """
-    from gazelle.simulator.gzserver import serve
+    from gazelle.simulator.gzserver_process import serve
 
     if arguments.ros_version == 2:
         graph.console = print_ros2

@@ -19,8 +19,8 @@ from gazelle.description.model import Joint, JointType, Model
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.link_tree import published_robot_of, robot_of
 from gazelle.nodes.parameters import private_parameters, start_node, ticks
-from gazelle.nodes.robot_description import published_robot_of, robot_of
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.parameters.reader import ParameterReader, number_of
 from gazelle.parameters.trees import flattened

@@ -16,8 +16,7 @@ from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_transform
 from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.parameters import private_parameters, start_node
-from gazelle.nodes.robot_description import (
+from gazelle.nodes.link_tree import (
     DESCRIPTION,
     TreeJoint,
     description_of,
@@ -26,6 +25,7 @@ from gazelle.nodes.robot_description import (
     segment_names,
     take_description_file,
 )
+from gazelle.nodes.parameters import private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterReader
 

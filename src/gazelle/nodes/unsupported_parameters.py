@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any, Literal, NamedTuple
 
 from gazelle.navigation.controllers import CONTROLLERS
-from gazelle.navigation.costmap.costmap_options import (
+from gazelle.navigation.costmap.costmap_parameters import (
     InflationOptions,
     ObstacleOptions,
     StaticOptions,
@@ -23,7 +23,7 @@ from gazelle.nodes.move_base.global_planner import planner_tables
 from gazelle.nodes.move_base.local_planner import local_planner_tables
 from gazelle.nodes.move_base.parameters import CLEAR, ROTATE, SLOW
 from gazelle.nodes.nav2 import parameters as nav2
-from gazelle.nodes.navigation.costmap_parameters import costmap_table, layer_table
+from gazelle.nodes.navigation.costmap_from_parameters import costmap_table, layer_table
 from gazelle.nodes.robot_localization.parameters import EKF, ekf_table
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.trees import flattened, nested, values_only

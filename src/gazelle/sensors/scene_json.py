@@ -34,7 +34,6 @@ from gazelle.description.model.shape import (
     Sphere,
 )
 from gazelle.geometry import IDENTITY_POSE, MeshPart, Pose
-from gazelle.sensors.picture_overlays import equivalent_box
 from gazelle.sensors.scene_json_types import (
     BodyValue,
     HeightmapFile,
@@ -51,6 +50,7 @@ from gazelle.sensors.scene_json_types import (
     TrianglesGeometry,
     WorldGeometry,
 )
+from gazelle.sensors.snapshot_overlays import equivalent_box
 
 __all__ = ["geometry_value", "light_value", "pose_value", "robot_value", "world_value"]
 

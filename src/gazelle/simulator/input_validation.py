@@ -1,7 +1,7 @@
 """What comes into a world from outside: whether its numbers can be, who sent it, and when.
 
 Every topic and service of the simulator comes through here (`gazelle.simulator.plugins.context`),
-and every number of a viewer's request (`gazelle.simulator.viewing.fields`).
+and every number of a viewer's request (`gazelle.simulator.gui.fields`).
 A number that is none, or that nothing in a world can have, would spoil the whole state at the next
 step; so it is refused with the name of its field. The limits are far beyond robots: a position of
 100 km, a speed of 10 km/s, ten million newtons.

@@ -116,7 +116,7 @@ class Measurements:
     def gps(self, place: SensorPlace) -> GpsRecord:
         """Return a fix of a ``gps`` or ``navsat`` sensor."""
         from gazelle.sensors import classic_origin, gps_noise, gps_reading
-        from gazelle.simulator.plugins.gz_systems import is_gz_world
+        from gazelle.simulator.plugins.gz_builtin_systems import is_gz_world
 
         spec, world = place.sensor.spec, self._engine.world
         assert isinstance(spec, GpsSpec)

@@ -20,8 +20,8 @@ from gazelle.simulator.intra_process_node import LocalNode
 from gazelle.simulator.node_interfaces import NodePort
 from gazelle.simulator.plugins.bumper import publish_contact_sensor
 from gazelle.simulator.plugins.context import PluginContext, Resources, SensorPlace
+from gazelle.simulator.plugins.gz_builtin_systems import is_gz_world
 from gazelle.simulator.plugins.gz_sensors import publish_sensor
-from gazelle.simulator.plugins.gz_systems import is_gz_world
 from gazelle.simulator.plugins.registry import load_plugin
 from gazelle.simulator.render_thread import FrameWorker
 from gazelle.simulator.scheduler import Scheduler, Task

@@ -1,6 +1,6 @@
 """launch_pytest: launches as fixtures of pytest, and tests that run in the launch's loop.
 
-`gazelle.testing.launch_test_plugin` registers this when it meets the first file that names
+`gazelle.testing.launch_testing_plugin` registers this when it meets the first file that names
 launch_pytest, so its fixtures are in nobody else's way.
 """
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["gazelle_graph", "gazelle_launch", "gazelle_simulation"]
 
 # Launch tests of ROS 2.
-pytest_plugins = ("gazelle.testing.launch_test_plugin",)
+pytest_plugins = ("gazelle.testing.launch_testing_plugin",)
 
 _MARKER = "gazelle"
 _MAX_LINES = 200

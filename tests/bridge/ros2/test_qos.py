@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.bridge.ros2.qos import QosProfile, request_for, widened
-from gazelle.bridge.ros2.ros_graph import RosEndpoint
+from gazelle.bridge.ros2.ros2_graph import RosEndpoint
 
 
 def end(node: str = "/rviz", *, reliable: bool = True, latched: bool = False) -> RosEndpoint:

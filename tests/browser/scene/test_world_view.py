@@ -15,7 +15,7 @@ from tests.patience import eventually, stretched
 from gazelle.graph import Graph
 from gazelle.simulator import Simulation
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
-from gazelle.simulator.viewing import offer_views
+from gazelle.simulator.gui import offer_views
 from gazelle.studio import Server, Studio
 
 pytestmark = pytest.mark.slow

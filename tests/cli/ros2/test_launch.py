@@ -13,7 +13,7 @@ import psutil
 import pytest
 
 from gazelle.cli.ros2.launch import launch_arguments, main
-from gazelle.cli.tool import ToolError
+from gazelle.cli.ros_tool import ToolError
 from gazelle.launch.ros2 import logging
 from gazelle.workspace.ament_index import known_workspace
 

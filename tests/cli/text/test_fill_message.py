@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from gazelle.cli.ros_tool import ToolError
 from gazelle.cli.text.fill_message import filled, yaml_values
-from gazelle.cli.tool import ToolError
 from gazelle.interfaces import message_type
 
 

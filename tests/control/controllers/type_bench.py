@@ -12,7 +12,7 @@ from tests.control.recording_ports import RecordingPorts
 
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
-from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
 from gazelle.simulator.intra_process_node import LocalParameters

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gazelle.control.hardware.robot_description import read_description
+from gazelle.control.hardware.control_description import read_description
 from gazelle.control.transmissions import Transmission
 from gazelle.control.transmissions.transmission import read_transmission
 from gazelle.diagnostics import Diagnostics

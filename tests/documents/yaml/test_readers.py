@@ -16,22 +16,22 @@ from gazelle.cli.catkin import load_profile
 from gazelle.cli.dynparam import _from_yaml as read_dynparam_file
 from gazelle.cli.ros2.bag.convert import _outputs as read_output_bags
 from gazelle.cli.ros2.param import _from_yaml as read_param_value
+from gazelle.cli.ros_tool import ToolError
 from gazelle.cli.rosparam import _file_text, _trees
 from gazelle.cli.rostopic.pub import _file_documents as read_message_file
 from gazelle.cli.text.fill_message import yaml_values, yaml_words
-from gazelle.cli.tool import ToolError
 from gazelle.compat.commands.rosparam import RosParamException, load_str
 from gazelle.compat.moveit_configs.parameter_files import load_yaml as load_moveit_yaml
 from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
-from gazelle.control.parameter_sources.ros2_node_parameters import read_ros_arguments
+from gazelle.control.parameter_sources.ros2_controller_parameters import read_ros_arguments
 from gazelle.control.parameter_sources.ros2_parameter_file import read_parameter_file
 from gazelle.description.moveit.package_files import read_yaml
 from gazelle.description.xacro import expand_xacro
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.launch_ros1.launched_nodes import parameter_spans
 from gazelle.doctor.launch_ros2.xml_yaml_file import read_yaml_file
-from gazelle.doctor.parameters.check_parameters import check_parameter_file
+from gazelle.doctor.parameters.all_checks import check_parameter_file
 from gazelle.documents.yaml import YamlError
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph.names import parse_command_line

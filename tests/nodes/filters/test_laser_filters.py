@@ -9,8 +9,8 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import LaunchError
-from gazelle.navigation.filters import FILTERS, REFUSED_FILTERS, FilterSetup
-from gazelle.navigation.filters.laser_filters import RangeOptions
+from gazelle.navigation.laser_scans import FILTERS, REFUSED_FILTERS, FilterSetup
+from gazelle.navigation.laser_scans.laser_filters import RangeOptions
 from gazelle.nodes.filters.laser_filters import FILTER_TABLES, PARAMETERS, chain_of
 from gazelle.nodes.parameters import node_reader
 

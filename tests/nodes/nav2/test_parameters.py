@@ -17,7 +17,7 @@ from gazelle.nodes.nav2.collision_monitor.parameters import (
     read_sources,
     report_others,
 )
-from gazelle.nodes.navigation.costmap_parameters import assemble
+from gazelle.nodes.navigation.costmap_from_parameters import assemble
 from gazelle.nodes.parameters import node_reader
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.reader import ParameterReader

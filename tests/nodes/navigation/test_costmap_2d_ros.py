@@ -18,7 +18,7 @@ from gazelle.graph import Graph
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces.stamps import set_header
 from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
-from gazelle.nodes.navigation.costmap_parameters import assemble
+from gazelle.nodes.navigation.costmap_from_parameters import assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames
 

@@ -8,10 +8,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.bridge.node_mirrors import NodeMirrors, RosNodeEntities
-from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, GraphEntities, TopicOfType, crosses
+from gazelle.bridge.ros2.mirror_plan import BRIDGE_NAME, GraphEntities, TopicOfType, crosses
 from gazelle.bridge.ros2.qos import QosProfile, request_for
 from gazelle.bridge.ros2.rclpy_process import RclpyLink
-from gazelle.bridge.ros2.ros_graph import NOTHING, RosState
+from gazelle.bridge.ros2.ros2_graph import NOTHING, RosState
 from gazelle.bridge.ros2.types import MessageKind, ServiceKind, TypeBook
 from gazelle.errors import GazelleError
 from gazelle.interfaces import from_cdr, to_cdr

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from gazelle.bridge.ros2.ros_graph import RosEndpoint
+from gazelle.bridge.ros2.ros2_graph import RosEndpoint
 from gazelle.graph.errors import coded
 
 __all__ = ["QosProfile", "request_for", "widened"]

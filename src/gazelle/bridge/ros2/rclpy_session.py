@@ -7,9 +7,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.bridge.ros2.from_ros import FromRos
-from gazelle.bridge.ros2.graph_state import graph_entities_of
+from gazelle.bridge.ros2.mirror_plan import graph_entities_of
 from gazelle.bridge.ros2.rclpy_process import About, Outcome, RclpyLink, RclpyProcess
-from gazelle.bridge.ros2.ros_graph import NOTHING, RosState
+from gazelle.bridge.ros2.ros2_graph import NOTHING, RosState
 from gazelle.bridge.ros2.to_ros import ToRos
 from gazelle.bridge.ros2.types import TypeBook
 

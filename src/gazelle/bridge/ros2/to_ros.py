@@ -7,10 +7,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.bridge.raw_subscription import RawSubscription, Sample
-from gazelle.bridge.ros2.graph_state import BRIDGE_NAME, GraphEntities, TopicOfNode
+from gazelle.bridge.ros2.mirror_plan import BRIDGE_NAME, GraphEntities, TopicOfNode
 from gazelle.bridge.ros2.qos import QosProfile, widened
 from gazelle.bridge.ros2.rclpy_process import RclpyLink
-from gazelle.bridge.ros2.ros_graph import RosState
+from gazelle.bridge.ros2.ros2_graph import RosState
 from gazelle.bridge.ros2.types import ServiceKind, TypeBook
 from gazelle.errors import GazelleError
 from gazelle.interfaces import from_cdr, to_cdr

@@ -9,8 +9,8 @@ from getopt import GetoptError, gnu_getopt
 from pathlib import Path
 
 from gazelle.cli.gz import joint, log, model, stats, topic, world
+from gazelle.cli.gz.gz_sim import which_gazebo as new_front
 from gazelle.cli.gz.ign import without_version
-from gazelle.cli.gz.new import front as new_front
 from gazelle.cli.gz.options import GZ_INSTEAD, GzCommand, ended, help_text, run_with_options
 from gazelle.cli.sdf.ign_sdf import run_sdf as run_new_sdf
 from gazelle.cli.sdf.ign_sdf import usage

@@ -1,8 +1,8 @@
-"""``ign``: the front of Ignition's commands; those about a world are in `gazelle.cli.gz.new`."""
+"""``ign``: the front of Ignition's commands; those about a world are in `gazelle.cli.gz.gz_sim`."""
 
 from __future__ import annotations
 
-from gazelle.cli.gz.new import front
+from gazelle.cli.gz.gz_sim import which_gazebo
 from gazelle.cli.gz.options import IGN_INSTEAD
 from gazelle.cli.sdf.ign_sdf import run_sdf, usage, version_of
 from gazelle.cli.sdf.sdf_file import say
@@ -46,7 +46,7 @@ def main(argv: list[str]) -> int:
         print(usage("ign"))
         return 0
     if name == "help" and len(tokens) == 2 and tokens[1] in _OF_WORLD:
-        front.explain(_OF_WORLD[tokens[1]])
+        which_gazebo.explain(_OF_WORLD[tokens[1]])
         return 0
     if name in ("help", "--help", "-h"):
         print(_HELP)
@@ -60,7 +60,7 @@ def main(argv: list[str]) -> int:
     if name == "sdf":
         return run_sdf(tokens[1:])
     if name in _OF_WORLD:
-        return front.run(_OF_WORLD[name], tokens[1:])
+        return which_gazebo.run(_OF_WORLD[name], tokens[1:])
     if name in IGN_INSTEAD:
         say([f"gazelle: ign {name} is not here; use {IGN_INSTEAD[name]}"])
         return _FAILED

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from gazelle.cli.gz.options import GzError
-from gazelle.cli.tool import join_graph
+from gazelle.cli.ros_tool import join_graph
 from gazelle.diagnostics import did_you_mean
 from gazelle.graph import Graph, Node
 from gazelle.graph.gazebo_names import SHOWN_SPACE, offered_name

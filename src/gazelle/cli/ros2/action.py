@@ -9,9 +9,9 @@ from typing import Any
 
 from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
+from gazelle.cli.ros_tool import ToolError
 from gazelle.cli.text.fill_message import yaml_values
 from gazelle.cli.text.ros2_text import message_yaml
-from gazelle.cli.tool import ToolError
 from gazelle.diagnostics import did_you_mean
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node

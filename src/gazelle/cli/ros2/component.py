@@ -17,8 +17,8 @@ from gazelle.cli.ros2.verbs import (
     fail,
     run_command,
 )
+from gazelle.cli.ros_tool import ToolError, hint
 from gazelle.cli.text.fill_message import yaml_words
-from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Graph, Node
 from gazelle.graph.ros2_parameter_values import value_message
 from gazelle.interfaces import message_type

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from gazelle.cli.tool import ToolError, hint
+from gazelle.cli.ros_tool import ToolError, hint
 from gazelle.errors import GraphError
 from gazelle.graph import ANY_TYPE, Entity, Graph, Kind, Node, NoGraphError
 from gazelle.graph.names import check_name, is_hidden, resolve

@@ -8,8 +8,8 @@ import sys
 from collections.abc import Iterator
 
 from gazelle.cli.ros2.verbs import Command, Verb, fail, run_command
+from gazelle.cli.ros_tool import ToolError, hint
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.cli.tool import ToolError, hint
 from gazelle.interfaces import (
     action_type,
     definition,

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from gazelle.cli.ros2.verbs import guarded
-from gazelle.cli.tool import ToolError
+from gazelle.cli.ros_tool import ToolError
 from gazelle.diagnostics import Severity, did_you_mean, render
 from gazelle.launch.environment import drop_in_folder, node_environment
 from gazelle.process_lifetime import when_nobody_reads

@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.cli.ros2.graph import absolute, call_service, cli_node, graph_of_ros2, nodes_offering
 from gazelle.cli.ros2.verbs import Command, Verb, add_strategy_arguments, fail, run_command
-from gazelle.cli.tool import ToolError, hint
+from gazelle.cli.ros_tool import ToolError, hint
 from gazelle.graph import Entity, Node
 
 __all__ = ["add_arguments_get", "add_arguments_list", "add_arguments_nodes", "add_arguments_set"]

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from gazelle.cli.ros2.graph import graph_of_ros2, types_by_name
 from gazelle.cli.ros2.verbs import Command, Verb, add_strategy_arguments, fail, run_command
-from gazelle.cli.tool import hint
+from gazelle.cli.ros_tool import hint
 from gazelle.graph import Kind
 from gazelle.graph.actions.action_info import ActionInfo, actions_of
 from gazelle.graph.names import is_hidden

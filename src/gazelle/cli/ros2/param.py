@@ -11,7 +11,7 @@ from typing import Any
 
 from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
-from gazelle.cli.tool import ToolError, hint, join_graph
+from gazelle.cli.ros_tool import ToolError, hint, join_graph
 from gazelle.graph import Graph, Node
 from gazelle.graph.ros2_parameter_values import (
     ParameterType,

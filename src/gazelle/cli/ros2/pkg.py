@@ -7,7 +7,7 @@ import re
 import sys
 
 from gazelle.cli.ros2.verbs import Command, Verb, run_command
-from gazelle.cli.tool import hint
+from gazelle.cli.ros_tool import hint
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.node_specs.registry import builtin_executables, builtin_packages

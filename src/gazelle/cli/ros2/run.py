@@ -15,7 +15,7 @@ from types import FrameType
 from gazelle.cli.ros2.verbs import fail, guarded
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.launch.environment import is_own_command, node_environment
-from gazelle.launch.executables import find_executable
+from gazelle.launch.node_commands import find_executable
 from gazelle.node_specs.registry import builtin_executables
 from gazelle.process_lifetime import interrupts_held
 from gazelle.workspace import Workspace

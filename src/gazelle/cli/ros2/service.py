@@ -16,8 +16,8 @@ from gazelle.cli.ros2.verbs import (
     positive_float,
     run_command,
 )
+from gazelle.cli.ros_tool import ToolError, hint
 from gazelle.cli.ros_types import ros2_service_class
-from gazelle.cli.tool import ToolError, hint
 from gazelle.errors import GraphError
 from gazelle.graph import Entity, Graph, Kind, ServiceClient
 from gazelle.interfaces import Message

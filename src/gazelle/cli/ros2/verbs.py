@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import Any, NamedTuple
 
 from gazelle.cli.error_text import error_text
-from gazelle.cli.tool import hint
+from gazelle.cli.ros_tool import hint
 from gazelle.errors import GazelleError, UserFileError
 
 __all__ = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 
-from gazelle.cli.tool import Tool, join_graph, run_tool
+from gazelle.cli.ros_tool import Tool, join_graph, run_tool
 from gazelle.graph import Graph, Node
 from gazelle.graph.names import CommandLine, parse_command_line
 from gazelle.process_lifetime import at_stop_signal

@@ -11,8 +11,8 @@ from gazelle.bag.conversion import copy_bag
 from gazelle.bag.formats import ROS1
 from gazelle.bag.open_bag import warn_of_unindexed
 from gazelle.bag.type_migration import Change, Migration, migration_of
+from gazelle.cli.ros_tool import ToolError, add_flag, option_parser
 from gazelle.cli.ros_types import learn_workspace_types
-from gazelle.cli.tool import ToolError, add_flag, option_parser
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.interfaces import md5sum, ros1_definition
 

@@ -11,8 +11,8 @@ from pathlib import Path
 from gazelle.bag import BagMessage, BagReader, create_bag, open_bag
 from gazelle.bag.conversion import copy_bag
 from gazelle.bag.formats import ROS1
+from gazelle.cli.ros_tool import add_flag, option_parser
 from gazelle.cli.rosbag.info import human_size
-from gazelle.cli.tool import add_flag, option_parser
 from gazelle.diagnostics import Diagnostics, render
 
 __all__ = ["ProgressMeter", "compress", "decompress", "reindex"]

@@ -21,8 +21,8 @@ from gazelle.bag import (
 )
 from gazelle.bag.conversion import copy_bag
 from gazelle.bag.open_bag import warn_of_unindexed
+from gazelle.cli.ros_tool import ToolError, option_parser
 from gazelle.cli.rosbag.compress import ProgressMeter
-from gazelle.cli.tool import ToolError, option_parser
 from gazelle.diagnostics import Diagnostics, render
 from gazelle.errors import GazelleError
 from gazelle.interfaces import AnyMsg, Time, TypeStore, default_types, from_cdr, from_ros1

@@ -12,7 +12,7 @@ from statistics import median
 
 from gazelle.bag import BagError, BagReader, Summary, open_bag, ros1_name_of
 from gazelle.bag.open_bag import warn_of_unindexed
-from gazelle.cli.tool import add_flag, option_parser
+from gazelle.cli.ros_tool import add_flag, option_parser
 from gazelle.interfaces import md5sum
 
 __all__ = [

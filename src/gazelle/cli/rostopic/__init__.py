@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.cli.tool import Tool, run_tool
+from gazelle.cli.ros_tool import Tool, run_tool
 
 __all__ = ["main"]
 

@@ -17,10 +17,10 @@ from gazelle.bag import (
     ros1_name_of,
 )
 from gazelle.bag.open_bag import warn_of_unindexed
+from gazelle.cli.ros_tool import ToolError, hint
 from gazelle.cli.ros_types import learn_workspace_types, topic_class
 from gazelle.cli.rostopic.topics import FoundTopic, find_topic
 from gazelle.cli.text.fields import Step
-from gazelle.cli.tool import ToolError, hint
 from gazelle.graph import Entity, Kind
 from gazelle.interfaces import from_cdr, from_ros1, wire_type
 

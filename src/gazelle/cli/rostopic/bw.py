@@ -7,8 +7,8 @@ import time
 from collections import deque
 from typing import NamedTuple
 
+from gazelle.cli.ros_tool import global_name, join_graph, option_parser
 from gazelle.cli.rostopic.topics import join_as_node, wait_for_topic
-from gazelle.cli.tool import global_name, join_graph, option_parser
 from gazelle.graph import RawMessage
 
 __all__ = ["Bandwidth", "BandwidthMeter", "run"]

@@ -8,9 +8,9 @@ import threading
 from collections import deque
 from typing import Any
 
+from gazelle.cli.ros_tool import ToolError, add_flag, global_name, join_graph, option_parser
 from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.topics import join_as_node, uses_sim_time, wait_for_topic
-from gazelle.cli.tool import ToolError, add_flag, global_name, join_graph, option_parser
 
 __all__ = ["DelayMeter", "run"]
 

@@ -9,10 +9,10 @@ from functools import partial
 from optparse import OptionParser, Values
 from typing import Any, Protocol
 
+from gazelle.cli.ros_tool import ToolError, add_flag, global_name, join_graph, option_parser
 from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.topics import FoundTopic, join_as_node, uses_sim_time, wait_for_topic
 from gazelle.cli.text.fields import FieldError, field_type, field_value
-from gazelle.cli.tool import ToolError, add_flag, global_name, join_graph, option_parser
 from gazelle.interfaces import Time, strify
 
 __all__ = ["Echo", "expression", "run"]

@@ -11,10 +11,10 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any, NamedTuple
 
+from gazelle.cli.ros_tool import add_flag, global_name, join_graph, option_parser
 from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.echo import expression
 from gazelle.cli.rostopic.topics import join_as_node, uses_sim_time, wait_for_topic
-from gazelle.cli.tool import add_flag, global_name, join_graph, option_parser
 
 __all__ = ["Rate", "RateMeter", "rate_report", "rate_table", "run"]
 

@@ -8,10 +8,10 @@ from functools import partial
 from typing import NamedTuple
 
 from gazelle.cli.node_processes import Processes
+from gazelle.cli.ros_tool import ToolError, add_flag, global_name, hint, join_graph, option_parser
 from gazelle.cli.ros_types import shown_type, wanted_type
 from gazelle.cli.rostopic.topics import find_topic
 from gazelle.cli.text.fields import field_type
-from gazelle.cli.tool import ToolError, add_flag, global_name, hint, join_graph, option_parser
 from gazelle.graph import Graph, TopicInfo
 
 __all__ = ["find", "info", "run", "show_type"]

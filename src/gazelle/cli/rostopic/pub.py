@@ -11,10 +11,10 @@ from optparse import OptionParser, Values
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from gazelle.cli.ros_tool import ToolError, add_flag, global_name, join_graph, option_parser
 from gazelle.cli.ros_types import message_class, shown_type
 from gazelle.cli.rostopic.topics import join_as_node
 from gazelle.cli.text.fill_message import documents, fill_from_words, yaml_words
-from gazelle.cli.tool import ToolError, add_flag, global_name, join_graph, option_parser
 from gazelle.errors import GraphError, NotFoundError
 from gazelle.graph import ANY_TYPE, Graph, Publisher, TimeJumpError
 from gazelle.interfaces import Ros1Message

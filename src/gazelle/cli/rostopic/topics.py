@@ -7,9 +7,9 @@ import threading
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from gazelle.cli.ros_tool import hint
 from gazelle.cli.ros_types import message_class, shown_type
 from gazelle.cli.text.fields import Step, has_field, parse_path
-from gazelle.cli.tool import hint
 from gazelle.errors import GazelleError
 from gazelle.graph import ANY_TYPE, Entity, Graph, Node, TopicInfo
 from gazelle.graph.graph_info import topics_of

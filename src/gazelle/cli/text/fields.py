@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from gazelle.cli.ros_tool import ToolError, hint
 from gazelle.cli.ros_types import topic_class
-from gazelle.cli.tool import ToolError, hint
 
 __all__ = ["FieldError", "Step", "field_type", "field_value", "has_field", "parse_path"]
 

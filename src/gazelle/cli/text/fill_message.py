@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import Any, TextIO
 
-from gazelle.cli.tool import ToolError
+from gazelle.cli.ros_tool import ToolError
 from gazelle.errors import InterfaceError
 from gazelle.interfaces import (
     FieldType,

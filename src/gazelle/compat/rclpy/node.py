@@ -11,17 +11,6 @@ from gazelle.compat.rclpy import logging
 from gazelle.compat.rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from gazelle.compat.rclpy.clock import Clock, ROSClock
 from gazelle.compat.rclpy.context import Context, get_default_context
-from gazelle.compat.rclpy.endpoints import (
-    Client,
-    MsgType,
-    Publisher,
-    Service,
-    SrvType,
-    SrvTypeRequest,
-    SrvTypeResponse,
-    Subscription,
-    check_type,
-)
 from gazelle.compat.rclpy.event_handler import (
     EventWatch,
     PublisherEventCallbacks,
@@ -45,6 +34,17 @@ from gazelle.compat.rclpy.name_validation import (
     validate_topic_name,
 )
 from gazelle.compat.rclpy.parameter import Parameter
+from gazelle.compat.rclpy.publisher_subscription_service import (
+    Client,
+    MsgType,
+    Publisher,
+    Service,
+    SrvType,
+    SrvTypeRequest,
+    SrvTypeResponse,
+    Subscription,
+    check_type,
+)
 from gazelle.compat.rclpy.qos import QoSProfile, as_profile, qos_profile_services_default
 from gazelle.compat.rclpy.qos_overriding_options import QoSOverridingOptions, overridden
 from gazelle.compat.rclpy.timer import Rate, Timer

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.context import get_default_context
-from gazelle.compat.rclpy.endpoints import RMW_IDENTIFIER
 from gazelle.compat.rclpy.init_shutdown import ok, shutdown, try_shutdown
+from gazelle.compat.rclpy.publisher_subscription_service import RMW_IDENTIFIER
 from gazelle.compat.rclpy.qos import QoSProfile, announced_qos, as_profile
 
 if TYPE_CHECKING:

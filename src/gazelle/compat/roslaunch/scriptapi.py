@@ -8,7 +8,7 @@ import time
 from gazelle.compat.roslaunch.core import Node, Process, RLException, start_launch
 from gazelle.compat.roslaunch.parent import ROSLaunchParent
 from gazelle.diagnostics import Diagnostics
-from gazelle.launch.executables import find_executable
+from gazelle.launch.node_commands import find_executable
 from gazelle.workspace import Workspace
 
 __all__ = ["ROSLaunch"]

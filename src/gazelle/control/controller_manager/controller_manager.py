@@ -342,7 +342,7 @@ class ControllerManager:
 
     def _take_named(self, name: str) -> None:
         """Read what a spawner told of a controller before it was loaded."""
-        from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+        from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 
         if isinstance(self.source, FileSource):
             self.source.take_named(name)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gazelle.control.hardware.engine_joints import JOINT_STATES, JointStates
 from gazelle.control.hardware.ros1_joint_group import Ros1Section
-from gazelle.control.hardware.ros1_joints import Ros1Joint
+from gazelle.control.hardware.ros1_joint_setup import Ros1Joint
 from gazelle.control.hardware.sensor_states import SensorStates
 from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.pid import PidArray, PidGains

@@ -14,7 +14,7 @@ import numpy as np
 
 from gazelle.control.hardware.engine_joints import JointStates
 from gazelle.control.hardware.ros2_joint_group import Ros2Section
-from gazelle.control.hardware.ros2_joints import Ros2Joint, Ros2Mimic
+from gazelle.control.hardware.ros2_joint_setup import Ros2Joint, Ros2Mimic
 from gazelle.control.hardware.ros2_tags import HardwareTag
 from gazelle.control.hardware.sensor_states import SensorStates
 from gazelle.control.interface_values import Array, InterfaceValues

@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from gazelle.control.hardware.ros2_joints import Ros2Mimic
+from gazelle.control.hardware.ros2_joint_setup import Ros2Mimic
 from gazelle.control.hardware.ros2_tags import HardwareTag, InterfaceTag, PartTag
 from gazelle.control.interface_values import InterfaceValues
 from gazelle.control.resource_manager import JointResource

@@ -22,7 +22,7 @@ from gazelle.control.hardware.engine_joints import (
     position_writer,
     velocity_writer,
 )
-from gazelle.control.hardware.ros1_joints import Ros1Joint
+from gazelle.control.hardware.ros1_joint_setup import Ros1Joint
 from gazelle.control.interface_values import Array, InterfaceValues
 from gazelle.control.joint_limits import EffortLimits, PositionLimits, VelocityLimits
 from gazelle.control.pid import PidArray

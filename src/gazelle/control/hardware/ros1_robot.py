@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from gazelle.control.hardware.control_description import ControlDescription, description_of
 from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
-from gazelle.control.hardware.robot_description import ControlDescription, description_of
-from gazelle.control.hardware.ros1_joints import (
+from gazelle.control.hardware.ros1_joint_setup import (
     gains_parameters,
     joints_to_hold,
     read_joint_gains,

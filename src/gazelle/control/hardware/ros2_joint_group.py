@@ -18,7 +18,7 @@ from gazelle.control.hardware.engine_joints import (
     position_writer,
     velocity_writer,
 )
-from gazelle.control.hardware.ros2_joints import Ros2Joint
+from gazelle.control.hardware.ros2_joint_setup import Ros2Joint
 from gazelle.control.interface_values import Array, Indices, InterfaceValues
 from gazelle.control.pid import PidArray
 

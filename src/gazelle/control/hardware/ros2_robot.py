@@ -8,7 +8,7 @@ from typing import Any
 from gazelle.control.hardware.gazebo_system import GazeboSystem, SystemOptions
 from gazelle.control.hardware.generic_system import GENERIC_PARAMETERS, GenericSystem
 from gazelle.control.hardware.lifecycle import HardwareLifecycle
-from gazelle.control.hardware.ros2_joints import read_mimics, read_ros2_joints, resource_of
+from gazelle.control.hardware.ros2_joint_setup import read_mimics, read_ros2_joints, resource_of
 from gazelle.control.hardware.ros2_tags import HardwareTag, read_hardware_tags
 from gazelle.control.hardware.sensor_states import SensorSource, SensorStates
 from gazelle.control.interface_values import InterfaceValues

@@ -9,9 +9,9 @@ import numpy as np
 
 from gazelle.description.checks.camera_frames import check_cameras
 from gazelle.description.checks.contact_parameters import check_surfaces
-from gazelle.description.checks.fixed_joint_lumping import check_lumping, check_preserved
 from gazelle.description.checks.inertia import check_inertia, check_mass_ratios
 from gazelle.description.checks.kinematic_tree import check_joints, check_root
+from gazelle.description.checks.lumped_links import check_lumping, check_preserved
 from gazelle.description.checks.self_collisions import check_overlaps
 from gazelle.description.checks.shape_sizes import check_sizes
 from gazelle.description.checks.shape_volumes import Outlines

@@ -17,8 +17,8 @@ from gazelle.geometry import without_splitting
 from gazelle.graph.names import resolve
 from gazelle.simulator.description_sources import world_from
 from gazelle.simulator.gazebo_ros.api import offer_gazebo_ros
-from gazelle.simulator.gzserver import check_server_plugins, ros2_plugins_of, ros_version_of
-from gazelle.simulator.gzserver_options import ServerOptions, read_server_options
+from gazelle.simulator.gzserver_command_line import ServerOptions, read_server_options
+from gazelle.simulator.gzserver_process import check_server_plugins, ros2_plugins_of, ros_version_of
 from gazelle.simulator.world_server import ServerSettings, WorldServer
 from gazelle.workspace import Workspace
 

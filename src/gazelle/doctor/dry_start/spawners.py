@@ -11,7 +11,7 @@ from typing import Any
 from gazelle.control.checks import configured_controllers
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.errors import ControllerError
-from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.dry_start.plan import ControllerStart, Manager, Program
 from gazelle.errors import GazelleError

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from gazelle.doctor.launch_ros1.examine_launch import examine_launch
+from gazelle.doctor.launch_ros1.all_checks import examine_launch
 
 __all__ = ["examine_launch"]

@@ -13,7 +13,7 @@ from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Ro
 from gazelle.doctor.launch_ros1.topics import NodeTopics, read_script
 from gazelle.doctor.report import Section
 from gazelle.errors import LaunchError
-from gazelle.nodes.robot_description import read_description
+from gazelle.nodes.link_tree import read_description
 from gazelle.nodes.static_transform_publisher import parse_arguments
 
 __all__ = ["Edge", "Frames", "StatePublisher", "check_frames", "frames_of", "frames_section"]

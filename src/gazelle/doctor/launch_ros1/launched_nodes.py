@@ -17,8 +17,8 @@ from gazelle.documents.yaml import entries, read_yaml_file
 from gazelle.errors import LaunchError
 from gazelle.graph.names import parse_command_line, remap, resolve
 from gazelle.graph.parameter_tree import ParameterTree
-from gazelle.launch.executables import Executable
 from gazelle.launch.launch_config import LaunchConfig, NodeTag
+from gazelle.launch.node_commands import Executable
 from gazelle.node_specs.spec import NodeRole
 from gazelle.nodes.controller_manager.spawner import is_ros2, spawner_parser
 from gazelle.nodes.controller_manager.spawner_ros2 import spawner_options

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.doctor.packages.check_package import check_package
+from gazelle.doctor.packages.all_checks import check_package
 from gazelle.doctor.packages.environment import check_environment
 
 __all__ = ["check_environment", "check_package"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.doctor.parameters.check_parameters import (
+from gazelle.doctor.parameters.all_checks import (
     check_package_parameters,
     check_parameter_file,
 )

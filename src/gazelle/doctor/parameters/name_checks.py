@@ -14,7 +14,7 @@ from gazelle.control.checks import (
     configured_controllers,
     moveit_controllers,
 )
-from gazelle.control.hardware.ros1_joints import HARDWARE_INTERFACES
+from gazelle.control.hardware.ros1_joint_setup import HARDWARE_INTERFACES
 from gazelle.control.hardware.ros2_tags import read_hardware_tags
 from gazelle.control.resource_manager import JointResource
 from gazelle.description.model import Model

@@ -31,9 +31,9 @@ from gazelle.description.writers.geometry_elements import mesh_of
 from gazelle.description.writers.output_files import OutputFiles
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents.images import PictureError, opened_picture
+from gazelle.engine.mjspec_builder import SpecBuilder
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import scoped
-from gazelle.engine.spec_builder import SpecBuilder
 from gazelle.geometry import (
     MeshMaterial,
     MeshPart,

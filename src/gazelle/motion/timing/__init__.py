@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from gazelle.motion.timing.time_parameterization import Method, method_of, parameterise
+from gazelle.motion.timing.time_parameterization import (
+    Method,
+    method_of,
+    parameterise,
+)
 from gazelle.motion.timing.trajectory import Trajectory
 
 __all__ = ["Method", "Trajectory", "method_of", "parameterise"]

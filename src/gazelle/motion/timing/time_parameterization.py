@@ -11,11 +11,11 @@ import numpy as np
 from gazelle.motion.joint_space import FloatArray, JointSpace, Validity
 from gazelle.motion.planning.path_validation import FINE_STEP, first_fault, first_faulty_motion
 from gazelle.motion.planning.problem import Path
-from gazelle.motion.timing.jerk_limits import Smoothed, seven_phases
+from gazelle.motion.timing.jerk_limited_profile import Smoothed, seven_phases
 from gazelle.motion.timing.limits import Limits, limits_of
-from gazelle.motion.timing.path_geometry import Arc, Line, corner_arc, distinct, pieces
+from gazelle.motion.timing.totg_path import Arc, Line, corner_arc, distinct, pieces
+from gazelle.motion.timing.totg_velocity_profile import Span, fastest
 from gazelle.motion.timing.trajectory import States, Trajectory, states_at, times_of
-from gazelle.motion.timing.velocity_profile import Span, fastest
 
 __all__ = ["Method", "method_of", "parameterise"]
 

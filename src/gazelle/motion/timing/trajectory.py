@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.motion.joint_space import FloatArray
-from gazelle.motion.timing.velocity_profile import Span
+from gazelle.motion.timing.totg_velocity_profile import Span
 
 __all__ = ["States", "Trajectory", "states_at", "times_of"]
 

@@ -9,6 +9,12 @@ from gazelle.navigation.controllers.controller import (
     RobotState,
     Velocity,
 )
+from gazelle.navigation.controllers.dwa_dwb_controller import SamplingController
+from gazelle.navigation.controllers.dwa_dwb_parameters import (
+    DwaOptions,
+    DwbOptions,
+    TrajectoryPlannerOptions,
+)
 from gazelle.navigation.controllers.mppi import MppiController, MppiOptions
 from gazelle.navigation.controllers.registry import (
     CONTROLLERS,
@@ -17,12 +23,6 @@ from gazelle.navigation.controllers.registry import (
     ControllerSetting,
 )
 from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController, PursuitOptions
-from gazelle.navigation.controllers.sampling_controller import SamplingController
-from gazelle.navigation.controllers.sampling_profiles import (
-    DwaOptions,
-    DwbOptions,
-    TrajectoryPlannerOptions,
-)
 from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = [

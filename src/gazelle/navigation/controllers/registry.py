@@ -7,17 +7,17 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from gazelle.navigation.controllers.controller import Controller
-from gazelle.navigation.controllers.mppi import MppiController, MppiOptions
-from gazelle.navigation.controllers.recovery_maneuver import Maneuvering, Pace
-from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController, PursuitOptions
-from gazelle.navigation.controllers.sampling_controller import SamplingController
-from gazelle.navigation.controllers.sampling_profiles import (
+from gazelle.navigation.controllers.dwa_dwb_controller import SamplingController
+from gazelle.navigation.controllers.dwa_dwb_parameters import (
     DwaOptions,
     DwbOptions,
     TrajectoryPlannerOptions,
     dwa_profile,
     dwb_profile,
 )
+from gazelle.navigation.controllers.escape_maneuver import Maneuvering, Pace
+from gazelle.navigation.controllers.mppi import MppiController, MppiOptions
+from gazelle.navigation.controllers.regulated_pure_pursuit import PursuitController, PursuitOptions
 from gazelle.navigation.controllers.trajectory_planner import TrajectoryPlanner
 
 __all__ = ["CONTROLLERS", "REFUSED_CONTROLLERS", "ControllerKind", "ControllerSetting"]

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.navigation.controllers.controller import Command, NoCommand, RobotState, Velocity
+from gazelle.navigation.controllers.dwa_dwb_parameters import TrajectoryPlannerOptions
 from gazelle.navigation.controllers.followed_plan import FollowedPlan, angle_between
 from gazelle.navigation.controllers.rollout_arguments import Distances, RolloutTerms, Timing
-from gazelle.navigation.controllers.sampling_profiles import TrajectoryPlannerOptions
 from gazelle.navigation.controllers.stop_rotate import Arrival
 from gazelle.navigation.costmap.cost_grid import CostGrid
 from gazelle.navigation.costmap.footprint import Footprint, footprint_cost
@@ -234,7 +234,7 @@ class _Rollout:
         plan: NDArray[np.float64],
     ) -> None:
         """Measure how far all cells of a costmap are from the path and from its end."""
-        from gazelle.navigation.controllers.sampling_kernels import distance_field
+        from gazelle.navigation.controllers.dwa_dwb_kernels import distance_field
         from gazelle.navigation.controllers.trajectory_planner_kernels import HIT, NO_WAY
         from gazelle.navigation.costmap.costmap_kernels import fill_polygon
 
@@ -286,7 +286,7 @@ class _Rollout:
 
     def command(self, velocity: Velocity, cost: float = 0.0) -> Command:
         """Return a command with its trajectory."""
-        from gazelle.navigation.controllers.sampling_kernels import simulate
+        from gazelle.navigation.controllers.dwa_dwb_kernels import simulate
 
         out = np.empty((_SHOWN_POSES, 3))
         step_s = self._options.sim_time / _SHOWN_POSES

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from gazelle.navigation.controllers.sampling_kernels import BLOCKED, simulate
+from gazelle.navigation.controllers.dwa_dwb_kernels import BLOCKED, simulate
 from gazelle.navigation.costmap.costmap_kernels import outline_cost
 from gazelle.numba_jit import njit
 

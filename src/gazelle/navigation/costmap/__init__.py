@@ -16,7 +16,7 @@ from gazelle.navigation.costmap.cost_grid import (
     Window,
     occupancy_of_costs,
 )
-from gazelle.navigation.costmap.costmap_options import (
+from gazelle.navigation.costmap.costmap_parameters import (
     LAYER_TYPES,
     REFUSED_LAYERS,
     CostmapOptions,

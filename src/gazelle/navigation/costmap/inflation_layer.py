@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.navigation.costmap.cost_grid import INSCRIBED, LETHAL, CostGrid, Window
-from gazelle.navigation.costmap.costmap_options import InflationOptions
+from gazelle.navigation.costmap.costmap_parameters import InflationOptions
 from gazelle.navigation.costmap.footprint import Footprint
 
 __all__ = ["InflationLayer", "inflated", "inflation_costs"]

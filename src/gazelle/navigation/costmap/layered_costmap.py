@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.costmap.cost_grid import FREE, UNKNOWN, CostGrid, Window
-from gazelle.navigation.costmap.costmap_options import CostmapOptions
+from gazelle.navigation.costmap.costmap_parameters import CostmapOptions
 from gazelle.navigation.costmap.footprint import Footprint
 from gazelle.navigation.costmap.inflation_layer import InflationLayer
 from gazelle.navigation.costmap.obstacle_layer import Observation, ObstacleLayer, copy_overlap

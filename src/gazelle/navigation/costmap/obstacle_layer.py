@@ -11,7 +11,11 @@ from numpy.typing import NDArray
 from gazelle.mapping.laser_scan import Scan
 from gazelle.mapping.se2 import compose, transform_points
 from gazelle.navigation.costmap.cost_grid import FREE, UNKNOWN, CostGrid, Window
-from gazelle.navigation.costmap.costmap_options import ObstacleOptions, SourceOptions, VoxelOptions
+from gazelle.navigation.costmap.costmap_parameters import (
+    ObstacleOptions,
+    SourceOptions,
+    VoxelOptions,
+)
 from gazelle.navigation.costmap.footprint import Footprint
 
 __all__ = ["Observation", "ObstacleLayer", "observation_of_scan"]

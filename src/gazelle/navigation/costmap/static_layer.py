@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.costmap.cost_grid import FREE, LETHAL, UNKNOWN, CostGrid, Window
-from gazelle.navigation.costmap.costmap_options import StaticOptions
+from gazelle.navigation.costmap.costmap_parameters import StaticOptions
 from gazelle.navigation.costmap.footprint import Footprint
 
 __all__ = ["StaticLayer", "costs_of_map"]

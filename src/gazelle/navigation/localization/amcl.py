@@ -11,7 +11,7 @@ from scipy.ndimage import label
 
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.laser_scan import Scan
-from gazelle.navigation.localization.amcl_options import AmclOptions
+from gazelle.navigation.localization.amcl_parameters import AmclOptions
 from gazelle.navigation.localization.beam_refinement import Refiner
 from gazelle.navigation.localization.global_localization import chances_of, places_like
 from gazelle.navigation.localization.laser_model import (

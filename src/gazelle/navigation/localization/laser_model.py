@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.mapping.laser_scan import Scan
-from gazelle.navigation.localization.amcl_options import AmclOptions
+from gazelle.navigation.localization.amcl_parameters import AmclOptions
 
 __all__ = ["BeamTerms", "Beams", "LikelihoodMap", "MapFrame", "ScanModel", "chosen_beams"]
 

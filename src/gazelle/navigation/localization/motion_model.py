@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.navigation.localization.amcl_options import AmclOptions
+from gazelle.navigation.localization.amcl_parameters import AmclOptions
 
 __all__ = ["MOTION_MODELS", "moved"]
 

@@ -10,7 +10,7 @@ from gazelle.navigation.planners.planner import (
     PlannerKind,
     PlannerOptions,
 )
-from gazelle.navigation.planners.planner_options import (
+from gazelle.navigation.planners.planner_parameters import (
     GlobalPlannerOptions,
     Nav2NavfnOptions,
     NavfnOptions,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Protocol
 
-from gazelle.navigation.planners import searches
+from gazelle.navigation.planners import global_planners
 from gazelle.navigation.planners.planner import Facing, PlannerKind, PlannerOptions
-from gazelle.navigation.planners.planner_options import (
+from gazelle.navigation.planners.planner_parameters import (
     GlobalPlannerOptions,
     Nav2NavfnOptions,
     NavfnOptions,
@@ -53,26 +53,26 @@ def _outlined(options: GlobalPlannerOptions) -> bool:
 
 
 _NAVFN = PlannerKind(
-    NavfnOptions, searches.navfn, tolerance_m=_default_tolerance_m, is_walled=_always
+    NavfnOptions, global_planners.navfn, tolerance_m=_default_tolerance_m, is_walled=_always
 )
 _GLOBAL = PlannerKind(
-    GlobalPlannerOptions, searches.global_planner, is_walled=_outlined, facing=_turned
+    GlobalPlannerOptions, global_planners.global_planner, is_walled=_outlined, facing=_turned
 )
 _NAV2_NAVFN = PlannerKind(
     Nav2NavfnOptions,
-    searches.nav2_navfn,
+    global_planners.nav2_navfn,
     tolerance_m=_tolerance_m,
     is_walled=_always,
     facing=_facing,
 )
 _SMAC = PlannerKind(
     Smac2DOptions,
-    searches.smac_2d,
+    global_planners.smac_2d,
     "the path is smoothed by the same forces, not the same code",
     tolerance_m=_tolerance_m,
     facing=_facing,
 )
-_THETA = PlannerKind(ThetaStarOptions, searches.any_angle, facing=_facing)
+_THETA = PlannerKind(ThetaStarOptions, global_planners.any_angle, facing=_facing)
 _HYBRID = (
     "paths of cars with a turning circle are not planned; SmacPlanner2D plans for robots that turn "
     "on the spot"

@@ -18,7 +18,7 @@ from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.hardware.gazebo_system import SystemOptions
 from gazelle.control.hardware.lifecycle import HardwareState, initial_states
 from gazelle.control.hardware.ros2_robot import MOCK_VARIABLE, build_ros2_robot
-from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 from gazelle.control.resource_manager import Robot
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, Severity, did_you_mean, render
@@ -26,8 +26,8 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.link_tree import DESCRIPTION, read_description
 from gazelle.nodes.parameters import number_or_end, private_parameters, start_node
-from gazelle.nodes.robot_description import DESCRIPTION, read_description
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.simulator.command_queue import CommandQueue, telling
 from gazelle.simulator.controller_managers import ControlRegistry

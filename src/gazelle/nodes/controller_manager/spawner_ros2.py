@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NoReturn
 
-from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents.files import is_file
 from gazelle.errors import GraphError, LaunchError

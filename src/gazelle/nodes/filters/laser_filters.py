@@ -15,7 +15,7 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.graph.tf import TransformError
 from gazelle.interfaces import message_type
-from gazelle.navigation.filters import (
+from gazelle.navigation.laser_scans import (
     FILTERS,
     REFUSED_FILTERS,
     FilterSetup,

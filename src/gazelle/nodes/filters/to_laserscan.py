@@ -13,7 +13,7 @@ from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.interfaces.stamps import ns_of
-from gazelle.navigation.filters import CloudSlice, FlatScan, scan_of_depth, scan_of_points
+from gazelle.navigation.laser_scans import CloudSlice, FlatScan, scan_of_depth, scan_of_points
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.navigation.observations import cloud_points
 from gazelle.nodes.navigation.robot_pose import Frames

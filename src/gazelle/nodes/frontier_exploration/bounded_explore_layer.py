@@ -17,7 +17,7 @@ from gazelle.mapping.frontiers import Frontier, are_inside, find_frontiers
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.costmap import CostGrid, ObstacleLayer, occupancy_of_costs
 from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
-from gazelle.nodes.navigation.costmap_parameters import assemble
+from gazelle.nodes.navigation.costmap_from_parameters import assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
 from gazelle.nodes.parameters import node_reader

@@ -27,7 +27,7 @@ from gazelle.nodes.move_base.state_machine import (
     Timing,
 )
 from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
-from gazelle.nodes.navigation.costmap_parameters import INHERITED, assemble
+from gazelle.nodes.navigation.costmap_from_parameters import INHERITED, assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
 from gazelle.nodes.navigation.simple_action_server import SimpleActionServer

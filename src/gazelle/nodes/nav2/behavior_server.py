@@ -16,7 +16,7 @@ from gazelle.interfaces.stamps import ns_of, set_stamp
 from gazelle.navigation.costmap import CostGrid, Footprint, footprint_cost
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.costmap_node import grid_of_costmap, outline_in_base
-from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
+from gazelle.nodes.nav2.lifecycle_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import BEHAVIOR_SERVER
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose
 from gazelle.nodes.navigation.simple_action_server import SimpleActionServer

@@ -18,11 +18,11 @@ from gazelle.interfaces import action_type, message_type
 from gazelle.interfaces.poses import set_plane_pose
 from gazelle.interfaces.stamps import set_header, set_stamp
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.behavior_trees.graph_interface import GraphInterface
+from gazelle.nodes.nav2.behavior_trees.ros_client import GraphInterface
 from gazelle.nodes.nav2.behavior_trees.ros_interface import path_length_m, plane_pose
 from gazelle.nodes.nav2.behavior_trees.tree_node import Blackboard, Status, TreeNode
 from gazelle.nodes.nav2.behavior_trees.xml_parsing import TreeFile, build_tree, read_trees
-from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
+from gazelle.nodes.nav2.lifecycle_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import BT_NAVIGATOR
 from gazelle.nodes.navigation.robot_pose import Frames, Odometry
 from gazelle.nodes.navigation.simple_action_server import SimpleActionServer

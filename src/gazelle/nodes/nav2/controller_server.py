@@ -25,7 +25,7 @@ from gazelle.navigation.controllers import (
     RobotState,
 )
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
+from gazelle.nodes.nav2.lifecycle_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import (
     CONTROLLER_SERVER,
     GOAL_CHECKERS,

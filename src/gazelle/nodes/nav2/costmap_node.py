@@ -17,7 +17,7 @@ from gazelle.navigation.costmap import CostGrid
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.log_output import print_ros2
 from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
-from gazelle.nodes.navigation.costmap_parameters import assemble
+from gazelle.nodes.navigation.costmap_from_parameters import assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.robot_pose import Frames
 from gazelle.nodes.parameters import offer_parameters, tree_of_node

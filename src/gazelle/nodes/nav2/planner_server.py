@@ -24,7 +24,7 @@ from gazelle.navigation.planners import (
     make_plan,
 )
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
+from gazelle.nodes.nav2.lifecycle_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import PLANNER_SERVER, planner_table
 from gazelle.nodes.navigation.robot_pose import PlanePose, path_message
 from gazelle.nodes.navigation.simple_action_server import SimpleActionServer

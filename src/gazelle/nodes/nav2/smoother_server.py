@@ -18,7 +18,7 @@ from gazelle.interfaces.stamps import set_stamp
 from gazelle.navigation.costmap import INSCRIBED, UNKNOWN, CostGrid
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.nav2.costmap_node import grid_of_costmap
-from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
+from gazelle.nodes.nav2.lifecycle_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import SMOOTHER, SMOOTHER_SERVER
 from gazelle.nodes.navigation.robot_pose import path_message
 from gazelle.nodes.navigation.simple_action_server import SimpleActionServer

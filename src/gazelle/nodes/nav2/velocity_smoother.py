@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.managed_server import ManagedServer, ServerSetup, run_server
+from gazelle.nodes.nav2.lifecycle_server import ManagedServer, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import VELOCITY_SMOOTHER
 from gazelle.nodes.navigation.robot_pose import Odometry
 from gazelle.nodes.parameters import ticks

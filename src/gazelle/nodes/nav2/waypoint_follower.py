@@ -12,7 +12,7 @@ from gazelle.graph import Graph, TimeJumpError
 from gazelle.graph.actions import ActionClient, ServerGoal
 from gazelle.interfaces import action_type, message_type
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.nav2.managed_server import ManagedServer, ServedAction, ServerSetup, run_server
+from gazelle.nodes.nav2.lifecycle_server import ManagedServer, ServedAction, ServerSetup, run_server
 from gazelle.nodes.nav2.parameters import WAYPOINT_FOLLOWER
 from gazelle.nodes.navigation.simple_action_server import SimpleActionServer
 from gazelle.parameters.reader import ParameterReader

@@ -22,7 +22,7 @@ from gazelle.navigation.costmap import (
     Window,
 )
 from gazelle.nodes.map_server.occupancy_grid import grid_of_message
-from gazelle.nodes.navigation.costmap_parameters import Assembly
+from gazelle.nodes.navigation.costmap_from_parameters import Assembly
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher
 from gazelle.nodes.navigation.observations import MESSAGE_TYPES, observation_of
 from gazelle.nodes.navigation.robot_pose import Frames, PlanePose

@@ -19,7 +19,7 @@ from gazelle.nodes.nav2.collision_monitor.parameters import (
     SOURCE,
     SUB_POLYGON,
 )
-from gazelle.nodes.navigation.costmap_parameters import COSTMAP_TABLES
+from gazelle.nodes.navigation.costmap_from_parameters import COSTMAP_TABLES
 from gazelle.parameters import ParameterTable
 from gazelle.parameters.markdown import table_section
 

@@ -16,7 +16,7 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_pose, set_xyz
 from gazelle.interfaces.stamps import ns_of, set_header
-from gazelle.navigation.filters.ekf import Ekf
+from gazelle.navigation.localization.ekf import Ekf
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import parameter_tree, private_parameters, start_node, ticks
 from gazelle.nodes.robot_localization.fusion import (

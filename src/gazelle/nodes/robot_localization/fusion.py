@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from gazelle.geometry import Pose, unit_quat_xyzw
 from gazelle.graph.tf import StampedPose, TransformBroadcaster
 from gazelle.interfaces.poses import quat_xyzw_of, unit_pose_of
-from gazelle.navigation.filters.ekf import Ekf, rotation_of
+from gazelle.navigation.localization.ekf import Ekf, rotation_of
 from gazelle.nodes.navigation.robot_pose import Frames
 
 if TYPE_CHECKING:

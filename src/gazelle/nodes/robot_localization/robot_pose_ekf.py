@@ -12,7 +12,7 @@ from gazelle.graph import Graph, Node
 from gazelle.interfaces import message_type
 from gazelle.interfaces.poses import set_pose
 from gazelle.interfaces.stamps import ns_of, set_header
-from gazelle.navigation.filters.ekf import Ekf
+from gazelle.navigation.localization.ekf import Ekf
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.parameters import private_parameters, start_node, ticks
 from gazelle.nodes.robot_localization.fusion import Fusion, measure_imu, measure_pose

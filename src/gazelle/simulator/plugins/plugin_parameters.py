@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.control.parameter_sources.ros2_node_parameters import read_ros_arguments
+from gazelle.control.parameter_sources.ros2_controller_parameters import read_ros_arguments
 from gazelle.description.model import PluginTag
 from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import bool_from, floats_from

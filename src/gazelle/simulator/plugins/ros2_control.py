@@ -18,7 +18,7 @@ from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTabl
 
 if TYPE_CHECKING:
     from gazelle.control.hardware.gazebo_system import SystemOptions
-    from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+    from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 
 __all__ = ["GZ_TABLE", "TABLE", "load", "load_gz"]
 
@@ -194,7 +194,7 @@ def _load(context: PluginContext, parameters: PluginReader, *, is_gz: bool) -> N
 
 def _described(context: PluginContext, parameters: PluginReader, namespace: str) -> Model:
     """Return the model, with the blocks of the parameter store where it has none, as from SDF."""
-    from gazelle.control.hardware.robot_description import read_ros2_controls
+    from gazelle.control.hardware.control_description import read_ros2_controls
 
     model, store = context.model, context.host.node.parameters
     name, node = parameters.text("robot_param"), parameters.text("robot_param_node")
@@ -223,7 +223,7 @@ def _options(parameters: PluginReader, *, is_gz: bool, rate_hz: float) -> System
 def _source(
     context: PluginContext, parameters: PluginReader, namespace: str, manager: str
 ) -> FileSource:
-    from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+    from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 
     controls = context.host.controls
     named = (*parameters.texts("parameters"), *parameters.ros.parameter_files)

@@ -16,8 +16,8 @@ from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTabl
 
 if TYPE_CHECKING:
     from gazelle.control.controller_manager import ControllerManager
+    from gazelle.control.hardware.control_description import ControlDescription
     from gazelle.control.hardware.default_robot_hw_sim import DefaultRobotHWSim
-    from gazelle.control.hardware.robot_description import ControlDescription
     from gazelle.control.resource_manager import Robot
 
 __all__ = ["DEFAULT_ROBOT_SIM", "OF_2011", "TABLE", "load"]
@@ -186,7 +186,7 @@ def _robot(context: PluginContext, parameters: PluginReader, namespace: str) -> 
 
 def _gains_namespace(context: PluginContext, parameters: PluginReader, namespace: str) -> str:
     """Return where the gains lie: in Kinetic and Melodic they are outside the namespace."""
-    from gazelle.control.hardware.ros1_joints import GAINS_NAME
+    from gazelle.control.hardware.ros1_joint_setup import GAINS_NAME
 
     if parameters.has("legacyModeNS"):
         return "" if parameters.flag("legacyModeNS") else namespace
@@ -198,7 +198,7 @@ def _gains_namespace(context: PluginContext, parameters: PluginReader, namespace
 def _offer_gains(context: PluginContext, manager: ControllerManager, namespace: str) -> None:
     """Let the gains of joints be changed while the robot runs, by dynamic_reconfigure."""
     from gazelle.control.controllers.controller import ControllerContext
-    from gazelle.control.hardware.ros1_joints import gains_parameters
+    from gazelle.control.hardware.ros1_joint_setup import gains_parameters
     from gazelle.control.pid import offer_live_gains
     from gazelle.simulator.controller_node import make_ports
 
@@ -229,7 +229,7 @@ def _description(
     context: PluginContext, parameters: PluginReader, namespace: str
 ) -> ControlDescription | None:
     """Return the description in the parameter store; None when it is not this robot's."""
-    from gazelle.control.hardware.robot_description import read_description
+    from gazelle.control.hardware.control_description import read_description
 
     name = parameters.text("robotParam")
     parts = [part for part in namespace.split("/") if part]

@@ -28,8 +28,8 @@ from gazelle.sensors.scene_json_types import (
     ShapeValue,
     SphereGeometry,
 )
-from gazelle.simulator.viewing.properties import PropertyRow
-from gazelle.simulator.viewing.scene_broadcaster import WorldStats
+from gazelle.simulator.gui.properties import PropertyRow
+from gazelle.simulator.gui.scene_broadcaster import WorldStats
 from gazelle.studio.bags.methods import BagState
 from gazelle.studio.bags.player import BagTopic, PlayerState
 from gazelle.studio.bags.recorder import RecorderState

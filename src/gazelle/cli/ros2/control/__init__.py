@@ -7,7 +7,7 @@ import sys
 
 from gazelle.cli.error_text import error_text
 from gazelle.cli.ros2.verbs import add_verbs
-from gazelle.cli.tool import ToolError, join_graph
+from gazelle.cli.ros_tool import ToolError, join_graph
 from gazelle.errors import GraphError
 from gazelle.nodes.controller_manager.client import ManagerClient
 from gazelle.ros_arguments import split_arguments

@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from gazelle.cli.tool import ToolError
-from gazelle.control.parameter_sources.ros2_node_parameters import FileSource
+from gazelle.cli.ros_tool import ToolError
+from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.nodes.controller_manager.client import BEST_EFFORT, STRICT, ManagerClient
 

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from gazelle.cli.tool import ToolError
+from gazelle.cli.ros_tool import ToolError
 from gazelle.nodes.controller_manager.client import ManagerClient
 
 __all__ = ["diagram", "view_controller_chains"]

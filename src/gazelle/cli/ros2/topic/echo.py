@@ -17,11 +17,11 @@ from gazelle.cli.ros2.topic.qos import (
     warn_of_incompatible,
 )
 from gazelle.cli.ros2.verbs import add_strategy_arguments, non_negative_int, positive_float
+from gazelle.cli.ros_tool import ToolError, hint
 from gazelle.cli.ros_types import ros2_message_class, stated_message_class
 from gazelle.cli.rostopic.echo import expression
 from gazelle.cli.text.fields import FieldError, Step, field_value, parse_path
 from gazelle.cli.text.ros2_text import Shortening, message_csv, message_yaml, value_text
-from gazelle.cli.tool import ToolError, hint
 from gazelle.errors import NotFoundError
 from gazelle.graph import Graph, Kind, MessageInfo, Qos
 from gazelle.interfaces import FieldType, Message, message_type

@@ -12,12 +12,12 @@ from typing import Any
 
 from gazelle.cli.ros2.graph import cli_node, full_name, graph_of_ros2, wait_for_type
 from gazelle.cli.ros2.verbs import add_direct_arguments, positive_int
+from gazelle.cli.ros_tool import ToolError
 from gazelle.cli.ros_types import ros2_message_class
 from gazelle.cli.rostopic.bw import BandwidthMeter
 from gazelle.cli.rostopic.delay import DelayMeter
 from gazelle.cli.rostopic.echo import expression
 from gazelle.cli.rostopic.hz import RateMeter, rate_table
-from gazelle.cli.tool import ToolError
 from gazelle.graph import RawMessage
 from gazelle.interfaces.stamps import seconds_of
 

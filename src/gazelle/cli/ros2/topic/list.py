@@ -7,7 +7,7 @@ import sys
 
 from gazelle.cli.ros2.graph import graph_of_ros2, types_by_name
 from gazelle.cli.ros2.verbs import add_strategy_arguments, fail
-from gazelle.cli.tool import hint
+from gazelle.cli.ros_tool import hint
 from gazelle.graph import Entity, Graph, Kind
 from gazelle.graph.key_expressions import entity_gid, token
 from gazelle.graph.names import split

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 from gazelle.cli.ros2.graph import cli_node, full_name, graph_of_ros2, types_by_name
 from gazelle.cli.ros2.topic.qos import add_qos_arguments, chosen_profile
 from gazelle.cli.ros2.verbs import add_direct_arguments, non_negative_int, positive_float
+from gazelle.cli.ros_tool import ToolError
 from gazelle.cli.ros_types import stated_message_class
 from gazelle.cli.text.fill_message import filled, yaml_values
 from gazelle.cli.text.ros2_text import message_repr
-from gazelle.cli.tool import ToolError
 from gazelle.errors import GraphError
 from gazelle.graph import Graph, Kind, Publisher, TimeJumpError
 from gazelle.interfaces import Message

@@ -51,7 +51,7 @@ _MODULES = {
     "util.proc_lookup": proc_lookup,
 }
 try:
-    from gazelle.testing import launch_test_plugin as _hooks
+    from gazelle.testing import launch_testing_plugin as _hooks
 except ModuleNotFoundError as _error:
     # Launch tests of unittest run without pytest.
     if _error.name != "pytest":

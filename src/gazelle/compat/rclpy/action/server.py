@@ -9,8 +9,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle.compat.rclpy.callback_groups import CallbackGroup
-from gazelle.compat.rclpy.endpoints import check_type
 from gazelle.compat.rclpy.executors import Once
+from gazelle.compat.rclpy.publisher_subscription_service import check_type
 from gazelle.compat.rclpy.qos import (
     QoSProfile,
     qos_profile_action_status_default,

@@ -6,8 +6,8 @@ import functools
 from collections.abc import Callable
 from typing import Any
 
-from gazelle.compat.rclpy.endpoints import Publisher
 from gazelle.compat.rclpy.lifecycle.states import LifecycleState, TransitionCallbackReturn
+from gazelle.compat.rclpy.publisher_subscription_service import Publisher
 
 __all__ = ["LifecyclePublisher", "ManagedEntity", "SimpleManagedEntity"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import Scope
+from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_semantics import Scope
 from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph import (
     pose_in_scope,
     relative_graph,

@@ -25,7 +25,7 @@ from gazelle.description.sdformat_emulation.parser_urdf.link_elements import (
     add_inertial,
     add_visuals,
 )
-from gazelle.description.sdformat_emulation.parser_urdf.lumping import (
+from gazelle.description.sdformat_emulation.parser_urdf.reduce_fixed_joints import (
     EndlessRobotError,
     is_reduced,
     lump_fixed_joints,

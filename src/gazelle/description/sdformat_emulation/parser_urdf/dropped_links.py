@@ -17,7 +17,7 @@ from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import
     Extensions,
     read_extensions,
 )
-from gazelle.description.sdformat_emulation.parser_urdf.lumping import (
+from gazelle.description.sdformat_emulation.parser_urdf.reduce_fixed_joints import (
     EndlessRobotError,
     lump_fixed_joints,
 )

@@ -11,7 +11,7 @@ from gazelle.description.sdformat_emulation.parser_urdf.gazebo_extensions import
     Extensions,
 )
 from gazelle.description.sdformat_emulation.parser_urdf.link_elements import pose_text
-from gazelle.description.sdformat_emulation.parser_urdf.lumping import is_lumped
+from gazelle.description.sdformat_emulation.parser_urdf.reduce_fixed_joints import is_lumped
 from gazelle.description.sdformat_emulation.parser_urdf.robot import Joint, Limits, Link, Mimic
 from gazelle.description.sdformat_emulation.release import Release
 

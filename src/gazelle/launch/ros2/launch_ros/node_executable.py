@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan
 from gazelle.launch.environment import command_folder
-from gazelle.launch.executables import Executable as FoundExecutable
-from gazelle.launch.executables import find_executable, script_command
+from gazelle.launch.node_commands import Executable as FoundExecutable
+from gazelle.launch.node_commands import find_executable, script_command
 from gazelle.launch.ros2.descriptions import Executable
 from gazelle.launch.ros2.error_diagnostics import with_diagnostic
 from gazelle.launch.ros2.substitutions import SubstitutionFailure

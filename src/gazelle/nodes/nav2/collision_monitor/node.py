@@ -27,7 +27,7 @@ from gazelle.nodes.nav2.collision_monitor.polygons import (
 )
 from gazelle.nodes.nav2.collision_monitor.sources import Source, WorldFrames
 from gazelle.nodes.nav2.costmap_node import outline_in_base
-from gazelle.nodes.nav2.managed_server import ServerSetup, run_server
+from gazelle.nodes.nav2.lifecycle_server import ServerSetup, run_server
 from gazelle.nodes.navigation.robot_pose import Frames
 from gazelle.nodes.parameters import log_findings, node_reader, offer_parameters
 from gazelle.nodes.twist_publisher import TwistPublisher

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import Graph, Kind, Scope
+from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_semantics import Graph, Kind, Scope
 from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
     Frame,
     ModelScope,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Set
 from functools import reduce
 
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import (
+from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_semantics import (
     Edge,
     Graph,
     Kind,

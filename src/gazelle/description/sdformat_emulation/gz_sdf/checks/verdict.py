@@ -13,7 +13,7 @@ from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_attached_to_grap
     attached_graph,
     body_of,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_graph import Kind, Scope
+from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_semantics import Kind, Scope
 from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph import (
     check_places,
     relative_graph,
