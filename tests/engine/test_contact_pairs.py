@@ -21,7 +21,8 @@ from gazelle.description.model import (
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
 from gazelle.engine.contact_pairs import CollisionKind, assign_groups, may_touch
-from gazelle.engine.contact_springs import combine, contact_spring
+from gazelle.engine.contact_springs import contact_spring
+from gazelle.engine.surface_combination import combine
 from gazelle.geometry import Pose
 
 CUBE = Collision("c", Box((0.2, 0.2, 0.2)))

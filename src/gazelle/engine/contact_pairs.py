@@ -22,20 +22,12 @@ from typing import Any, NamedTuple
 
 from gazelle.description.model import Link, Model, Plane
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.contact_springs import (
-    HARD_SOLIMP,
-    RESOLVED,
-    PairSurface,
-    combine,
-    contact_spring,
-    hard_spring,
-    is_plain,
-    surface_key,
-)
+from gazelle.engine.contact_springs import HARD_SOLIMP, RESOLVED, contact_spring, hard_spring
 from gazelle.engine.friction import MIN_MU, least_friction, report_friction_direction
 from gazelle.engine.kinematic_tree import KinematicTree
 from gazelle.engine.mjspec_builder import BuiltGeom, SpecBuilder
 from gazelle.engine.scoped_names import scoped
+from gazelle.engine.surface_combination import PairSurface, combine, is_plain, surface_key
 
 __all__ = [
     "EVERY_MASK",

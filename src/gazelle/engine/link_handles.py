@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.state import Acceleration, Velocity
-from gazelle.geometry import Pose, cross
+from gazelle.geometry import Pose, Vector3, cross
 
 if TYPE_CHECKING:
     from gazelle.description.model import Link
@@ -20,7 +20,6 @@ __all__ = ["LinkHandle", "TimedWrench", "WrenchTable"]
 
 
 Array = NDArray[np.float64]
-Vector3 = tuple[float, float, float]
 _ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gazelle.description.model import Joint, JointAxis, JointType
 from gazelle.engine.mujoco_library import mujoco
 from gazelle.engine.scoped_names import joint_part, root_joint, scoped
-from gazelle.geometry import Pose
+from gazelle.geometry import Pose, Vector3
 
 __all__ = [
     "INFINITE_LIMIT",
@@ -30,7 +30,6 @@ __all__ = [
 INFINITE_LIMIT = 1e10
 """Limits beyond this mean none (SDF writes 1e16)."""
 
-Vector3 = tuple[float, float, float]
 Value = TypeVar("Value", float, NDArray[np.float64])
 
 _PARALLEL = 1e-2

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.geometry.pose import IDENTITY_POSE, Pose
+from gazelle.geometry.pose import IDENTITY_POSE, Pose, Vector3
 
 __all__ = [
     "Inertia6",
@@ -21,7 +21,6 @@ __all__ = [
     "legalised_inertia",
 ]
 
-Vector3 = tuple[float, float, float]
 Inertia6 = tuple[float, float, float, float, float, float]
 
 _SLACK = 1e-6

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.errors import GazelleError
+from gazelle.geometry.pose import Vector3
 from gazelle.geometry.vertex_normals import (
     face_normals,
     group_points,
@@ -32,8 +33,6 @@ __all__ = [
 
 
 Rgba = tuple[float, float, float, float]
-
-Vector3 = tuple[float, float, float]
 
 
 class MeshError(GazelleError):

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 from gazelle.geometry.mass_properties import MassProperties
+from gazelle.geometry.pose import Vector3
 
 __all__ = [
     "box_mass_properties",
@@ -27,8 +28,6 @@ __all__ = [
     "sphere_mass_properties",
     "spherical_shell_mass_properties",
 ]
-
-Vector3 = tuple[float, float, float]
 
 
 def box_mass_properties(mass_kg: float, size_m: Vector3) -> MassProperties:

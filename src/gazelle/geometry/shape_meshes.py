@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.geometry.mesh import MeshPart, part_from_corners, part_from_soup
 from gazelle.geometry.polygon_triangulation import triangulate
+from gazelle.geometry.pose import Vector3
 from gazelle.geometry.vertex_normals import group_points
 
 __all__ = [
@@ -24,7 +25,6 @@ __all__ = [
     "sphere_mesh",
 ]
 
-Vector3 = tuple[float, float, float]
 Outline = Sequence[tuple[float, float]]
 Array = NDArray[np.float64]
 SEGMENTS = 32

@@ -18,21 +18,15 @@ from gazelle.sensors.camera import CameraRecord, render
 from gazelle.sensors.contact import ContactRecord, link_wrenches, watched_contacts
 from gazelle.sensors.depth import POINT_DTYPE, depth_image, point_cloud
 from gazelle.sensors.distortion import distort, is_distorting
-from gazelle.sensors.earth_sensors import (
-    AltimeterRecord,
+from gazelle.sensors.embree import EmbreeError
+from gazelle.sensors.force_torque import JointLoad, WrenchRecord, force_torque_reading
+from gazelle.sensors.geodesy import (
     GeodeticPosition,
-    MagnetometerRecord,
-    PressureRecord,
-    air_pressure_pa,
-    altitude_change_m,
     classic_origin,
     enu_vector,
     geodetic_position,
     local_position,
-    magnetic_field,
 )
-from gazelle.sensors.embree import EmbreeError
-from gazelle.sensors.force_torque import JointLoad, WrenchRecord, force_torque_reading
 from gazelle.sensors.gps import (
     GpsRecord,
     flat_earth_position,
@@ -44,6 +38,14 @@ from gazelle.sensors.imu import ImuRecord, LinkMotion, imu_noise, imu_reading
 from gazelle.sensors.intrinsics import Intrinsics, camera_intrinsics
 from gazelle.sensors.kernel_warm_up import warm_up
 from gazelle.sensors.lidar import LidarRecord, ScanAngles, scan, scan_angles, scene_kind
+from gazelle.sensors.magnetometer_altimeter_barometer import (
+    AltimeterRecord,
+    MagnetometerRecord,
+    PressureRecord,
+    air_pressure_pa,
+    altitude_change_m,
+    magnetic_field,
+)
 from gazelle.sensors.noise_streams import VectorNoise, noise_stream, picture_noise
 from gazelle.sensors.ray_scene import RayScene
 from gazelle.sensors.row_threads import default_threads

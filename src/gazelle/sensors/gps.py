@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import GpsSpec, SphericalCoordinates
-from gazelle.sensors.earth_sensors import (
+from gazelle.geometry import Vector3
+from gazelle.sensors.geodesy import (
     GeodeticPosition,
     curvature_radii_m,
     enu_vector,
@@ -19,7 +20,6 @@ from gazelle.sensors.noise_streams import VectorNoise
 
 __all__ = ["GpsRecord", "flat_earth_position", "gps_noise", "gps_reading", "north_west_up"]
 
-Vector3 = tuple[float, float, float]
 Array = NDArray[np.float64]
 
 

@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.model import ImuSpec
-from gazelle.geometry import IDENTITY_POSE, Pose, cross, quat_xyzw_from_rpy
+from gazelle.geometry import IDENTITY_POSE, Pose, Vector3, cross, quat_xyzw_from_rpy
 from gazelle.sensors.noise_streams import VectorNoise
 
 __all__ = ["ImuRecord", "LinkMotion", "imu_noise", "imu_reading"]
 
-Vector3 = tuple[float, float, float]
 QuatXyzw = tuple[float, float, float, float]
 
 _ENU: QuatXyzw = (0.0, 0.0, 0.0, 1.0)

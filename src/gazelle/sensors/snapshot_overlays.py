@@ -24,12 +24,11 @@ from gazelle.description.model import (
     World,
 )
 from gazelle.diagnostics import Diagnostics
-from gazelle.geometry import IDENTITY_POSE, Pose, cross, inertia_matrix
+from gazelle.geometry import IDENTITY_POSE, Pose, Vector3, cross, inertia_matrix
 from gazelle.sensors.ray_scene import RayScene
 
 __all__ = ["OVERLAYS", "equivalent_box", "overlay_world", "scene_points"]
 
-Vector3 = tuple[float, float, float]
 
 OVERLAYS = ("collisions", "inertia", "com", "joints", "frames")
 """In the order in which they are painted."""

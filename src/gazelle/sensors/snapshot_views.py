@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 from gazelle.description.model import CameraSpec
 from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
-from gazelle.geometry import Pose
+from gazelle.geometry import Pose, Vector3
 from gazelle.sensors.intrinsics import camera_intrinsics
 
 __all__ = ["VIEWS", "Shot", "camera_spec", "fitting_camera", "looking_at", "view_direction"]
 
-Vector3 = tuple[float, float, float]
 
 VIEWS: dict[str, Vector3] = {
     "front": (1.0, 0.0, 0.0),

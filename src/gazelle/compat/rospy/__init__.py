@@ -11,6 +11,7 @@ from gazelle.compat.rospy.exceptions import *  # noqa: F403
 from gazelle.compat.rospy.log import *  # noqa: F403
 from gazelle.compat.rospy.rostime import *  # noqa: F403
 from gazelle.compat.rospy.services import *  # noqa: F403
+from gazelle.compat.rospy.timer import *  # noqa: F403
 from gazelle.compat.rospy.topics import *  # noqa: F403
 from gazelle.interfaces import AnyMsg
 from gazelle.interfaces import Ros1Message as Message

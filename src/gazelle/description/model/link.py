@@ -8,11 +8,9 @@ from enum import Enum
 from gazelle.description.model.sensor import Sensor
 from gazelle.description.model.shape import Material, Rgba, Shape
 from gazelle.diagnostics import SourceSpan
-from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.geometry import IDENTITY_POSE, Pose, Vector3
 
 __all__ = ["Collision", "Inertial", "Light", "LightType", "Link", "Surface", "Visual"]
-
-Vector3 = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)

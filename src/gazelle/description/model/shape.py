@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
 from gazelle.diagnostics import SourceSpan
+from gazelle.geometry import Vector3
 from gazelle.geometry.mass_properties import MassProperties
 from gazelle.geometry.mesh import MeshPart
 from gazelle.geometry.shape_inertia import (
@@ -52,7 +53,6 @@ __all__ = [
     "thickened",
 ]
 
-Vector3 = tuple[float, float, float]
 Rgba = tuple[float, float, float, float]
 # Gazebo takes lengths up to the first one for 0, and the second one in their place.
 _NOTHING_M = 1e-6

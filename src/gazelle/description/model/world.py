@@ -11,11 +11,9 @@ from gazelle.description.model.link import Light, Link
 from gazelle.description.model.plugin import PluginTag, Ros2ControlTag, TransmissionTag
 from gazelle.description.model.shape import Rgba
 from gazelle.diagnostics import SourceSpan
-from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.geometry import IDENTITY_POSE, Pose, Vector3
 
 __all__ = ["Frame", "Model", "Physics", "Scene", "SphericalCoordinates", "World"]
-
-Vector3 = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)

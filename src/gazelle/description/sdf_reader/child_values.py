@@ -8,6 +8,7 @@ from typing import cast
 from gazelle.description.model import Rgba
 from gazelle.description.read_context import ReadContext
 from gazelle.description.xml import Tag, bool_from, float_from, floats_from, int_from
+from gazelle.geometry import Vector3
 
 __all__ = [
     "child_bool",
@@ -22,7 +23,6 @@ __all__ = [
     "vector3_from",
 ]
 
-Vector3 = tuple[float, float, float]
 _ZERO: Vector3 = (0.0, 0.0, 0.0)
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]+")
 

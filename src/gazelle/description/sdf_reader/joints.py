@@ -18,11 +18,10 @@ from gazelle.description.sdf_reader.poses import PoseResolver
 from gazelle.description.sdf_reader.sensors import read_sensor
 from gazelle.description.xml import Tag, bool_from, float_from
 from gazelle.diagnostics import did_you_mean
-from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.geometry import IDENTITY_POSE, Pose, Vector3
 
 __all__ = ["JOINT_TYPES", "JointEnds", "joint_type_of", "read_joint"]
 
-Vector3 = tuple[float, float, float]
 _UNLIMITED = 1e16
 _TYPES = (
     JointType.REVOLUTE,

@@ -14,11 +14,10 @@ from gazelle.description.sdf_reader.child_values import child_float, child_int, 
 from gazelle.description.sdf_reader.models import ModelParts, included_model, read_model
 from gazelle.description.sdf_reader.poses import pose_of
 from gazelle.description.xml import Tag
-from gazelle.geometry import Pose
+from gazelle.geometry import Pose, Vector3
 
 __all__ = ["populated"]
 
-Vector3 = tuple[float, float, float]
 _AXES = {"linear-x": 0, "linear-y": 1, "linear-z": 2}
 _SPREADS = ("random", "uniform", "grid", *_AXES)
 _SEED = 0

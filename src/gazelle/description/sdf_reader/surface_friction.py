@@ -14,10 +14,10 @@ from gazelle.description.sdf_reader.child_values import (
     optional_vector3,
 )
 from gazelle.description.xml import Tag, bool_from
+from gazelle.geometry import Vector3
 
 __all__ = ["read_surface"]
 
-Vector3 = tuple[float, float, float]
 _USUAL_DEPTH_M = 0.001
 
 

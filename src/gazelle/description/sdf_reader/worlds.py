@@ -43,14 +43,13 @@ from gazelle.description.sdf_reader.poses import (
 )
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, Severity, did_you_mean
-from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.geometry import IDENTITY_POSE, Pose, Vector3
 
 __all__ = [
     "read_world",
     "report_actor",
 ]
 
-Vector3 = tuple[float, float, float]
 _ENGINES = ("ode", "bullet", "simbody", "dart", "tpe", "ignored")
 _TRUE = ("1", "true")
 _PHYSICS_DEFAULTS = Physics()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from gazelle.description.urdfdom_emulation.values import Origin
+from gazelle.geometry import Vector3
 
 __all__ = [
     "chained",
@@ -18,7 +19,6 @@ __all__ = [
 Quaternion = tuple[float, float, float, float]
 # Nearer to a pitch of 90 degrees than this, only the sum of roll and yaw is known.
 _POLE = 1e-15
-Vector3 = tuple[float, float, float]
 # ignition-math takes a norm up to this for zero.
 _NO_NORM = 1e-6
 # Nearer to a pitch of 90 degrees than this, only the sum of roll and yaw is known.

@@ -8,12 +8,10 @@ from typing import cast
 from gazelle.description.read_context import ReadContext
 from gazelle.description.xml import Tag, floats_from
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
-from gazelle.geometry import IDENTITY_POSE, Pose
+from gazelle.geometry import IDENTITY_POSE, Pose, Vector3
 from gazelle.workspace import Resolved
 
 __all__ = ["check_vocabulary", "find_file", "number_attribute", "origin_of", "vector_attribute"]
-
-Vector3 = tuple[float, float, float]
 
 
 def find_file(uri: str, span: SourceSpan, context: ReadContext) -> Resolved:

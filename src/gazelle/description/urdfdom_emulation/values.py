@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from gazelle.description.urdfdom_emulation.console import Console
 from gazelle.description.urdfdom_emulation.tinyxml import Element
+from gazelle.geometry import Vector3
 
 __all__ = [
     "BadValueError",
@@ -20,7 +21,6 @@ __all__ = [
     "vector_of",
 ]
 
-Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 # A C++ stream skips white space before a number and refuses everything behind it.
 _NUMBER = re.compile(r"[ \t\n\v\f\r]*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")

@@ -8,13 +8,13 @@ from gazelle.description.xml import Tag
 from gazelle.description.xml.numbers import floats_from
 from gazelle.diagnostics import nearest_names
 from gazelle.engine.link_handles import TimedWrench
+from gazelle.geometry import Vector3
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.plugin_parameters import PluginTable
 
 __all__ = ["TABLE", "load"]
 
-Vector3 = tuple[float, float, float]
 
 _ZERO = (0.0, 0.0, 0.0)
 # Of gz.msgs.Entity, and ros_gz_interfaces/Entity with it.

@@ -7,13 +7,13 @@ from typing import Any
 
 from gazelle.diagnostics import did_you_mean
 from gazelle.engine.link_handles import TimedWrench
+from gazelle.geometry import Vector3
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.plugin_parameters import PluginReader, PluginTable
 
 __all__ = ["TABLE", "load"]
 
-Vector3 = tuple[float, float, float]
 
 _FRAMES = ("world", "link")
 _ZERO = (0.0, 0.0, 0.0)

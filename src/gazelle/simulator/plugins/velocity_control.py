@@ -6,14 +6,13 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from gazelle.geometry import Pose
+from gazelle.geometry import Pose, Vector3
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.plugin_parameters import PluginTable
 
 __all__ = ["TABLE", "load"]
 
-Vector3 = tuple[float, float, float]
 Setter = Callable[[Vector3, Vector3], None]
 
 TABLE = PluginTable(

@@ -19,6 +19,7 @@ from gazelle.compat.rospy import (
     log,
     names,
     rostime,
+    timer,
 )
 from gazelle.compat.rospy.client import *  # noqa: F403
 from gazelle.compat.rospy.core import parse_rosrpc_uri
@@ -26,17 +27,17 @@ from gazelle.compat.rospy.exceptions import *  # noqa: F403
 from gazelle.compat.rospy.log import *  # noqa: F403
 from gazelle.compat.rospy.rostime import *  # noqa: F403
 from gazelle.compat.rospy.services import *  # noqa: F403
+from gazelle.compat.rospy.timer import *  # noqa: F403
 from gazelle.compat.rospy.topics import *  # noqa: F403
 
 # Programs also reach for rospy's inner modules by name.
-timer = rostime
 for _name, _module in {
     "client": client,
     "core": core,
     "exceptions": exceptions,
     "names": names,
     "rostime": rostime,
-    "timer": rostime,
+    "timer": timer,
 }.items():
     _sys.modules[f"{__name__}.{_name}"] = _module
 

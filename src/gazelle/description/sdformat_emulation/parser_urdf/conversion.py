@@ -36,6 +36,7 @@ from gazelle.description.sdformat_emulation.release import Release
 from gazelle.description.urdfdom_emulation import element_of, verdict_of_element
 from gazelle.description.urdfdom_emulation.values import quaternion_from_rpy, rpy_from_quaternion
 from gazelle.description.xml import Tag
+from gazelle.geometry import Vector3
 
 __all__ = [
     "Fate",
@@ -50,7 +51,6 @@ __all__ = [
 _WORLD = "world"
 # The library takes masses up to this for none.
 _NO_MASS_KG = 1e-6
-Vector3 = tuple[float, float, float]
 # URDFs are written as this version by both releases; sdformat 12 upgrades it while reading.
 _VERSION = "1.7"
 _CRASH = "Segmentation fault"

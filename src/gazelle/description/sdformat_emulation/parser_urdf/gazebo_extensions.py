@@ -33,6 +33,7 @@ from gazelle.description.urdfdom_emulation.values import (
     rpy_from_quaternion,
 )
 from gazelle.description.xml import Tag
+from gazelle.geometry import Vector3
 
 __all__ = [
     "Blob",
@@ -71,7 +72,6 @@ _DEPRECATED = (
     "Note that cfmDamping is being deprecated by implicitSpringDamper, please replace instances "
     "of cfmDamping with implicitSpringDamper in your model."
 )
-Vector3 = tuple[float, float, float]
 _ZERO: Vector3 = (0.0, 0.0, 0.0)
 _CORRECTED = "ignition::corrected_offsets"
 _PLACED = ("sensor", "projector")

@@ -24,6 +24,7 @@ from gazelle.description.sdformat_emulation.parser_urdf.link_elements import pos
 from gazelle.description.sdformat_emulation.parser_urdf.robot import Inertial, Joint, Link, Robot
 from gazelle.description.sdformat_emulation.release import Release
 from gazelle.description.urdfdom_emulation.values import Origin, rpy_from_quaternion
+from gazelle.geometry import Vector3
 
 __all__ = [
     "EndlessRobotError",
@@ -34,7 +35,6 @@ __all__ = [
 ]
 
 Matrix = list[list[float]]
-Vector3 = tuple[float, float, float]
 # sdformat's LINK_INERTIA_INVALID.
 _CODE = 19
 _PAGE = "http://sdformat.org/tutorials?tut=sdformat_urdf_extensions"

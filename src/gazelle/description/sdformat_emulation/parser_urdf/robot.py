@@ -22,10 +22,10 @@ from gazelle.description.urdfdom_emulation.values import (
     origin_of,
     vector_of,
 )
+from gazelle.geometry import Vector3
 
 __all__ = ["Inertial", "Joint", "Limits", "Link", "Mimic", "Part", "Robot", "Shape", "read_robot"]
 
-Vector3 = tuple[float, float, float]
 Colour = tuple[float, float, float, float]
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _WITHOUT_AXIS = ("floating", "fixed")

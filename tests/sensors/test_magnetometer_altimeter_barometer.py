@@ -8,11 +8,10 @@ import pytest
 
 from gazelle.description.model import SphericalCoordinates
 from gazelle.geometry import Pose
-from gazelle.sensors.earth_sensors import (
+from gazelle.sensors.geodesy import enu_vector, geodetic_position
+from gazelle.sensors.magnetometer_altimeter_barometer import (
     air_pressure_pa,
     altitude_change_m,
-    enu_vector,
-    geodetic_position,
     magnetic_field,
 )
 

@@ -1,41 +1,28 @@
-"""Sensors of where on Earth they are: GPS, magnetometer, altimeter, barometer."""
+"""Places on Earth: WGS 84, and the flat piece of it that a world is (ECEF and ENU)."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
 
 from gazelle.description.model import SphericalCoordinates
-from gazelle.geometry import Pose
+from gazelle.geometry import Vector3
 
 __all__ = [
-    "AltimeterRecord",
     "GeodeticPosition",
-    "MagnetometerRecord",
-    "PressureRecord",
-    "air_pressure_pa",
-    "altitude_change_m",
     "classic_origin",
     "curvature_radii_m",
     "enu_vector",
     "geodetic_position",
     "local_position",
-    "magnetic_field",
 ]
 
-Vector3 = tuple[float, float, float]
 
 _WGS84_A_M = 6378137.0
-_WGS84_F = 1.0 / 298.257223563
-_WGS84_E2 = _WGS84_F * (2.0 - _WGS84_F)
 
-# International standard atmosphere (ISO 2533), as gz-sensors uses it.
-_SEA_PRESSURE_PA, _SEA_TEMPERATURE_K = 101325.0, 288.0
-_LAPSE_K_M, _EXPONENT = 0.0065, 5.2561
+_WGS84_F = 1.0 / 298.257223563
+
+_WGS84_E2 = _WGS84_F * (2.0 - _WGS84_F)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,26 +32,6 @@ class GeodeticPosition:
     latitude_deg: float
     longitude_deg: float
     altitude_m: float
-
-
-class MagnetometerRecord(NamedTuple):
-    """The magnetic field in the sensor's frame, (3,) tesla."""
-
-    field_t: NDArray[np.float64]
-
-
-class AltimeterRecord(NamedTuple):
-    """Height since the start, speed of climbing, and the height in the world at the start."""
-
-    vertical_position_m: float
-    vertical_velocity_m_s: float
-    vertical_reference_m: float
-
-
-class PressureRecord(NamedTuple):
-    """Air pressure, pascal."""
-
-    pressure_pa: float
 
 
 def geodetic_position(position_m: Vector3, origin: SphericalCoordinates) -> GeodeticPosition:
@@ -135,25 +102,6 @@ def enu_vector(vector: Vector3, origin: SphericalCoordinates) -> Vector3:
     x, y, z = vector
     cos_h, sin_h = math.cos(heading), math.sin(heading)
     return (x * cos_h - y * sin_h, x * sin_h + y * cos_h, z)
-
-
-def magnetic_field(field_world_t: Vector3, T_world_sensor: Pose) -> NDArray[np.float64]:
-    """Return the world's magnetic field in the sensor's frame, (3,) tesla."""
-    return np.array(T_world_sensor.inverse().rotate(field_world_t))
-
-
-def altitude_change_m(T_world_sensor: Pose, T_world_start: Pose) -> float:
-    """Return how far an altimeter has risen since it started, metres."""
-    return T_world_sensor.position_m[2] - T_world_start.position_m[2]
-
-
-def air_pressure_pa(altitude_m: float) -> float:
-    """Return the pressure of the standard atmosphere below 11 km, pascal.
-
-    ``101325 · ((288 − 0.0065 h) / 288)^5.2561`` (ISO 2533, gz-sensors' AirPressureSensor).
-    """
-    temperature = _SEA_TEMPERATURE_K - _LAPSE_K_M * altitude_m
-    return float(_SEA_PRESSURE_PA * (temperature / _SEA_TEMPERATURE_K) ** _EXPONENT)
 
 
 def _ecef(latitude: float, longitude: float, altitude_m: float) -> Vector3:
