@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { unit } from '../model/geometry';
 import { colour, flag, num, type Properties, type PropertySpec } from './properties';
-import { InstancePool } from './shapes';
+import { InstancePool } from './instanced_shapes';
 
 const SMALLEST_M = 1e-3;
 const WIDEST_RAD = 1.4;

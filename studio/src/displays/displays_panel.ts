@@ -4,7 +4,7 @@ import { shortType } from '../graph_store';
 import type { JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
-import { activeScene, onActiveScene } from '../scene/active';
+import { activeScene, onActiveScene } from '../scene/active_scene';
 import type { ScenePanel } from '../scene/scene_panel';
 import { button, h, notice, toolbar } from '../widgets/dom';
 import { openMenu } from '../widgets/menu';

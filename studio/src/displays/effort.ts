@@ -6,9 +6,9 @@ import type { JointValue, PageScene } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { asCallError } from '../errors';
 import type { Drawing, Drawer, Site } from './display';
-import { numbers, part, list } from './message';
+import { numbers, part, list } from './message_fields';
 import { flag, num, text } from './properties';
-import { InstancePool } from './shapes';
+import { InstancePool } from './instanced_shapes';
 
 /** RViz's Effort. */
 export const EFFORT: Drawing = {

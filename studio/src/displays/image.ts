@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { Frame } from '../frame';
 import type { JsonObject } from '../json';
 import type { Drawing, Drawer, Site } from './display';
-import { arrayMatrix, numbers, part } from './message';
+import { arrayMatrix, numbers, part } from './message_fields';
 import { PictureBox } from './picture_box';
 import { choice, flag, num } from './properties';
 

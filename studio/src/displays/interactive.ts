@@ -11,7 +11,7 @@ import { freeLabel, label } from '../scene/labels';
 import type { Drawing, Drawer, Site } from './display';
 import { ControlDrag, controlAxis, defaultHandle } from './interactive_controls';
 import { MarkerSet } from './marker_set';
-import { arrayMatrix, poseMatrix } from './message';
+import { arrayMatrix, poseMatrix } from './message_fields';
 import { flag } from './properties';
 
 /** Event types of InteractiveMarkerFeedback. */

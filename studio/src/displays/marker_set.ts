@@ -9,8 +9,8 @@ import {
   type Single,
   type Solid,
 } from './marker_shapes';
-import { poseMatrix, seconds } from './message';
-import { InstancePool } from './shapes';
+import { poseMatrix, seconds } from './message_fields';
+import { InstancePool } from './instanced_shapes';
 
 interface Kept {
   marker: Marker;

@@ -6,7 +6,7 @@ import { material } from '../model/materials';
 import type { ColorRGBA, Marker, Vector3 } from '../generated/messages';
 import { freeLabel, label } from '../scene/labels';
 import { strip, WideLines } from './lines';
-import { poseMatrix } from './message';
+import { poseMatrix } from './message_fields';
 
 export const ARROW = 0,
   CUBE = 1,

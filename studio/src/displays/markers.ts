@@ -3,7 +3,7 @@ import type { MarkerFrame } from '../generated/messages';
 import type { JsonObject } from '../json';
 import type { Drawing, Drawer, Site } from './display';
 import { MarkerSet } from './marker_set';
-import { arrayMatrix } from './message';
+import { arrayMatrix } from './message_fields';
 import { flag } from './properties';
 
 /** RViz's Marker and MarkerArray; like RViz's it also understands arrays on `<topic>_array`. */

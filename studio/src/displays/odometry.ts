@@ -3,9 +3,9 @@ import * as THREE from 'three';
 import type { JsonObject } from '../json';
 import { Covariance, covarianceProperties, type Uncertain } from './covariance';
 import type { Drawing, Drawer, Site } from './display';
-import { arrayMatrix, numbers, part, poseMatrix } from './message';
+import { arrayMatrix, numbers, part, poseMatrix } from './message_fields';
 import { num } from './properties';
-import { PoseShapes, shapeProperties } from './shapes';
+import { PoseShapes, shapeProperties } from './instanced_shapes';
 
 /** RViz's Odometry. */
 export const ODOMETRY: Drawing = {

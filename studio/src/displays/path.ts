@@ -4,9 +4,9 @@ import type { Point, PoseStamped } from '../generated/messages';
 import type { JsonObject } from '../json';
 import type { Drawing, Drawer, Site } from './display';
 import { strip, ThinLines, WideLines } from './lines';
-import { list, part, poseMatrix, vector } from './message';
+import { list, part, poseMatrix, vector } from './message_fields';
 import { choice, colour, num } from './properties';
-import { PoseShapes, shapeProperties } from './shapes';
+import { PoseShapes, shapeProperties } from './instanced_shapes';
 
 /** RViz's Path. */
 export const PATH: Drawing = {

@@ -4,9 +4,9 @@ import { unit } from '../model/geometry';
 import type { JsonObject } from '../json';
 import { Covariance, covarianceProperties } from './covariance';
 import type { Drawing, Drawer, Site } from './display';
-import { list, numbers, part, poseMatrix, vector } from './message';
+import { list, numbers, part, poseMatrix, vector } from './message_fields';
 import { colour, num, type Properties } from './properties';
-import { InstancePool, PoseShapes, shapeProperties } from './shapes';
+import { InstancePool, PoseShapes, shapeProperties } from './instanced_shapes';
 
 /** RViz's Pose. */
 export const POSE: Drawing = {

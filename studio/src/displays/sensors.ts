@@ -3,9 +3,9 @@ import * as THREE from 'three';
 import type { Point } from '../generated/messages';
 import { arrowGeometry, shared, unit } from '../model/geometry';
 import type { Drawing } from './display';
-import { list, part, vector } from './message';
+import { list, part, vector } from './message_fields';
 import { colour, flag, num } from './properties';
-import { InstancePool } from './shapes';
+import { InstancePool } from './instanced_shapes';
 
 const X = new THREE.Vector3(1, 0, 0);
 

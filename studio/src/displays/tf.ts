@@ -4,7 +4,7 @@ import { axesGeometry } from '../model/geometry';
 import { freeLabel, label } from '../scene/labels';
 import type { Drawing, Drawer, Site } from './display';
 import { flag, num } from './properties';
-import { InstancePool } from './shapes';
+import { InstancePool } from './instanced_shapes';
 
 const ARROW_COLOUR = 0xdccf5a;
 

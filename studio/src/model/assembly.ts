@@ -1,7 +1,7 @@
 /** A scene value as objects: kept when the value changes, moved by streams of poses. */
 import * as THREE from 'three';
 import { BodyNode } from './body';
-import { ModeSet, type Mode } from './modes';
+import { ModeSet, type Mode } from './view_modes';
 import type { JointValue, ModelValue, PageScene } from '../generated/messages';
 import type { Pose } from './pose';
 import { place } from './shapes';

@@ -1,6 +1,6 @@
 /** One link as the page draws it: its shapes and what view modes lay over them. */
 import * as THREE from 'three';
-import { MODES, type Mode, type ModeSet } from './modes';
+import { MODES, type Mode, type ModeSet } from './view_modes';
 import { overlay, type Subject } from './overlays';
 import type { JointValue, PageBody } from '../generated/messages';
 import { place, ShapeNode } from './shapes';

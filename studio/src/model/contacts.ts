@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
-import { InstancePool } from '../displays/shapes';
+import { InstancePool } from '../displays/instanced_shapes';
 import { floats } from '../frame';
 import type { View } from '../scene/view';
 import { arrowGeometry, unit } from './geometry';

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { arrowGeometry, axesGeometry, joined, shared, unit } from './geometry';
 import { flat } from './materials';
-import type { Mode } from './modes';
+import type { Mode } from './view_modes';
 import type { JointValue, PageBody } from '../generated/messages';
 import type { Pose } from './pose';
 import { collisionPaint, fix, ShapeNode } from './shapes';

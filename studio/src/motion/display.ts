@@ -3,12 +3,12 @@ import * as THREE from 'three';
 import type { Drawing, Drawer, Site } from '../displays/display';
 import { choice, colour, flag, num, text } from '../displays/properties';
 import { Ghost, paint } from './ghost';
-import { Inverse } from './inverse';
+import { Inverse } from './inverse_kinematics';
 import { SceneObjects } from './object_drawing';
 import { DISPLAY_TIMES } from './player';
 import { groupOf, tipOf, type Positions } from './robot';
 import { SixDof } from './six_dof';
-import { standing } from './standing';
+import { standing } from './robot_pose';
 import { motionStore, type Change, type MotionStore, type Query } from './store';
 
 const RED: [number, number, number] = [1, 0.1, 0.1];

@@ -1,6 +1,6 @@
 /** Messages of MoveIt as the page writes and reads them, in ROS 2's field names. */
 import type * as THREE from 'three';
-import { list, numbers, part, seconds } from '../displays/message';
+import { list, numbers, part, seconds } from '../displays/message_fields';
 import type { Json, JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
 import type { MotionRobot } from '../generated/messages';

@@ -1,13 +1,13 @@
 /** Objects of the planning scene as they are drawn, and the handles that move the chosen one. */
 import * as THREE from 'three';
-import { list, part, poseMatrix } from '../displays/message';
+import { list, part, poseMatrix } from '../displays/message_fields';
 import type { Site } from '../displays/display';
 import type { Json, JsonObject } from '../json';
 import { unit } from '../model/geometry';
 import { paint } from './ghost';
 import { changeObjects, moveOf } from './objects';
 import { SixDof } from './six_dof';
-import { poseOfFrame, standing } from './standing';
+import { poseOfFrame, standing } from './robot_pose';
 import type { MotionStore } from './store';
 
 const SEND_MS = 80;

@@ -1,6 +1,6 @@
 /** Objects of the planning scene as messages: made, moved, removed, held. */
 import type * as THREE from 'three';
-import { list, part } from '../displays/message';
+import { list, part } from '../displays/message_fields';
 import type { MotionMesh } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { poseMessage } from './messages';

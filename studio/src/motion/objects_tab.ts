@@ -1,7 +1,7 @@
 /** The tab Scene Objects: what stands around the robot. */
 import * as THREE from 'three';
 import type { Connection } from '../connection';
-import { part, poseMatrix } from '../displays/message';
+import { part, poseMatrix } from '../displays/message_fields';
 import { inOneLine } from '../errors';
 import type { MotionMesh } from '../generated/messages';
 import type { JsonObject } from '../json';

@@ -2,7 +2,7 @@
 import { DISPLAY_ROWS } from '../generated/displays';
 import type { JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
-import { onActiveScene, scenePanels } from '../scene/active';
+import { onActiveScene, scenePanels } from '../scene/active_scene';
 import type { ScenePanel } from '../scene/scene_panel';
 import { button, h, setText } from '../widgets/dom';
 import '../styles/motion.css';

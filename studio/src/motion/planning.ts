@@ -1,5 +1,5 @@
 /** What the buttons do: plan, execute, both, stop. */
-import { list } from '../displays/message';
+import { list } from '../displays/message_fields';
 import { CallError, inOneLine } from '../errors';
 import type { GraphStore } from '../graph_store';
 import { isObject, numberOf, type Json, type JsonObject } from '../json';

@@ -1,5 +1,5 @@
 /** MoveIt's `.scene` files: names, poses and shapes as lines of words. */
-import { list, part } from '../displays/message';
+import { list, part } from '../displays/message_fields';
 import type { JsonObject } from '../json';
 
 const NAMES: Record<number, string> = { 1: 'box', 2: 'sphere', 3: 'cylinder', 4: 'cone' };

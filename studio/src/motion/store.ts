@@ -2,7 +2,7 @@
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
 import type { GraphValue, MotionRobot } from '../generated/messages';
-import { list } from '../displays/message';
+import { list } from '../displays/message_fields';
 import { inOneLine } from '../errors';
 import { isObject, type Json, type JsonObject } from '../json';
 import { pathOf, robotState, type PlannedPath } from './messages';

@@ -1,5 +1,5 @@
 /** What drives a robot to goals: Nav2's actions or move_base's, and what their feedback says. */
-import { seconds, part, list, vector } from '../displays/message';
+import { seconds, part, list, vector } from '../displays/message_fields';
 import { shortType, type GraphStore } from '../graph_store';
 import type { JsonObject } from '../json';
 

@@ -2,7 +2,7 @@
 import '../styles/navigation.css';
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
-import { part, vector } from '../displays/message';
+import { part, vector } from '../displays/message_fields';
 import { isObject, numberOf, textOf, type Json, type JsonObject } from '../json';
 import type { PanelHost } from '../panel';
 import { BasePanel } from '../panels/base';
@@ -11,8 +11,8 @@ import { download } from '../widgets/download';
 import { button, fillSelect, h, notice, select, setText, toggle, toolbar } from '../widgets/dom';
 import { robots, server, type Mode } from './drivers';
 import { Lifecycle } from './lifecycle';
-import { Marks } from './marks';
-import { Trip, type Standing } from './trip';
+import { Marks } from './waypoint_markers';
+import { Trip, type Standing } from './goal_sequence';
 import { asYaml, waypointOf, WaypointList, type Waypoint } from './waypoints';
 
 const HINT = 'Press Waypoint mode, then set waypoints with 2D Nav Goal in RViz.';

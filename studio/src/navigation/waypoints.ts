@@ -1,6 +1,6 @@
 /** The list of waypoints: shown, ordered by keys and buttons, kept as Nav2's file. */
 import type { JsonObject } from '../json';
-import { part } from '../displays/message';
+import { part } from '../displays/message_fields';
 import { button, h, notice } from '../widgets/dom';
 
 /** A place to drive to: metres and radians in a frame. */

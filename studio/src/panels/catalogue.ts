@@ -1,7 +1,7 @@
 /** Every kind of panel, in the order of the menu. Code is loaded when a panel is first opened. */
 
 import { registerPanel, type PanelKind } from '../panel';
-import { SCENE } from '../scene/kinds';
+import { SCENE } from '../scene/panel_kinds';
 
 const SIMULATION: readonly PanelKind[] = [
   {

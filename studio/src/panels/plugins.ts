@@ -74,7 +74,7 @@ function foreignKind(kind: string, entry: Known): PanelKind {
     about: entry.about ?? '',
     faded: true,
     make: async (connection, host) =>
-      new (await import('./port_panel')).PortPanel(name, connection, host),
+      new (await import('./rqt_port_panel')).PortPanel(name, connection, host),
   };
 }
 

@@ -1,5 +1,5 @@
 /** The toolbar of a scene panel: tools, View menu, camera, screenshot and video. */
-import { ABOUT, MODES, type Mode } from '../model/modes';
+import { ABOUT, MODES, type Mode } from '../model/view_modes';
 import { button, h, select, spacer, toggle, toolbar } from '../widgets/dom';
 import { openMenu, type MenuItem } from '../widgets/menu';
 import { insertPrimitive } from '../world/actions';

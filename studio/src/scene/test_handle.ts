@@ -1,8 +1,8 @@
 /** `window.gazelle`: what is drawn, in numbers, so that tests can act as a person and look at the structure. */
 import * as THREE from 'three';
 import type { JsonObject } from '../json';
-import type { Mode } from '../model/modes';
-import { scenePanels, activeScene } from './active';
+import type { Mode } from '../model/view_modes';
+import { scenePanels, activeScene } from './active_scene';
 import type { ScenePanel } from './scene_panel';
 
 /** What tests see of a scene panel. */

@@ -1,5 +1,5 @@
 /** Which tools a view has, in the order of its toolbar. */
-import { focusCamera, measure, moveCamera, publishPoint, selectTool } from './basic';
+import { focusCamera, measure, moveCamera, publishPoint, selectTool } from './select_measure_focus';
 import { gizmo } from './gizmo';
 import { navGoal, poseEstimate } from './goal';
 import { interact } from './interact';

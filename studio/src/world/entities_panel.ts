@@ -3,7 +3,7 @@ import type { Connection } from '../connection';
 import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
 import type { ModelValue, PageScene } from '../generated/messages';
-import { activeScene } from '../scene/active';
+import { activeScene } from '../scene/active_scene';
 import { button, h, notice, toolbar } from '../widgets/dom';
 import { entityMenu, follow, moveTo, remove } from './actions';
 import { worldStore, type Selection, type WorldStore } from './store';

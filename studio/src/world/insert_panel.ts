@@ -4,7 +4,7 @@ import type { ModelEntry } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
-import { activeScene } from '../scene/active';
+import { activeScene } from '../scene/active_scene';
 import { sceneIcon } from '../scene/icons';
 import type { ScenePanel } from '../scene/scene_panel';
 import { button, h, notice, toolbar } from '../widgets/dom';

@@ -6,7 +6,7 @@ import type { LightValue, PropertyRow } from '../generated/messages';
 import { poseOf } from '../model/assembly';
 import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
-import { activeScene } from '../scene/active';
+import { activeScene } from '../scene/active_scene';
 import { h, notice, setText } from '../widgets/dom';
 import { short } from '../widgets/format';
 import { lightRows } from './light_rows';

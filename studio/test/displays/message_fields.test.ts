@@ -1,6 +1,13 @@
 import * as THREE from 'three';
 import { expect, test } from 'vitest';
-import { arrayMatrix, list, numbers, part, poseMatrix, seconds } from '../../src/displays/message';
+import {
+  arrayMatrix,
+  list,
+  numbers,
+  part,
+  poseMatrix,
+  seconds,
+} from '../../src/displays/message_fields';
 
 test('a part that is not there is empty', () => {
   expect(part({ a: { b: { c: 1 } } }, 'a', 'b')).toEqual({ c: 1 });

@@ -1,6 +1,6 @@
 /** Where the robot stands in the fixed frame. */
 import type * as THREE from 'three';
-import { arrayMatrix } from '../displays/message';
+import { arrayMatrix } from '../displays/message_fields';
 import type { Frames } from '../scene/frames';
 import type { MotionStore } from './store';
 

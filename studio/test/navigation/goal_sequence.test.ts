@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import type { ChannelHandlers } from '../../src/channel';
 import type { Connection } from '../../src/connection';
 import type { Json, JsonObject } from '../../src/json';
-import { Trip, type Standing } from '../../src/navigation/trip';
+import { Trip, type Standing } from '../../src/navigation/goal_sequence';
 
 const POINTS = [1, 2, 3].map((x) => ({ frame: 'map', x, y: 0, yaw: 0 }));
 

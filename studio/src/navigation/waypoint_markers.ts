@@ -1,7 +1,7 @@
 /** The waypoints in RViz's views: arrows with their numbers. */
 import * as THREE from 'three';
 import { flatArrowGeometry } from '../model/geometry';
-import { onActiveScene, scenePanels } from '../scene/active';
+import { onActiveScene, scenePanels } from '../scene/active_scene';
 import { freeLabel, label } from '../scene/labels';
 import type { ScenePanel } from '../scene/scene_panel';
 import type { Waypoint } from './waypoints';
