@@ -22,7 +22,7 @@ from tests.description.sdformat_emulation.comparing import differences
 from tests.description.sdformat_emulation.random_robots import random_robot
 
 from gazelle.description.sdformat_emulation import Release
-from gazelle.description.sdformat_emulation.gz_sdf import read_document, to_text
+from gazelle.description.sdformat_emulation.gz_sdf_command import read_document, to_text
 
 _CRASHES = (-6, -11, 134, 139)
 

@@ -1,7 +1,7 @@
 /** One open stream of the page: it lives on through reconnections until it is closed. */
 
 import type { CallError } from './errors';
-import type { Frame } from './frame';
+import type { Frame } from './binary_frame';
 import { LATEST_STREAMS } from './generated/streams';
 import type { Json, JsonObject } from './json';
 

@@ -2,7 +2,7 @@
 
 import { Channel, type ChannelHandlers, type StatusLevel } from './channel';
 import { CallError } from './errors';
-import { readFrame } from './frame';
+import { readFrame } from './binary_frame';
 import type { Hello, Show } from './generated/messages';
 import { isObject, numberOf, textOf, type Json, type JsonObject } from './json';
 

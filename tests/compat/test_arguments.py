@@ -22,10 +22,10 @@ _SAME = "the answer is the same whatever is said, in the original as well or by 
 UNREAD: dict[str, tuple[str, str]] = {
     "actionlib/server.py nop_cb": ("goal_handle", _HOOK),
     "rosbag.py Bag.__init__": ("allow_unindexed skip_index", "bags are read with or without"),
-    "commands/rosnode.py get_api_uri": ("skip_cache", "nothing is kept"),
-    "commands/rosnode.py rosnode_ping": ("max_count skip_cache", "one look is an answer"),
-    "commands/rosnode.py rosnode_ping_all": ("skip_cache", "nothing is kept"),
-    "commands/rostopic.py get_topic_list": (
+    "command_modules/rosnode.py get_api_uri": ("skip_cache", "nothing is kept"),
+    "command_modules/rosnode.py rosnode_ping": ("max_count skip_cache", "one look is an answer"),
+    "command_modules/rosnode.py rosnode_ping_all": ("skip_cache", "nothing is kept"),
+    "command_modules/rostopic.py get_topic_list": (
         "master",
         "it tells itself when it was of another graph",
     ),

@@ -21,7 +21,7 @@ from gazelle.description.model import (
 from gazelle.diagnostics import Diagnostics
 from gazelle.engine import Engine
 from gazelle.engine.contact_pairs import CollisionKind, assign_groups, may_touch
-from gazelle.engine.contact_springs import contact_spring
+from gazelle.engine.contact_solref_solimp import contact_spring
 from gazelle.engine.surface_combination import combine
 from gazelle.geometry import Pose
 

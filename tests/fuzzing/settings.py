@@ -30,7 +30,7 @@ from gazelle.launch.ros2.launch_ros.parameter_descriptions import ParameterFile
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.localization import AmclOptions
 from gazelle.navigation.planners import PLANNERS
-from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
+from gazelle.nodes.amcl.node_parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.filters.laser_filters import chain_of
 from gazelle.nodes.joy.parameters import read_options
 from gazelle.nodes.nav2.behavior_trees.xml_parsing import read_trees

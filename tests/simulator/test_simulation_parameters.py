@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from gazelle.errors import GazelleError
-from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.intra_process_node import LocalParameters
 from gazelle.simulator.simulation_parameters import give_parameters
+from gazelle.simulator.world_controller_managers import ControlRegistry
 
 
 def _given(*parameters):

@@ -195,7 +195,7 @@ def _as_sdformat(
     Raises:
         UserFileError: the library refuses the file; holds what it says.
     """
-    from gazelle.description.sdformat_emulation.gz_sdf import (
+    from gazelle.description.sdformat_emulation.gz_sdf_command import (
         read_document,
         read_document_file,
         to_text,

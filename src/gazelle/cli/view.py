@@ -192,8 +192,8 @@ def _stem(path: Path) -> str:
 
 
 def _parser() -> argparse.ArgumentParser:
-    from gazelle.sensors.snapshot import SHOWN
-    from gazelle.sensors.snapshot_views import VIEWS
+    from gazelle.sensors.view_cameras import VIEWS
+    from gazelle.sensors.view_image import SHOWN
 
     parser = argparse.ArgumentParser(
         prog="gazelle view",
@@ -237,7 +237,7 @@ def _draw(world: World, options: argparse.Namespace, path: Path, diagnostics: Di
     from PIL import Image
 
     from gazelle.sensors.kernel_warm_up import warm_up
-    from gazelle.sensors.snapshot import take_picture
+    from gazelle.sensors.view_image import take_picture
 
     try:
         camera = _camera(options)
@@ -260,7 +260,7 @@ def _draw(world: World, options: argparse.Namespace, path: Path, diagnostics: Di
 
 
 def _camera(options: argparse.Namespace) -> Pose | None:
-    from gazelle.sensors.snapshot_views import looking_at
+    from gazelle.sensors.view_cameras import looking_at
 
     if options.camera is None:
         if options.look_at is not None:

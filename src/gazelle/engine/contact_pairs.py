@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 
 from gazelle.description.model import Link, Model, Plane
 from gazelle.diagnostics import Diagnostics
-from gazelle.engine.contact_springs import HARD_SOLIMP, RESOLVED, contact_spring, hard_spring
+from gazelle.engine.contact_solref_solimp import HARD_SOLIMP, RESOLVED, contact_spring, hard_spring
 from gazelle.engine.friction import MIN_MU, least_friction, report_friction_direction
 from gazelle.engine.kinematic_tree import KinematicTree
 from gazelle.engine.mjspec_builder import BuiltGeom, SpecBuilder

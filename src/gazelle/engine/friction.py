@@ -1,6 +1,6 @@
 """Friction: ``mu``, ``mu2`` and ``fdir1`` of collisions, torsional friction, friction of wheels.
 
-Gazebo takes the smaller coefficients of two surfaces (`gazelle.engine.contact_springs`),
+Gazebo takes the smaller coefficients of two surfaces (`gazelle.engine.contact_solref_solimp`),
 MuJoCo the larger, which priorities make up for (`gazelle.engine.contact_pairs`). The formulas are
 derived in docs/contact.md.
 """

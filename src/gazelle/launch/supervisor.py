@@ -17,8 +17,8 @@ from typing import Any, Self
 
 from gazelle.launch.console import Console
 from gazelle.launch.launch_config import NodeTag
+from gazelle.launch.light_nodes import HostEnded, NodeEnded, NodeHost, NodeReady
 from gazelle.launch.node_commands import Executable
-from gazelle.launch.node_host import HostEnded, NodeEnded, NodeHost, NodeReady
 from gazelle.launch.node_process import (
     LaunchedProcess,
     StoppedProcess,

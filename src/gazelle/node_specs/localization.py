@@ -93,7 +93,7 @@ LOCALISATION = (
         entry="gazelle.nodes.amcl.node:run",
         does="finds the robot in a map",
         is_light=False,
-        parameters="gazelle.nodes.amcl.parameters:AMCL",
+        parameters="gazelle.nodes.amcl.node_parameters:AMCL",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),
             publishes("amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
@@ -146,7 +146,7 @@ LOCALISATION = (
         entry="gazelle.nodes.amcl.node:run_ros2",
         does="finds the robot in a map, ROS 2's package",
         is_light=False,
-        parameters="gazelle.nodes.amcl.parameters:NAV2_AMCL",
+        parameters="gazelle.nodes.amcl.node_parameters:NAV2_AMCL",
         topics=(
             publishes("/tf", "tf2_msgs/msg/TFMessage"),
             publishes("amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"),

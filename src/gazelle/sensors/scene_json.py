@@ -50,7 +50,7 @@ from gazelle.sensors.scene_json_types import (
     TrianglesGeometry,
     WorldGeometry,
 )
-from gazelle.sensors.snapshot_overlays import equivalent_box
+from gazelle.sensors.view_overlays import equivalent_box
 
 __all__ = ["geometry_value", "light_value", "pose_value", "robot_value", "world_value"]
 

@@ -14,7 +14,6 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.diagnostics.suggestions import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
-from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.description_sources import Source, loaded_from, models_from, world_from
 from gazelle.simulator.intra_process_node import LocalNode
 from gazelle.simulator.node_interfaces import NodePort, SubscriptionPort
@@ -25,6 +24,7 @@ from gazelle.simulator.simulation_handles import (
     SimSensor,
 )
 from gazelle.simulator.simulation_parameters import Parameters, give_parameters
+from gazelle.simulator.world_controller_managers import ControlRegistry
 from gazelle.simulator.world_server import ServerSettings, WorldServer
 from gazelle.workspace import Workspace
 

@@ -9,8 +9,8 @@ from typing import Any
 
 from gazelle.documents.yaml import YamlError, load_yaml_file
 from gazelle.errors import GazelleError
-from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.node_interfaces import ParameterPort
+from gazelle.simulator.world_controller_managers import ControlRegistry
 
 __all__ = ["Parameters", "give_parameters"]
 

@@ -13,7 +13,6 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.errors import SimulationDivergedError
 from gazelle.geometry import Pose, announcing
 from gazelle.simulator.command_queue import CommandQueue, error_text, telling
-from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.divergence_recovery import OnDivergence, Recovery
 from gazelle.simulator.input_validation import Arrival, Inputs
 from gazelle.simulator.intra_process_node import LocalNode
@@ -27,6 +26,7 @@ from gazelle.simulator.render_thread import FrameWorker
 from gazelle.simulator.scheduler import Scheduler, Task
 from gazelle.simulator.sensor_set import SensorSet, check_sensor, sensor_places
 from gazelle.simulator.wall_clock import Disturbances, Mode, Pace
+from gazelle.simulator.world_controller_managers import ControlRegistry
 
 if TYPE_CHECKING:
     from gazelle.workspace import Workspace

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import type { Channel, StatusLevel } from '../channel';
 import type { Connection } from '../connection';
-import type { Frame } from '../frame';
+import type { Frame } from '../binary_frame';
 import type { DisplayRow } from '../generated/messages';
 import type { GraphStore } from '../graph_store';
 import { isObject, textOf, type Json, type JsonObject } from '../json';

@@ -1,6 +1,6 @@
 /** Image and Camera: pictures, and the scene laid over what a camera sees. */
 import * as THREE from 'three';
-import type { Frame } from '../frame';
+import type { Frame } from '../binary_frame';
 import type { JsonObject } from '../json';
 import type { Drawing, Drawer, Site } from './display';
 import { arrayMatrix, numbers, part } from './message_fields';

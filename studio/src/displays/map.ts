@@ -1,6 +1,6 @@
 /** Map: an occupancy grid as a texture, in RViz's three colour schemes. */
 import * as THREE from 'three';
-import { floats, type Frame } from '../frame';
+import { floats, type Frame } from '../binary_frame';
 import { place } from '../model/shapes';
 import type { Drawing, Drawer, Site } from './display';
 import { Swatches, type Look } from './map_swatches';

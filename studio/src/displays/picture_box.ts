@@ -1,5 +1,5 @@
 /** A small window in the view that shows pictures: Image and Camera. */
-import { bytes, type Frame } from '../frame';
+import { bytes, type Frame } from '../binary_frame';
 import { h, setText } from '../widgets/dom';
 import type { View } from '../scene/view';
 

@@ -1,6 +1,6 @@
 /** LaserScan, clouds and sensors of one number: points the server coloured, in pooled buffers. */
 import * as THREE from 'three';
-import { floats, type Frame } from '../frame';
+import { floats, type Frame } from '../binary_frame';
 import type { JsonObject } from '../json';
 import { place } from '../model/shapes';
 import type { Drawing, Drawer, Site } from './display';

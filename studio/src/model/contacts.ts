@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
 import { InstancePool } from '../displays/instanced_shapes';
-import { floats } from '../frame';
+import { floats } from '../binary_frame';
 import type { View } from '../scene/view';
 import { arrowGeometry, unit } from './geometry';
 import { flat } from './materials';

@@ -1,13 +1,13 @@
 /** A marker of six degrees of freedom that the tool Interact drags: of a goal, of an object. */
 import * as THREE from 'three';
-import { FEEDBACK, type Handle } from '../displays/interactive';
+import { FEEDBACK, type Handle } from '../displays/interactive_markers';
 import {
   ControlDrag,
   controlAxis,
   defaultHandle,
   MOVE_AXIS,
   ROTATE_AXIS,
-} from '../displays/interactive_controls';
+} from '../displays/interactive_marker_controls';
 import type { InteractiveMarkerControl, Quaternion } from '../generated/messages';
 
 const HALF = Math.SQRT1_2;

@@ -1,7 +1,7 @@
 /** Image View: one image topic, with zoom, the pixel below the pointer and saving. */
 
 import type { Channel } from '../channel';
-import { bytes, type Frame } from '../frame';
+import { bytes, type Frame } from '../binary_frame';
 import { textOf, textsOf, type JsonObject } from '../json';
 import { button, h, notice, select, setText, spacer, toolbar } from '../widgets/dom';
 import { download } from '../widgets/download';

@@ -3,7 +3,7 @@
 import '../styles/plugins.css';
 import type { Channel } from '../channel';
 import { inOneLine } from '../errors';
-import type { Frame } from '../frame';
+import type { Frame } from '../binary_frame';
 import type { PanelEvent, PanelInfo, PanelState } from '../generated/messages';
 import { isObject, numberOf, textOf, type Json, type JsonObject } from '../json';
 import { button, h, notice, setText, spacer, toolbar } from '../widgets/dom';

@@ -1,6 +1,6 @@
 /** The turtlesim window, with turtle_teleop_key's keys. */
 
-import { bytes, type Frame } from '../frame';
+import { bytes, type Frame } from '../binary_frame';
 import type { Channel } from '../channel';
 import { textOf, type JsonObject } from '../json';
 import { button, h, notice, setText, spacer, toolbar } from '../widgets/dom';

@@ -1,7 +1,7 @@
 /** Where coordinate frames are in the fixed frame: the `tf` stream, once for a view. */
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
-import { floats, type Frame } from '../frame';
+import { floats, type Frame } from '../binary_frame';
 import type { FrameNames, TfFrame } from '../generated/messages';
 import { isObject, type Json } from '../json';
 

@@ -1,11 +1,11 @@
 /** 2D Pose Estimate and 2D Nav Goal: press for the place, drag for the direction. */
 import * as THREE from 'three';
-import { aim, thinArrow } from '../displays/sensors';
+import { aim, thinArrow } from '../displays/imu_range_wrench';
 import type { JsonObject } from '../json';
 import { groundPoint } from '../scene/picking';
 import type { RvizTool } from '../generated/messages';
 import { takeGoal } from './goal_takers';
-import { speaksRos2, stampedHeader, typeFor } from './publish';
+import { speaksRos2, stampedHeader, typeFor } from './message_types';
 import type { Bench, Tool } from './tool';
 
 interface Goal {

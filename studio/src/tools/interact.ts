@@ -1,7 +1,7 @@
 /** Interact: drags, presses and opens the menus of interactive markers. */
 import type * as THREE from 'three';
-import { FEEDBACK, type Handle } from '../displays/interactive';
-import { BUTTON, isDragged, MENU, type ControlDrag } from '../displays/interactive_controls';
+import { FEEDBACK, type Handle } from '../displays/interactive_markers';
+import { BUTTON, isDragged, MENU, type ControlDrag } from '../displays/interactive_marker_controls';
 import { pick } from '../scene/picking';
 import { openMenuAt } from '../world/menu';
 import type { Bench, Tool } from './tool';

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { freeLabel, label } from '../scene/labels';
 import { groundPoint, pick } from '../scene/picking';
-import { stampedHeader, typeFor } from './publish';
+import { stampedHeader, typeFor } from './message_types';
 import type { Bench, Tool } from './tool';
 
 /** Moves the camera; a click selects. */

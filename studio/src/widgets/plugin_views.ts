@@ -1,6 +1,6 @@
 /** Plots, pictures and tables of a user's panel. */
 
-import { bytes, type Frame } from '../frame';
+import { bytes, type Frame } from '../binary_frame';
 import { numberOf, textOf, textsOf, type Json, type JsonObject } from '../json';
 import { PlotChart, type Curve } from '../panels/plot_chart';
 import { Samples } from '../panels/plot_data';

@@ -1,7 +1,7 @@
 /** The world as the page knows it, once for all panels: scene value, poses, selection. */
 import type { Channel } from '../channel';
 import type { Connection } from '../connection';
-import { floats } from '../frame';
+import { floats } from '../binary_frame';
 import type { Json, JsonObject } from '../json';
 import type { Entity } from '../model/body';
 import type { PageScene } from '../generated/messages';

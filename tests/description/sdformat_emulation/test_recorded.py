@@ -16,7 +16,7 @@ from tests.patience import stretched
 from tests.shared_files import SHARED, shared_cases
 
 from gazelle.description.sdformat_emulation import Release
-from gazelle.description.sdformat_emulation.gz_sdf import read_document, to_text
+from gazelle.description.sdformat_emulation.gz_sdf_command import read_document, to_text
 from gazelle.description.sdformat_emulation.parser_urdf import urdf_to_sdf
 from gazelle.description.xacro import expand_xacro
 from gazelle.description.xml import parse_xml

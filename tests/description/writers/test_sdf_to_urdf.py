@@ -102,7 +102,7 @@ def test_moved_link_frame_is_told(convert) -> None:
 
 
 def test_sdformat_turns_the_urdf_back_into_the_same_bodies(convert, reading) -> None:
-    from gazelle.description.sdformat_emulation.gz_sdf import read_document, to_text
+    from gazelle.description.sdformat_emulation.gz_sdf_command import read_document, to_text
 
     model, again, _, text = convert(TWO)
     document = read_document(text, release=Release.V12, file="r.urdf", find=lambda _word: None)

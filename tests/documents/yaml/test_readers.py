@@ -20,7 +20,7 @@ from gazelle.cli.ros_tool import ToolError
 from gazelle.cli.rosparam import _file_text, _trees
 from gazelle.cli.rostopic.pub import _file_documents as read_message_file
 from gazelle.cli.text.fill_message import yaml_values, yaml_words
-from gazelle.compat.commands.rosparam import RosParamException, load_str
+from gazelle.compat.command_modules.rosparam import RosParamException, load_str
 from gazelle.compat.moveit_configs.parameter_files import load_yaml as load_moveit_yaml
 from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file

@@ -15,7 +15,7 @@ from gazelle.interfaces import message_type
 from gazelle.mapping.grids import OccupancyGrid
 from gazelle.navigation.localization import AmclOptions
 from gazelle.nodes.amcl.node import scan_of_message
-from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
+from gazelle.nodes.amcl.node_parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.map_server.occupancy_grid import message_of_grid
 from gazelle.nodes.parameters import node_reader
 

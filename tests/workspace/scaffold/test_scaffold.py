@@ -20,7 +20,7 @@ from gazelle.geometry import (
 )
 from gazelle.interfaces import message_type
 from gazelle.launch.ros1.loader import load_launch_files
-from gazelle.sensors.snapshot_overlays import equivalent_box
+from gazelle.sensors.view_overlays import equivalent_box
 from gazelle.workspace import Workspace
 from gazelle.workspace.scaffold import KINDS, ScaffoldError, check_package_name, create_package
 from gazelle.workspace.scaffold.create_package import FILES

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from gazelle.bridge.ros2.bridge_session import Session
 from gazelle.bridge.ros2.interpreters import Interpreter
 from gazelle.bridge.ros2.mirror_plan import BRIDGE_NAME
 from gazelle.bridge.ros2.rclpy_process import About, start_rclpy
-from gazelle.bridge.ros2.rclpy_session import Session
 from gazelle.bridge.sync_thread import SyncThread
 from gazelle.errors import GraphError
 from gazelle.graph.errors import coded

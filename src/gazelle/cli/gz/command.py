@@ -16,9 +16,9 @@ from gazelle.cli.sdf.ign_sdf import run_sdf as run_new_sdf
 from gazelle.cli.sdf.ign_sdf import usage
 from gazelle.cli.sdf.sdf_file import read_for, report_findings, say, take_quiet
 from gazelle.cli.sdf.which_sdformat import sdformat_release
-from gazelle.description.sdformat_emulation.gz_sdf import to_text
-from gazelle.description.sdformat_emulation.gz_sdf.console import error_line
-from gazelle.description.sdformat_emulation.gz_sdf.printer import described_specification
+from gazelle.description.sdformat_emulation.gz_sdf_command import to_text
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import error_line
+from gazelle.description.sdformat_emulation.gz_sdf_command.printer import described_specification
 from gazelle.description.sdformat_emulation.release import Release
 
 __all__ = ["main"]

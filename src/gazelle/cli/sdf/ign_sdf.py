@@ -8,23 +8,23 @@ from getopt import GetoptError, gnu_getopt
 from pathlib import Path
 
 from gazelle.cli.sdf.sdf_file import read_for, report_findings, say, take_quiet
-from gazelle.description.sdformat_emulation.gz_sdf import Document, to_text
-from gazelle.description.sdformat_emulation.gz_sdf.checks import load, name_problems
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_attached_to_graph import (
+from gazelle.description.sdformat_emulation.gz_sdf_command import Document, to_text
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks import load, name_problems
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.frame_attached_to_graph import (
     attached_graph,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.pose_relative_to_graph import (
     relative_graph,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.console import Code, SdfError, error_line
-from gazelle.description.sdformat_emulation.gz_sdf.inertial_stats import inertial_stats
-from gazelle.description.sdformat_emulation.gz_sdf.printer import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Code, SdfError, error_line
+from gazelle.description.sdformat_emulation.gz_sdf_command.inertial_stats import inertial_stats
+from gazelle.description.sdformat_emulation.gz_sdf_command.printer import (
     Snap,
     described_specification,
     with_angles_in_degrees,
     with_includes,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.specification import specification
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import specification
 from gazelle.description.sdformat_emulation.release import Release
 
 __all__ = ["run_sdf", "usage", "version_of"]

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from gazelle.description.read_context import ReadContext
 from gazelle.description.sdf_reader import read_sdf
-from gazelle.description.sdformat_emulation.gz_sdf import Document, read_document_file
+from gazelle.description.sdformat_emulation.gz_sdf_command import Document, read_document_file
 from gazelle.description.sdformat_emulation.release import Release
 from gazelle.description.source_maps import placed
 from gazelle.description.urdf_reader import read_urdf

@@ -11,7 +11,7 @@ from typing import Any
 
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import ControllerContext
-from gazelle.control.controllers.drive_controller import Drive, DriveController
+from gazelle.control.controllers.drive_controller_base import Drive, DriveController
 from gazelle.control.controllers.steering_controllers_library import (
     LIBRARY_BEHAVIOUR,
     SteeringDrive,

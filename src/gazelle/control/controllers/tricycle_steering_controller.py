@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import ControllerContext
-from gazelle.control.controllers.drive_controller import Drive, DriveController
+from gazelle.control.controllers.drive_controller_base import Drive, DriveController
 from gazelle.control.controllers.steering_controllers_library import (
     LIBRARY_BEHAVIOUR,
     SteeringDrive,

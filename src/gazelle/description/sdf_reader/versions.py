@@ -64,8 +64,8 @@ def upgraded(root: Tag, context: ReadContext) -> Tag:
         return root
     # Hardly anybody needs it, and it takes a third of a state publisher's start to import.
     from gazelle.description.sdformat_emulation.element import raw_element
-    from gazelle.description.sdformat_emulation.gz_sdf.console import Console
-    from gazelle.description.sdformat_emulation.gz_sdf.version_upgrades import upgrade
+    from gazelle.description.sdformat_emulation.gz_sdf_command.console import Console
+    from gazelle.description.sdformat_emulation.gz_sdf_command.version_upgrades import upgrade
     from gazelle.description.sdformat_emulation.release import Release
 
     shown = f"SDF {written} is older than 1.4" if is_old else "the root element is <gazebo>"

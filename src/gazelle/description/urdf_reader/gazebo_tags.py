@@ -26,7 +26,7 @@ from gazelle.description.sdf_reader.materials import read_material
 from gazelle.description.sdf_reader.sensors import read_sensor
 from gazelle.description.sdf_reader.surface_friction import read_surface
 from gazelle.description.urdf_reader.fixed_joint_lumping import with_watched_collisions
-from gazelle.description.urdf_reader.gazebo_insertions import INSERTED_ELEMENTS
+from gazelle.description.urdf_reader.gazebo_extension_insertion import INSERTED_ELEMENTS
 from gazelle.description.xml import Tag, bool_from, floats_from
 from gazelle.diagnostics import did_you_mean
 

@@ -9,7 +9,10 @@ from pathlib import Path
 from gazelle.description.model import Joint, Link, Model, Ros2ControlTag, TransmissionTag
 from gazelle.description.read_context import ReadContext
 from gazelle.description.urdf_reader.attributes import check_vocabulary, origin_of
-from gazelle.description.urdf_reader.gazebo_insertions import inserted_joints, with_insertions
+from gazelle.description.urdf_reader.gazebo_extension_insertion import (
+    inserted_joints,
+    with_insertions,
+)
 from gazelle.description.urdf_reader.gazebo_tags import apply_gazebo, blocks_by_reference
 from gazelle.description.urdf_reader.inertia import with_inertia
 from gazelle.description.urdf_reader.joints import ReadJoint, read_joint

@@ -12,7 +12,7 @@ from gazelle.documents.files import is_file
 from gazelle.launch.environment import ros1_variables
 from gazelle.launch.launch_config import LaunchConfig
 from gazelle.launch.ros1.element_attributes import ELEMENTS, Reading, Scope, TagError
-from gazelle.launch.ros1.elements import HANDLERS
+from gazelle.launch.ros1.element_loaders import HANDLERS
 from gazelle.launch.ros1.substitution_args import REPORTED
 from gazelle.workspace import Workspace
 

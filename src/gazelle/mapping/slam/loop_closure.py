@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gazelle.mapping.loop_detection.hypotheses import Hypotheses, Hypothesis
-from gazelle.mapping.loop_detection.loop_search import loop_candidates, recognise
+from gazelle.mapping.loop_detection.loop_candidates import loop_candidates, recognise
 from gazelle.mapping.pose_graph.constraints import Edges, doubtful
 from gazelle.mapping.pose_graph.optimizer import optimise, residuals
 from gazelle.mapping.se2 import Poses, between, compose

@@ -11,9 +11,9 @@ from gazelle.description.moveit import CartesianLimits
 from gazelle.motion.constraints.kinematic_constraints import rotation_vector
 from gazelle.motion.joint_space import FloatArray, JointSpace, Validity
 from gazelle.motion.kinematics import Patience
-from gazelle.motion.pilz.cartesian import CartesianPath, circle, line
 from gazelle.motion.pilz.command import Command, CommandKind
-from gazelle.motion.pilz.joint_motion import (
+from gazelle.motion.pilz.lin_circ_paths import CartesianPath, circle, line
+from gazelle.motion.pilz.trapezoidal_joint_motion import (
     Motion,
     Trapezoid,
     check_limits,

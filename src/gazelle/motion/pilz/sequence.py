@@ -13,8 +13,15 @@ from gazelle.motion.constraints.kinematic_constraints import (
 )
 from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.pilz.command import Command
-from gazelle.motion.pilz.joint_motion import Motion, check_limits, grid, joined, measured, thinned
 from gazelle.motion.pilz.planner import PilzPlanner
+from gazelle.motion.pilz.trapezoidal_joint_motion import (
+    Motion,
+    check_limits,
+    grid,
+    joined,
+    measured,
+    thinned,
+)
 from gazelle.motion.planning.error_codes import ErrorCode, PlanningError
 from gazelle.motion.timing.trajectory import Trajectory
 

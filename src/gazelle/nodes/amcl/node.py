@@ -23,7 +23,7 @@ from gazelle.interfaces.stamps import ns_of, set_header
 from gazelle.mapping.laser_scan import Scan
 from gazelle.mapping.se2 import between, compose, inverse
 from gazelle.navigation.localization import MOTION_MODELS, Amcl, AmclOptions, Estimate
-from gazelle.nodes.amcl.parameters import AMCL, NAV2_AMCL
+from gazelle.nodes.amcl.node_parameters import AMCL, NAV2_AMCL
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.lifecycle import Lifecycle
 from gazelle.nodes.map_server.occupancy_grid import grid_of_message

@@ -30,10 +30,10 @@ from gazelle.nodes.link_tree import DESCRIPTION, read_description
 from gazelle.nodes.parameters import number_or_end, private_parameters, start_node
 from gazelle.parameters import Parameter, ParameterTable, refused
 from gazelle.simulator.command_queue import CommandQueue, telling
-from gazelle.simulator.controller_managers import ControlRegistry
 from gazelle.simulator.controller_node import make_ports, offer_manager
 from gazelle.simulator.input_validation import Inputs
 from gazelle.simulator.plugins.context import Resources
+from gazelle.simulator.world_controller_managers import ControlRegistry
 from gazelle.workspace import Workspace
 
 __all__ = ["PARAMETERS", "run"]

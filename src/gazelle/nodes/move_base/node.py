@@ -14,7 +14,7 @@ from gazelle.interfaces.poses import set_plane_pose, unit_pose_of
 from gazelle.interfaces.stamps import set_header
 from gazelle.navigation.planners import NoPlan
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.move_base.drive import Driver
+from gazelle.nodes.move_base.controller_loop import Driver
 from gazelle.nodes.move_base.global_planner import GlobalPlanner
 from gazelle.nodes.move_base.local_planner import LocalPlanner
 from gazelle.nodes.move_base.parameters import MOVE_BASE

@@ -28,9 +28,9 @@ from gazelle.simulator.scheduler import (
 
 if TYPE_CHECKING:
     from gazelle.engine import Engine
-    from gazelle.simulator.controller_managers import ControlRegistry
     from gazelle.simulator.render_thread import FrameWorker
     from gazelle.simulator.sensor_set import SensorSet
+    from gazelle.simulator.world_controller_managers import ControlRegistry
     from gazelle.workspace import Workspace
 
 _DEPTH = 10

@@ -56,7 +56,7 @@ _ROWS = (
         "Cells of a grid: obstacles of a costmap.",
         ("nav_msgs/GridCells",),
         open_plain,
-        drawing="displays/sensors:GRID_CELLS",
+        drawing="displays/imu_range_wrench:GRID_CELLS",
     ),
     Display(
         "Illuminance",
@@ -78,7 +78,7 @@ _ROWS = (
         "Orientation and acceleration of an IMU.",
         ("sensor_msgs/Imu",),
         open_plain,
-        drawing="displays/sensors:IMU",
+        drawing="displays/imu_range_wrench:IMU",
     ),
     Display(
         "InteractiveMarkers",
@@ -89,7 +89,7 @@ _ROWS = (
         ),
         open_interactive,
         topic_names=("Update Topic", "Interactive Markers Namespace"),
-        drawing="displays/interactive:INTERACTIVE_MARKERS",
+        drawing="displays/interactive_markers:INTERACTIVE_MARKERS",
     ),
     Display(
         "LaserScan",
@@ -201,7 +201,7 @@ _ROWS = (
         "The cone of a sonar or infrared sensor.",
         ("sensor_msgs/Range",),
         open_plain,
-        drawing="displays/sensors:RANGE",
+        drawing="displays/imu_range_wrench:RANGE",
     ),
     Display(
         "RelativeHumidity",
@@ -230,7 +230,7 @@ _ROWS = (
         ("geometry_msgs/WrenchStamped",),
         open_plain,
         aliases=("WrenchStamped",),
-        drawing="displays/sensors:WRENCH",
+        drawing="displays/imu_range_wrench:WRENCH",
     ),
 )
 

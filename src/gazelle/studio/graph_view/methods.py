@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from gazelle.graph import Node
 from gazelle.studio.frame_manager import Frames
 from gazelle.studio.graph_view.actions import open_action
+from gazelle.studio.graph_view.node_graph import Topology, get_graph, open_graph
 from gazelle.studio.graph_view.nodes import get_node, kill_node, list_loggers, set_logger
 from gazelle.studio.graph_view.parameters import (
     delete_parameter,
@@ -36,7 +37,6 @@ from gazelle.studio.graph_view.reconfigure import (
 from gazelle.studio.graph_view.rosout import Console, open_rosout
 from gazelle.studio.graph_view.services import call_service
 from gazelle.studio.graph_view.topics import open_echo, open_stats
-from gazelle.studio.graph_view.topology import Topology, get_graph, open_graph
 from gazelle.studio.graph_view.transforms import open_tf, open_tree
 from gazelle.studio.graph_view.types import get_type, list_types
 from gazelle.studio.lazy_parts import Lazy, closed_with

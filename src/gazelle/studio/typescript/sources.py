@@ -45,6 +45,13 @@ from gazelle.studio.displays.methods import AddedDisplays
 from gazelle.studio.displays.registry import DISPLAYS
 from gazelle.studio.errors import ErrorValue
 from gazelle.studio.graph_view.actions import ActionOpened, GoalState
+from gazelle.studio.graph_view.node_graph import (
+    ActionRow,
+    GraphValue,
+    NodeRow,
+    ServiceRow,
+    TopicRow,
+)
 from gazelle.studio.graph_view.nodes import (
     EndpointRow,
     LoggerNode,
@@ -62,13 +69,6 @@ from gazelle.studio.graph_view.reconfigure import (
 )
 from gazelle.studio.graph_view.rosout import LogLine
 from gazelle.studio.graph_view.topics import EchoedMessage, TopicStats
-from gazelle.studio.graph_view.topology import (
-    ActionRow,
-    GraphValue,
-    NodeRow,
-    ServiceRow,
-    TopicRow,
-)
 from gazelle.studio.graph_view.transforms import FrameNames, FrameRow, TfFrame
 from gazelle.studio.graph_view.types import TypeConstant, TypeField, TypeValue
 from gazelle.studio.motion.methods import MotionMesh

@@ -103,7 +103,7 @@ def _drawn(folder: Path) -> bytes:
 
     from gazelle.description.loader import load_models
     from gazelle.description.model import World
-    from gazelle.sensors.snapshot import take_picture
+    from gazelle.sensors.view_image import take_picture
 
     diagnostics = Diagnostics()
     try:

@@ -1,3 +1,3 @@
 """rosmsg, answered by Gazelle's interfaces."""
 
-from gazelle.compat.commands.rosmsg import *  # noqa: F403
+from gazelle.compat.command_modules.rosmsg import *  # noqa: F403

@@ -1,3 +1,3 @@
 """rosnode, on Gazelle's graph."""
 
-from gazelle.compat.commands.rosnode import *  # noqa: F403
+from gazelle.compat.command_modules.rosnode import *  # noqa: F403

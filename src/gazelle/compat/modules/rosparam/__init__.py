@@ -1,3 +1,3 @@
 """rosparam, on Gazelle's graph."""
 
-from gazelle.compat.commands.rosparam import *  # noqa: F403
+from gazelle.compat.command_modules.rosparam import *  # noqa: F403

@@ -1,3 +1,3 @@
 """rosservice, on Gazelle's graph."""
 
-from gazelle.compat.commands.rosservice import *  # noqa: F403
+from gazelle.compat.command_modules.rosservice import *  # noqa: F403

@@ -1,6 +1,6 @@
 """rostopic, on Gazelle's graph."""
 
-from gazelle.compat.commands.rostopic import *  # noqa: F403
+from gazelle.compat.command_modules.rostopic import *  # noqa: F403
 
 NAME = "rostopic"
 SUBSCRIBER_TIMEOUT = 5.0

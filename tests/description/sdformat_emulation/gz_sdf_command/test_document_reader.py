@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from gazelle.description.sdformat_emulation import Release, SdfElement
-from gazelle.description.sdformat_emulation.gz_sdf import normalised, read_document, to_text
-from gazelle.description.sdformat_emulation.gz_sdf.checks import check
-from gazelle.description.sdformat_emulation.gz_sdf.document_reader import read_document_file
+from gazelle.description.sdformat_emulation.gz_sdf_command import normalised, read_document, to_text
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks import check
+from gazelle.description.sdformat_emulation.gz_sdf_command.document_reader import read_document_file
 from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostics
 

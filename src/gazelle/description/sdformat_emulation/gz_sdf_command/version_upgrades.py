@@ -13,7 +13,7 @@ from functools import cache
 from importlib.resources import files
 
 from gazelle.description.sdformat_emulation.element import SdfElement
-from gazelle.description.sdformat_emulation.gz_sdf.console import Console
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Console
 
 __all__ = ["upgrade"]
 

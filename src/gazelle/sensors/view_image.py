@@ -16,8 +16,8 @@ from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.sensors.camera import render
 from gazelle.sensors.ray_scene import RayScene
-from gazelle.sensors.snapshot_overlays import OVERLAYS, overlay_world, scene_points
-from gazelle.sensors.snapshot_views import Shot, camera_spec, fitting_camera, view_direction
+from gazelle.sensors.view_cameras import Shot, camera_spec, fitting_camera, view_direction
+from gazelle.sensors.view_overlays import OVERLAYS, overlay_world, scene_points
 
 __all__ = ["SHOWN", "Picture", "take_picture"]
 
@@ -93,7 +93,7 @@ def take_picture(
     Args:
         world: with joints where they are to be shown, see `gazelle.description.forward_kinematics`.
         show: of `SHOWN`.
-        views: of `gazelle.sensors.snapshot_views.VIEWS`; several share the picture in a grid.
+        views: of `gazelle.sensors.view_cameras.VIEWS`; several share the picture in a grid.
         T_world_camera: in place of views, looks along +x.
         size_px: width and height of the whole picture.
         background: red, green, blue, 0…1, in place of the world's own.

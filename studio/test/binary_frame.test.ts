@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { bytes, floats, readFrame } from '../src/frame';
+import { bytes, floats, readFrame } from '../src/binary_frame';
 
 /** A frame as the server packs it: little-endian, payload at byte 16. */
 function packed(payload: readonly number[]): ArrayBuffer {

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from gazelle.compat.commands import rosmsg
+from gazelle.compat.command_modules import rosmsg
 from gazelle.compat.rosgraph import names
 
 TWIST = """geometry_msgs/Vector3 linear

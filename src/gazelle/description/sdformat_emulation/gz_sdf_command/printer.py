@@ -12,14 +12,14 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from gazelle.description.sdformat_emulation.element import SdfElement
-from gazelle.description.sdformat_emulation.gz_sdf.console import Console
-from gazelle.description.sdformat_emulation.gz_sdf.element_reader import Document
-from gazelle.description.sdformat_emulation.gz_sdf.specification import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Console
+from gazelle.description.sdformat_emulation.gz_sdf_command.element_reader import Document
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import (
     Definition,
     Parameter,
     specification,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.values import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.values import (
     default_text,
     notation_of,
     pose_of,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gazelle.description.sdformat_emulation.gz_sdf.console import Console
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Console
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents.files import exists

@@ -7,9 +7,13 @@ from pathlib import Path
 import pytest
 from tests.shared_files import SHARED, shared_cases
 
-from gazelle.description.sdformat_emulation.gz_sdf import Document, read_document_file, to_text
-from gazelle.description.sdformat_emulation.gz_sdf.checks import load, name_problems
-from gazelle.description.sdformat_emulation.gz_sdf.console import error_line
+from gazelle.description.sdformat_emulation.gz_sdf_command import (
+    Document,
+    read_document_file,
+    to_text,
+)
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks import load, name_problems
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import error_line
 from gazelle.description.sdformat_emulation.release import Release
 
 from .peer import IGN, INPUTS, Output, inputs, neutral, recorded, run_ign

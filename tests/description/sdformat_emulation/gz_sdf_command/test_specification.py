@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.description.sdformat_emulation.gz_sdf.specification import specification
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import specification
 from gazelle.description.sdformat_emulation.release import Release
 
 from .facts import definitions_in, upgrade_rules
 
 _INSTALLED = Path("/usr/share/sdformat12")
-_PACKAGE = "gazelle.description.sdformat_emulation.gz_sdf"
+_PACKAGE = "gazelle.description.sdformat_emulation.gz_sdf_command"
 
 needs_sdformat = pytest.mark.skipif(
     not _INSTALLED.is_dir(), reason="sdformat's files are not installed (sdformat-sdf)"

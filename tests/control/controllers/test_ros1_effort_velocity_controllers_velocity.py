@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.control.plant import PlantJoint, make_controller, make_robot, run
 
-from gazelle.control.controllers.ros1_joint_pid_controllers import JointVelocityController
+from gazelle.control.controllers.ros1_effort_velocity_controllers import JointVelocityController
 from gazelle.interfaces import message_type
 
 

@@ -9,7 +9,7 @@ import type { JsonObject } from '../json';
 import { poseOf } from '../model/assembly';
 import { freeLabel, label } from '../scene/labels';
 import type { Drawing, Drawer, Site } from './display';
-import { ControlDrag, controlAxis, defaultHandle } from './interactive_controls';
+import { ControlDrag, controlAxis, defaultHandle } from './interactive_marker_controls';
 import { MarkerSet } from './marker_set';
 import { arrayMatrix, poseMatrix } from './message_fields';
 import { flag } from './properties';

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from gazelle.description.sdformat_emulation.element import SdfElement
-from gazelle.description.sdformat_emulation.gz_sdf.console import Code, SdfError
-from gazelle.description.sdformat_emulation.gz_sdf.values import number_of
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Code, SdfError
+from gazelle.description.sdformat_emulation.gz_sdf_command.values import number_of
 
 __all__ = [
     "check_atmosphere",

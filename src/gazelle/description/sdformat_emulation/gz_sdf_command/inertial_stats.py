@@ -5,14 +5,18 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_semantics import Scope
-from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.frame_semantics import Scope
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.pose_relative_to_graph import (
     pose_in_scope,
     relative_graph,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import Link, ModelScope
-from gazelle.description.sdformat_emulation.gz_sdf.console import SdfError
-from gazelle.description.sdformat_emulation.gz_sdf.values import notation_of, number_of, pose_of
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.scopes import Link, ModelScope
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import SdfError
+from gazelle.description.sdformat_emulation.gz_sdf_command.values import (
+    notation_of,
+    number_of,
+    pose_of,
+)
 from gazelle.geometry import Pose
 
 __all__ = ["inertial_stats"]

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from gazelle.compat.commands import rostopic
-from gazelle.compat.commands.rostopic import ROSTopicBandwidth, ROSTopicDelay, ROSTopicHz
+from gazelle.compat.command_modules import rostopic
+from gazelle.compat.command_modules.rostopic import ROSTopicBandwidth, ROSTopicDelay, ROSTopicHz
 
 
 def test_rate_is_that_of_the_times_between_messages(

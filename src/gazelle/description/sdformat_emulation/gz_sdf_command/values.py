@@ -8,8 +8,8 @@ import struct
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from gazelle.description.sdformat_emulation.gz_sdf.console import Console
-from gazelle.description.sdformat_emulation.gz_sdf.specification import Parameter
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Console
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import Parameter
 from gazelle.description.sdformat_emulation.ignition_math import (
     euler_from_quat_wxyz,
     quat_wxyz_from_euler,

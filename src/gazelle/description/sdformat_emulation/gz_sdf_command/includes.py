@@ -11,10 +11,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from gazelle.description.sdformat_emulation.element import SdfElement, raw_element
-from gazelle.description.sdformat_emulation.gz_sdf.checks import load
-from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph import placed_pose
-from gazelle.description.sdformat_emulation.gz_sdf.console import Code, Console, SdfError
-from gazelle.description.sdformat_emulation.gz_sdf.element_reader import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks import load
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.pose_relative_to_graph import (
+    placed_pose,
+)
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Code, Console, SdfError
+from gazelle.description.sdformat_emulation.gz_sdf_command.element_reader import (
     Document,
     ElementLocation,
     Include,
@@ -24,10 +26,16 @@ from gazelle.description.sdformat_emulation.gz_sdf.element_reader import (
     set_attribute,
     set_text,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.model_config import model_file, version_numbers
-from gazelle.description.sdformat_emulation.gz_sdf.printer import to_text
-from gazelle.description.sdformat_emulation.gz_sdf.specification import Definition, specification
-from gazelle.description.sdformat_emulation.gz_sdf.values import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.model_config import (
+    model_file,
+    version_numbers,
+)
+from gazelle.description.sdformat_emulation.gz_sdf_command.printer import to_text
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import (
+    Definition,
+    specification,
+)
+from gazelle.description.sdformat_emulation.gz_sdf_command.values import (
     bool_of,
     default_text,
     notation_of,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.description.sdformat_emulation.gz_sdf.console import Console
-from gazelle.description.sdformat_emulation.gz_sdf.specification import Parameter
-from gazelle.description.sdformat_emulation.gz_sdf.values import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Console
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import Parameter
+from gazelle.description.sdformat_emulation.gz_sdf_command.values import (
     default_text,
     pose_of,
     printed_value,

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_semantics import Graph, Kind, Scope
-from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.frame_semantics import (
+    Graph,
+    Kind,
+    Scope,
+)
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.scopes import (
     Frame,
     ModelScope,
     WorldScope,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.console import Code, SdfError
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Code, SdfError
 from gazelle.geometry import Pose
 
 __all__ = ["attached_graph", "body_of"]

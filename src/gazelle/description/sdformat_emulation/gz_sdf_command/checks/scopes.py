@@ -10,7 +10,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from gazelle.description.sdformat_emulation.element import SdfElement
-from gazelle.description.sdformat_emulation.gz_sdf.checks.element_checks import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.element_checks import (
     check_atmosphere,
     check_axis,
     check_inertial,
@@ -21,9 +21,16 @@ from gazelle.description.sdformat_emulation.gz_sdf.checks.element_checks import 
     check_spherical_coordinates,
     check_unique,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.console import Code, Console, SdfError
-from gazelle.description.sdformat_emulation.gz_sdf.specification import Definition, specification
-from gazelle.description.sdformat_emulation.gz_sdf.values import bool_of, notation_of, pose_of
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Code, Console, SdfError
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import (
+    Definition,
+    specification,
+)
+from gazelle.description.sdformat_emulation.gz_sdf_command.values import (
+    bool_of,
+    notation_of,
+    pose_of,
+)
 from gazelle.geometry import Pose
 
 __all__ = [

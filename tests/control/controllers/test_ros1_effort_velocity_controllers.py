@@ -11,7 +11,7 @@ from tests.control.plant import MS, Plant, PlantJoint, make_controller, make_rob
 from tests.control.recording_ports import RecordingPorts
 
 from gazelle.control.controllers.joint_error import JointRange
-from gazelle.control.controllers.ros1_joint_pid_controllers import (
+from gazelle.control.controllers.ros1_effort_velocity_controllers import (
     JointGroupPositionController,
     JointPositionController,
 )

@@ -5,20 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from gazelle.description.sdformat_emulation.element import SdfElement
-from gazelle.description.sdformat_emulation.gz_sdf.checks.element_checks import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.element_checks import (
     check_light,
     check_unique,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_attached_to_graph import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.frame_attached_to_graph import (
     attached_graph,
     body_of,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_semantics import Kind, Scope
-from gazelle.description.sdformat_emulation.gz_sdf.checks.pose_relative_to_graph import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.frame_semantics import Kind, Scope
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.pose_relative_to_graph import (
     check_places,
     relative_graph,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.scopes import (
     Joint,
     Loader,
     ModelScope,
@@ -27,11 +27,11 @@ from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
     load_world,
     shared_names,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.console import Code, Console, SdfError
-from gazelle.description.sdformat_emulation.gz_sdf.element_reader import Document
-from gazelle.description.sdformat_emulation.gz_sdf.model_config import version_numbers
-from gazelle.description.sdformat_emulation.gz_sdf.printer import to_text
-from gazelle.description.sdformat_emulation.gz_sdf.specification import specification
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Code, Console, SdfError
+from gazelle.description.sdformat_emulation.gz_sdf_command.element_reader import Document
+from gazelle.description.sdformat_emulation.gz_sdf_command.model_config import version_numbers
+from gazelle.description.sdformat_emulation.gz_sdf_command.printer import to_text
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import specification
 
 __all__ = [
     "Loaded",

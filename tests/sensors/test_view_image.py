@@ -26,9 +26,9 @@ from gazelle.description.model import (
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose, box_mass_properties
-from gazelle.sensors.snapshot import Picture, take_picture
-from gazelle.sensors.snapshot_overlays import equivalent_box
-from gazelle.sensors.snapshot_views import VIEWS, looking_at
+from gazelle.sensors.view_cameras import VIEWS, looking_at
+from gazelle.sensors.view_image import Picture, take_picture
+from gazelle.sensors.view_overlays import equivalent_box
 
 SIZE = (200, 150)
 GREEN = Material(ambient=(0, 1, 0, 1), diffuse=(0, 1, 0, 1))

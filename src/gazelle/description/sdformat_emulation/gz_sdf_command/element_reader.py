@@ -6,9 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from gazelle.description.sdformat_emulation.element import SdfElement
-from gazelle.description.sdformat_emulation.gz_sdf.console import Code, Console, SdfError
-from gazelle.description.sdformat_emulation.gz_sdf.specification import Definition, Parameter
-from gazelle.description.sdformat_emulation.gz_sdf.values import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Code, Console, SdfError
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import (
+    Definition,
+    Parameter,
+)
+from gazelle.description.sdformat_emulation.gz_sdf_command.values import (
     default_text,
     empty_pose,
     printed_value,

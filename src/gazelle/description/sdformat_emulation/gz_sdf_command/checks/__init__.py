@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
-from gazelle.description.sdformat_emulation.gz_sdf.checks.verdict import check, load, name_problems
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.verdict import (
+    check,
+    load,
+    name_problems,
+)
 
 __all__ = ["check", "load", "name_problems"]

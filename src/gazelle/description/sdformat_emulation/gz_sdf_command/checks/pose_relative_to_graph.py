@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Set
 from functools import reduce
 
-from gazelle.description.sdformat_emulation.gz_sdf.checks.frame_semantics import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.frame_semantics import (
     Edge,
     Graph,
     Kind,
     Scope,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.checks.scopes import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.checks.scopes import (
     Frame,
     Joint,
     Link,
     ModelScope,
     WorldScope,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.console import Code, SdfError
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import Code, SdfError
 from gazelle.geometry import Pose
 
 __all__ = ["check_places", "placed_pose", "pose_in_scope", "relative_graph"]

@@ -8,24 +8,27 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.description.sdformat_emulation.element import SdfElement, raw_element
-from gazelle.description.sdformat_emulation.gz_sdf.console import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.console import (
     Code,
     Console,
     SdfError,
     error_line,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.element_reader import (
+from gazelle.description.sdformat_emulation.gz_sdf_command.element_reader import (
     Document,
     ElementLocation,
     Include,
     Reading,
     read_element,
 )
-from gazelle.description.sdformat_emulation.gz_sdf.includes import read_include
-from gazelle.description.sdformat_emulation.gz_sdf.model_config import model_file, version_numbers
-from gazelle.description.sdformat_emulation.gz_sdf.printer import to_text
-from gazelle.description.sdformat_emulation.gz_sdf.specification import specification
-from gazelle.description.sdformat_emulation.gz_sdf.version_upgrades import upgrade
+from gazelle.description.sdformat_emulation.gz_sdf_command.includes import read_include
+from gazelle.description.sdformat_emulation.gz_sdf_command.model_config import (
+    model_file,
+    version_numbers,
+)
+from gazelle.description.sdformat_emulation.gz_sdf_command.printer import to_text
+from gazelle.description.sdformat_emulation.gz_sdf_command.specification import specification
+from gazelle.description.sdformat_emulation.gz_sdf_command.version_upgrades import upgrade
 from gazelle.description.sdformat_emulation.parser_urdf import urdf_to_sdf
 from gazelle.description.sdformat_emulation.release import Release
 from gazelle.description.xml import Tag, parse_xml
