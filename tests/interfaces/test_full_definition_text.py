@@ -11,7 +11,7 @@ from gazelle.interfaces import (
     RosVersion,
     add_package,
     default_types,
-    full_text,
+    full_definition_text,
     keep_text,
     ros1_definition,
     ros2_definition,
@@ -23,10 +23,10 @@ HEADER = "# Of the test.\nuint32 seq\n# When.\ntime stamp # since 1970\nstring f
 
 @pytest.fixture(autouse=True)
 def bare_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """No ROS is full_text."""
-    monkeypatch.setattr(full_text, "_SYSTEM", tmp_path / "usr")
-    monkeypatch.setattr(full_text, "_DISTRIBUTIONS", tmp_path / "opt")
-    for name in full_text._VARIABLES:
+    """No ROS is installed."""
+    monkeypatch.setattr(full_definition_text, "_SYSTEM", tmp_path / "usr")
+    monkeypatch.setattr(full_definition_text, "_DISTRIBUTIONS", tmp_path / "opt")
+    for name in full_definition_text._VARIABLES:
         monkeypatch.delenv(name, raising=False)
     default_types().look_again()
     yield
@@ -120,9 +120,9 @@ def test_every_text_of_debian_is_ours(monkeypatch: pytest.MonkeyPatch) -> None:
     modules = Path("/usr/lib/python3/dist-packages")
     if not (modules / "std_msgs" / "msg" / "_Header.py").is_file():
         pytest.skip("ROS 1 is not installed (Debian: apt-get install python3-std-msgs …)")
-    monkeypatch.setattr(full_text, "_SYSTEM", Path("/usr"))
+    monkeypatch.setattr(full_definition_text, "_SYSTEM", Path("/usr"))
     for file in sorted(modules.glob("*_msgs/msg/_[A-Z]*.py")):
-        found = full_text._LITERAL.search(file.read_text())
+        found = full_definition_text._LITERAL.search(file.read_text())
         assert found is not None, file
         name = f"{file.parents[1].name}/{file.stem[1:]}"
         assert ros1_definition(name) == found[1][3:-3], name
