@@ -100,11 +100,12 @@ def test_pause_stands_still_and_seek_shows_what_was_last(
     ear.heard.clear()
     middle_s = (state["begin_s"] + state["end_s"]) / 2
     playing.seek(middle_s)
-    shown = ear.wait(lambda heard: len(heard) > 0)
+    # What was on its way when it paused may come after the clearing.
+    shown = [int(one) for one in ear.wait(lambda heard: heard and int(heard[-1]) >= 35)]
     after = playing.state()
     assert after is not None and after["time_s"] == pytest.approx(middle_s)
     assert after["playing"] is False
-    assert len(shown) == 1 and 35 <= int(shown[0]) <= 65
+    assert len([one for one in shown if one >= 35]) == 1 and shown[-1] <= 65
 
 
 @pytest.mark.parametrize("kind", ["bag", "mcap", "db3"])
