@@ -21,7 +21,7 @@ WHEN_RUN = {
 # Those that only types close: by their first module, for one class and its parts know each other.
 WITH_TYPES = {
     *WHEN_RUN,
-    "gazelle.compat.rclpy.publisher_subscription_service",
+    "gazelle.compat.rclpy.event_handler",
     "gazelle.engine.engine",
     "gazelle.graph.actions.actionlib_wire",
     "gazelle.graph.callback_queue",
