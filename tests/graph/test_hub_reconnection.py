@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 import zenoh
@@ -64,11 +65,25 @@ def test_a_question_that_closes_too_slowly_is_answered_all_the_same(
         def liveliness(self) -> Session:
             return self
 
-        def get(self, _selector: str, timeout: float) -> list[SimpleNamespace]:
-            return [SimpleNamespace(ok=timeout)]
+        def get(self, _selector: str, _channel: Any, timeout: float) -> list[SimpleNamespace]:
+            return [SimpleNamespace(ok=SimpleNamespace(key_expr=f"@ros2_lv/0/abc/{timeout}"))]
 
         def close(self) -> None:
             raise zenoh.ZError("close operation timed out!")
 
     monkeypatch.setattr(zenoh, "open", lambda _config: Session())
+    monkeypatch.setattr(hub, "somebody_listens", lambda _port: True)
     assert hub.hub_knows(1, "@ros2_lv/*/abc/**")
+
+
+def test_a_hub_that_leaves_a_question_open_is_asked_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    answers = [None, None, frozenset(["@ros2_lv/0/abc/1"])]
+    monkeypatch.setattr(hub, "somebody_listens", lambda _port: True)
+    monkeypatch.setattr(hub, "_tokens_now", lambda _port, _selector: answers.pop(0))
+    assert hub.hub_knows(1, "@ros2_lv/*/abc/**")
+    assert answers == []
+
+
+def test_where_there_is_no_hub_nothing_is_known(free_port: int) -> None:
+    assert hub.hub_tokens(free_port, "@ros2_lv/**") is None
+    assert not hub.hub_knows(free_port, "@ros2_lv/**")

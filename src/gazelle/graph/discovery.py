@@ -10,7 +10,9 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
+from gazelle.graph.hub import hub_tokens, port_taken
 from gazelle.graph.key_expressions import Entity, Kind, entity_gid, token_selector
+from gazelle.graph.sessions import liveliness_tokens
 from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:
@@ -19,7 +21,6 @@ if TYPE_CHECKING:
 __all__ = ["Announcement", "Announcements", "Discovery"]
 
 _ASK_S = 2.0
-_MAX_REPLIES = 1 << 20
 # A node's parts come one after the other; on a machine with much to do they take their time.
 _QUIET_S = 1.0
 _MAX_DURATION_S = 10.0
@@ -27,6 +28,7 @@ _MAX_DURATION_S = 10.0
 _DOUBT_S = 1.0
 _MISSED_LIMIT = 3
 _GONE_LIMIT = 4096
+_LAST_QUESTION_S = 2.0
 
 
 class Announcement:
@@ -113,8 +115,9 @@ class Discovery:
     answers lack it; a lost link that is back brings the same tokens again, and these are found.
     """
 
-    def __init__(self, session: zenoh.Session, domain: int) -> None:
+    def __init__(self, session: zenoh.Session, domain: int, port: int) -> None:
         self._session = session
+        self._port = port
         self._selector = token_selector(domain)
         self._entities: dict[str, Entity] = {}
         self._by_gid: dict[bytes, Entity] = {}
@@ -125,6 +128,8 @@ class Discovery:
         self._gone: OrderedDict[str, None] = OrderedDict()
         self._missed: dict[str, int] = {}
         self._is_asking = False
+        self._asking: threading.Thread | None = None
+        self._is_whole = False
         self._closed = threading.Event()
 
     def start(self) -> None:
@@ -137,8 +142,11 @@ class Discovery:
         )
 
     def close(self) -> None:
-        """Follow changes no more."""
+        """Follow changes no more; a question that is under way is waited for."""
         self._closed.set()
+        asking = self._asking
+        if asking is not None and asking is not threading.current_thread():
+            asking.join(_LAST_QUESTION_S)
         if self._subscriber is not None:
             self._subscriber.undeclare()
             self._subscriber = None
@@ -147,28 +155,35 @@ class Discovery:
         """Return all entities, asking the graph afresh; complete also just after joining.
 
         Raises:
+            PortTakenError: the hub has never told what there is, and does not answer.
             GraphError: the graph is closed.
         """
         found = self._answers()
-        # The hub's last word can cut those answers short; they are among the entities known.
+        # What this session was told before is left out of answers: it is among those known.
         with self._changed:
             return tuple((self._entities | found).values())
 
     def _answers(self) -> dict[str, Entity]:
+        """Return what the graph answers; with what is known already it is all there is.
+
+        A machine with much to do can leave a question open for seconds. So the first one is
+        asked until it is answered: the hub answers in order, so then it has told, too, what was
+        there when this session began to follow changes.
+        """
         import zenoh
 
-        found: dict[str, Entity] = {}
-        # What this session knows is answered before get() returns: a channel of zenoh's usual
-        # 256 places would fill up and nobody could ever empty it.
-        channel: Any = zenoh.handlers.FifoChannel(_MAX_REPLIES)
-        try:
-            replies = self._session.liveliness().get(self._selector, channel, timeout=_ASK_S)
-        except zenoh.ZError as error:
-            raise GraphError("the graph is closed") from error
-        for reply in replies:
-            if reply.ok is not None:
-                _read_token(str(reply.ok.key_expr), found)
-        return found
+        deadline = time.monotonic() + _MAX_DURATION_S
+        while True:
+            try:
+                keys = liveliness_tokens(self._session, self._selector, _ASK_S)
+            except zenoh.ZError as error:
+                raise GraphError("the graph is closed") from error
+            if keys is not None:
+                self._is_whole = True
+            if self._is_whole:
+                return _entities_of(keys or ())
+            if time.monotonic() > deadline:
+                raise port_taken(self._port)
 
     def known(self) -> tuple[Entity, ...]:
         """Return the entities seen so far, without asking."""
@@ -218,7 +233,17 @@ class Discovery:
         Args:
             condition: looked at after every change; when it holds, that is the answer.
             quiet_s: nothing has come or gone for so long; ten seconds are waited at most.
+
+        Raises:
+            PortTakenError: the hub has never told what there is, and does not answer.
+            GraphError: the graph is closed.
         """
+        if self._is_settled(condition, quiet_s):
+            return True
+        # It is as quiet while the hub has yet to tell what there is.
+        return not self._is_whole and condition(self.ask())
+
+    def _is_settled(self, condition: Callable[[Iterable[Entity]], bool], quiet_s: float) -> bool:
         deadline = time.monotonic() + _MAX_DURATION_S
         with self._changed:
             while not condition(self._entities.values()):
@@ -244,7 +269,8 @@ class Discovery:
             self._is_asking |= asks
             listeners = tuple(self._listeners)
         if asks:
-            threading.Thread(target=self._ask_again, name="discovery", daemon=True).start()
+            self._asking = threading.Thread(target=self._ask_again, name="discovery", daemon=True)
+            self._asking.start()
         for listener in listeners:
             listener(entity, is_there)
 
@@ -284,16 +310,17 @@ class Discovery:
     def _ask_again(self) -> None:
         while not self._closed.wait(_DOUBT_S):
             try:
-                self._drop_missed(self._answers())
+                found = hub_tokens(self._port, self._selector, 0)
             except GraphError:
                 return
+            if found is not None:
+                self._drop_missed(_entities_of(found))
             with self._changed:
                 self._is_asking = bool(self._missed)
                 if not self._is_asking:
                     return
 
 
-def _read_token(key: str, into: dict[str, Entity]) -> None:
-    entity = Entity.from_token(key)
-    if entity is not None:
-        into[key] = entity
+def _entities_of(keys: Iterable[str]) -> dict[str, Entity]:
+    read = ((key, Entity.from_token(key)) for key in keys)
+    return {key: entity for key, entity in read if entity is not None}

@@ -18,13 +18,13 @@ from gazelle.graph.clock import Clock
 from gazelle.graph.console import print_record
 from gazelle.graph.discovery import Announcements, Discovery
 from gazelle.graph.duplicate_nodes import TAKEN_OVER, DuplicateNodes
-from gazelle.graph.errors import NoGraphError, PortTakenError, coded
+from gazelle.graph.errors import NoGraphError
 from gazelle.graph.glibc_malloc import HeapTrim
 from gazelle.graph.graph_info import NodeInfo, ServiceInfo, TopicInfo
-from gazelle.graph.hub import HubKeeper
+from gazelle.graph.hub import HubKeeper, port_taken
 from gazelle.graph.key_expressions import Entity, Kind
 from gazelle.graph.local_topic import LocalTopics
-from gazelle.graph.locators import name_of_hub, own_endpoint, share, somebody_listens
+from gazelle.graph.locators import own_endpoint, share, somebody_listens
 from gazelle.graph.names import anonymous_name, check_node_name, join, resolve
 from gazelle.graph.node import Node
 from gazelle.graph.parameter_server import ParameterShare, ParameterStore, global_parameters
@@ -105,7 +105,7 @@ class Graph:
         self.console: Callable[..., None] = print_record
         self._environ = environ
         self._keeper = keeper
-        self._discovery = Discovery(session, domain)
+        self._discovery = Discovery(session, domain, port)
         self._duplicate_nodes = DuplicateNodes(session, domain, self.zid, self._discovery)
         self._nodes: list[Node] = []
         self._ids = itertools.count()
@@ -415,7 +415,7 @@ def _open_peer(
     if not keeper.start(session, _HUB_S, graph.parameter_share.own):
         keeper.close()
         close_session(session)
-        raise _port_taken(port)
+        raise port_taken(port)
     return graph
 
 
@@ -433,16 +433,4 @@ def _open_client(port: int) -> zenoh.Session:
         # A hub on a busy machine is silent as a stranger is, for a second and more.
         return zenoh.open(client_config(port, _HUB_S))
     except zenoh.ZError as error:
-        raise _port_taken(port) from error
-
-
-def _port_taken(port: int) -> PortTakenError:
-    return PortTakenError(
-        coded(
-            "graph.port-taken",
-            f"the graph on port {port} does not answer: who listens at {name_of_hub(port)} is "
-            "stopped, or no Gazelle graph",
-            fix=f"end that program (fuser {name_of_hub(port)} shows it), or choose another port "
-            f"for all shells: export GAZELLE_PORT={port + 1}",
-        )
-    )
+        raise port_taken(port) from error

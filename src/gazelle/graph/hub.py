@@ -19,17 +19,28 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from gazelle.errors import GraphError
-from gazelle.graph.locators import claim_hub, hub_endpoint, is_hub, share, sweep_sockets
-from gazelle.graph.sessions import client_config, close_session, hub_config
+from gazelle.graph.errors import PortTakenError, coded
+from gazelle.graph.locators import (
+    claim_hub,
+    hub_endpoint,
+    is_hub,
+    name_of_hub,
+    share,
+    somebody_listens,
+    sweep_sockets,
+)
+from gazelle.graph.sessions import client_config, close_session, hub_config, liveliness_tokens
 from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:
     import zenoh
 
-__all__ = ["HubKeeper", "Reconnection", "hub_knows"]
+__all__ = ["HubKeeper", "Reconnection", "hub_knows", "hub_tokens", "port_taken"]
 
 _RECONNECT_PAUSE_S = (0.3, 0.6)
 _ASK_S = 1.0
+# A hub on a machine with much to do leaves a question open for seconds.
+_PATIENCE_S = 10.0
 _LAST_QUESTION_S = 2.0
 _DESCRIPTORS = 1024
 _PAUSE_S = 0.05
@@ -80,18 +91,55 @@ class Reconnection:
 
 
 def hub_knows(port: int, selector: str) -> bool:
-    """Ask the hub for liveliness tokens, as a client: peers know only whom they have a link to."""
+    """Tell whether the hub answers, and knows of a liveliness token that a selector fits."""
+    return bool(hub_tokens(port, selector))
+
+
+def hub_tokens(port: int, selector: str, patience_s: float = _PATIENCE_S) -> frozenset[str] | None:
+    """Ask the hub for liveliness tokens, as a client: peers know only whom they have a link to.
+
+    The answer is whole, as a session's that follows changes is not: what such a one knows already
+    can be left out.
+
+    Args:
+        port: the hub's port.
+        selector: of the tokens.
+        patience_s: for how long a question that is left open is asked again.
+
+    Returns:
+        Their key expressions; None when there is no hub, or it does not answer.
+    """
+    deadline = time.monotonic() + patience_s
+    while somebody_listens(port):
+        found = _tokens_now(port, selector)
+        if found is not None or time.monotonic() > deadline:
+            return found
+    return None
+
+
+def port_taken(port: int) -> PortTakenError:
+    """Return the error that says of a hub that it does not answer."""
+    return PortTakenError(
+        coded(
+            "graph.port-taken",
+            f"the graph on port {port} does not answer: who listens at {name_of_hub(port)} is "
+            "stopped, or no Gazelle graph",
+            fix=f"end that program (fuser {name_of_hub(port)} shows it), or choose another port "
+            f"for all shells: export GAZELLE_PORT={port + 1}",
+        )
+    )
+
+
+def _tokens_now(port: int, selector: str) -> frozenset[str] | None:
     import zenoh
 
     try:
-        session: Any = zenoh.open(client_config(port))
+        session: Any = zenoh.open(client_config(port, _ASK_S))
     except zenoh.ZError:
-        return False
-    replies = session.liveliness().get(selector, timeout=_ASK_S)
-    # All of them are taken: one that finds the channel full would hold up the close.
-    lives = sum(reply.ok is not None for reply in replies) > 0
+        return None
+    found = liveliness_tokens(session, selector, _ASK_S)
     close_session(session)
-    return lives
+    return found
 
 
 class HubKeeper:

@@ -29,6 +29,7 @@ __all__ = [
     "close_session",
     "domain_of",
     "hub_config",
+    "liveliness_tokens",
     "peer_config",
     "port_of",
 ]
@@ -38,6 +39,7 @@ DEFAULT_PORT = 7447
 _DEFAULT_MASTER_PORT = 11311
 _MAX_DOMAIN = 232
 _BLOCKED_LINK_CLOSES_US = 5_000_000
+_MAX_REPLIES = 1 << 20
 
 
 class CallsInFlight:
@@ -162,6 +164,32 @@ def client_config(port: int, patience_s: float = 0.5) -> zenoh.Config:
         connect=[hub_endpoint(port)],
         settings={"connect/timeout_ms": round(patience_s * 1000), "connect/exit_on_failure": True},
     )
+
+
+def liveliness_tokens(session: Any, selector: str, timeout_s: float) -> frozenset[str] | None:
+    """Ask for liveliness tokens.
+
+    Args:
+        session: who asks; it leaves out what its own subscribers of tokens were told before.
+        selector: of the tokens.
+        timeout_s: how long to wait for the answer's end.
+
+    Returns:
+        Their key expressions; None when the answer had no end in time.
+
+    Raises:
+        zenoh.ZError: the session is closed.
+    """
+    import zenoh
+
+    # What this session knows is answered before get() returns: a channel of zenoh's usual
+    # 256 places would fill up and nobody could ever empty it.
+    channel: Any = zenoh.handlers.FifoChannel(_MAX_REPLIES)
+    # All are taken: one that finds no place would hold up the close.
+    replies = tuple(session.liveliness().get(selector, channel, timeout=timeout_s))
+    if any(reply.ok is None for reply in replies):
+        return None
+    return frozenset(str(reply.ok.key_expr) for reply in replies)
 
 
 def _close(session: Any, then: Callable[[], None]) -> None:
