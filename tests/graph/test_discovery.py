@@ -40,7 +40,7 @@ class Replies:
 
 
 def _discovery_of(session: Any) -> Discovery:
-    return Discovery(session, 0, port=1)
+    return Discovery(session, 0, port=1, zid="2f")
 
 
 def _reply(entity: Entity) -> SimpleNamespace:
@@ -56,6 +56,12 @@ def test_a_hub_that_never_answers_is_an_error(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr("gazelle.graph.discovery._MAX_DURATION_S", 0.0)
     with pytest.raises(GraphError, match="the graph on port 1 does not answer: who listens at"):
         _discovery_of(Replies([_LEFT_OPEN])).ask()
+
+
+def test_what_is_known_of_others_is_taken_for_all_once_it_is_quiet() -> None:
+    discovery = _discovery_of(Replies([_LEFT_OPEN]))
+    _told(discovery, _TALKER, zenoh.SampleKind.PUT)
+    assert discovery.ask() == (_TALKER,)
 
 
 def test_a_hub_that_answered_once_leaves_what_is_known(monkeypatch: pytest.MonkeyPatch) -> None:

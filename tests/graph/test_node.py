@@ -41,6 +41,21 @@ def test_names_are_resolved_and_remapped(graph: Graph) -> None:
         node.create_publisher("my-topic", String)
 
 
+def test_a_callback_of_the_transport_knows_who_publishes_without_asking(
+    graph: Graph, other: Graph, inbox: Any, eventually: Wait, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node = graph.create_node("n")
+    node.create_subscription(
+        "in", String, lambda _message: inbox(node.publisher_names("in")), inline=True
+    )
+    # Whoever asks there waits for an answer that nobody can take meanwhile.
+    monkeypatch.setattr(graph.discovery, "ask", None)
+    talker = other.create_node("talker").create_publisher("in", String)
+    eventually(lambda: graph.publisher_count("/in") == 1 and talker.subscription_count == 1)
+    talker.publish(String(data="x"))
+    assert inbox.wait_for(1) == [("/talker",)]
+
+
 def test_ros_namespace_is_the_default_namespace(join: Callable[..., Graph]) -> None:
     graph = join(environ={"ROS_NAMESPACE": "robot1"})
     assert graph.create_node("n").name == "/robot1/n"
@@ -69,7 +84,7 @@ def test_newer_node_of_the_same_name_ends_the_older(
 
 
 def test_older_node_that_is_heard_of_late_ends_too(
-    graph: Graph, other: Graph, inbox: Any, monkeypatch: pytest.MonkeyPatch
+    graph: Graph, other: Graph, inbox: Any, eventually: Wait, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Word of a node takes a moment: of two that start at once none knows of the other."""
     older = graph.create_node("n")

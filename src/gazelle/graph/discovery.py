@@ -115,9 +115,10 @@ class Discovery:
     answers lack it; a lost link that is back brings the same tokens again, and these are found.
     """
 
-    def __init__(self, session: zenoh.Session, domain: int, port: int) -> None:
+    def __init__(self, session: zenoh.Session, domain: int, port: int, zid: str) -> None:
         self._session = session
         self._port = port
+        self._zid = zid
         self._selector = token_selector(domain)
         self._entities: dict[str, Entity] = {}
         self._by_gid: dict[bytes, Entity] = {}
@@ -143,8 +144,9 @@ class Discovery:
 
     def close(self) -> None:
         """Follow changes no more; a question that is under way is waited for."""
-        self._closed.set()
-        asking = self._asking
+        with self._changed:
+            self._closed.set()
+            asking = self._asking
         if asking is not None and asking is not threading.current_thread():
             asking.join(_LAST_QUESTION_S)
         if self._subscriber is not None:
@@ -155,7 +157,7 @@ class Discovery:
         """Return all entities, asking the graph afresh; complete also just after joining.
 
         Raises:
-            PortTakenError: the hub has never told what there is, and does not answer.
+            PortTakenError: nothing is known of others, and the hub does not answer.
             GraphError: the graph is closed.
         """
         found = self._answers()
@@ -168,21 +170,25 @@ class Discovery:
 
         A machine with much to do can leave a question open for seconds. So the first one is
         asked until it is answered: the hub answers in order, so then it has told, too, what was
-        there when this session began to follow changes.
+        there when this session began to follow changes. Where others are known and it is quiet,
+        that is taken for all there is.
         """
         import zenoh
 
         deadline = time.monotonic() + _MAX_DURATION_S
         while True:
+            asked_s = time.monotonic()
             try:
                 keys = liveliness_tokens(self._session, self._selector, _ASK_S)
             except zenoh.ZError as error:
                 raise GraphError("the graph is closed") from error
-            if keys is not None:
+            knows_others = any(one.zid != self._zid for one in self.known())
+            is_late = time.monotonic() > deadline
+            if keys is not None or (knows_others and (is_late or self._changed_s < asked_s)):
                 self._is_whole = True
             if self._is_whole:
                 return _entities_of(keys or ())
-            if time.monotonic() > deadline:
+            if is_late:
                 raise port_taken(self._port)
 
     def known(self) -> tuple[Entity, ...]:
@@ -235,7 +241,7 @@ class Discovery:
             quiet_s: nothing has come or gone for so long; ten seconds are waited at most.
 
         Raises:
-            PortTakenError: the hub has never told what there is, and does not answer.
+            PortTakenError: nothing is known of others, and the hub does not answer.
             GraphError: the graph is closed.
         """
         if self._is_settled(condition, quiet_s):
@@ -265,12 +271,13 @@ class Discovery:
         is_there = sample.kind == zenoh.SampleKind.PUT
         with self._changed:
             self._note(key, entity, is_there)
-            asks = bool(self._missed) and not self._is_asking
-            self._is_asking |= asks
+            if self._missed and not self._is_asking and not self._closed.is_set():
+                self._is_asking = True
+                self._asking = threading.Thread(
+                    target=self._ask_again, name="discovery", daemon=True
+                )
+                self._asking.start()
             listeners = tuple(self._listeners)
-        if asks:
-            self._asking = threading.Thread(target=self._ask_again, name="discovery", daemon=True)
-            self._asking.start()
         for listener in listeners:
             listener(entity, is_there)
 

@@ -105,7 +105,7 @@ class Graph:
         self.console: Callable[..., None] = print_record
         self._environ = environ
         self._keeper = keeper
-        self._discovery = Discovery(session, domain, port)
+        self._discovery = Discovery(session, domain, port, self.zid)
         self._duplicate_nodes = DuplicateNodes(session, domain, self.zid, self._discovery)
         self._nodes: list[Node] = []
         self._ids = itertools.count()

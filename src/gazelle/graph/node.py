@@ -95,8 +95,12 @@ class Node:
         return self._closed
 
     def publisher_names(self, topic: str) -> tuple[str, ...]:
-        """Return the names of the other nodes that publish a topic."""
-        found = {one.node for one in self.graph.publishers_info(topic)}
+        """Return the names of the other nodes that are known to publish a topic.
+
+        The graph is not asked: a callback of the transport may want to know.
+        """
+        full, known = resolve(topic), self.graph.discovery.known()
+        found = {one.node for one in known if one.kind is Kind.PUBLISHER and one.name == full}
         return tuple(sorted(found - {self.name}))
 
     def announced_together(self) -> AbstractContextManager[None]:
