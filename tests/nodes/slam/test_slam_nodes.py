@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import threading
 from collections.abc import Callable, Iterator
@@ -123,9 +124,12 @@ def test_a_room_is_mapped_under_every_name(
     for pose in POSES:
         robot.step(pose)
     bench.eventually(lambda: robot.buffer.can_transform("map", "odom"))
+    # A node that is behind drops scans of a drive that takes no time, as real ones do.
+    further = itertools.cycle((*reversed(POSES), *POSES))
 
     def is_whole() -> bool:
         """The room is as wide as it is, and its walls are nearly closed, 20 m of them."""
+        robot.step(next(further))
         if not maps:
             return False
         info = maps[-1].info
