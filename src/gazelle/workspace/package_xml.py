@@ -10,6 +10,7 @@ from typing import NamedTuple
 from xml.parsers import expat
 
 from gazelle.documents import read_limited
+from gazelle.documents.malformed_xml import malformed_xml
 
 __all__ = [
     "MANIFEST_BYTES",
@@ -131,12 +132,13 @@ def read_manifest(path: Path) -> Manifest:
     """
     collector = _Collector()
     try:
-        collector.parse(read_limited(path, MANIFEST_BYTES))
+        data = read_limited(path, MANIFEST_BYTES)
+        collector.parse(data)
     except OSError as error:
         raise ManifestError(error.strerror or str(error)) from error
     except expat.ExpatError as error:
-        reason = f"not well-formed XML: {expat.ErrorString(error.code)}"
-        raise ManifestError(reason, error.lineno, error.offset + 1) from error
+        found = malformed_xml(data, error)
+        raise ManifestError(found.message, found.line, found.column) from error
     except (LookupError, ValueError) as error:
         # Python's own words about an encoding that is unknown or of several bytes.
         raise ManifestError(f"not well-formed XML: {error}", 1, 1) from error

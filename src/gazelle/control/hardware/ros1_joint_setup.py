@@ -220,7 +220,8 @@ class _Reader:
             hint = did_you_mean(name, movable)
         else:
             text += f"is {joint.type.value} and cannot be driven; it is left out"
-        self._report("control.hardware-joint", text, tag, fix=hint)
+        span = next((one.span for one in tag.joints if one.name == name), None) or tag.span
+        self._host.diagnostics.report("control.hardware-joint", text, span, fix=hint)
         return False
 
     def _report(self, code: str, text: str, tag: TransmissionTag, *, fix: str = "") -> None:

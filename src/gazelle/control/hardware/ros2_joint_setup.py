@@ -150,7 +150,7 @@ def _read_joint(
     for item in part.commands:
         name = item.name.removesuffix("_pid")
         if name not in _GAZEBO_COMMANDS or name in commands:
-            _report_interface(host, part, "command", item.name, _GAZEBO_COMMANDS)
+            _report_interface(host, part, "command", item, _GAZEBO_COMMANDS)
             continue
         commands[name] = item
         found = None if name == "effort" else _gains(host, part, item.name, parameters)
@@ -159,18 +159,18 @@ def _read_joint(
     states = {item.name: item for item in part.states if item.name in JOINT_STATES}
     for item in part.states:
         if item.name not in states:
-            _report_interface(host, part, "state", item.name, JOINT_STATES)
+            _report_interface(host, part, "state", item, JOINT_STATES)
     is_continuous = joint.type is JointType.CONTINUOUS
     return Ros2Joint(part.name, commands, states, limits_of(joint), is_continuous, gains)
 
 
 def _report_interface(
-    host: HardwareHost, part: PartTag, kind: str, name: str, known: Sequence[str]
+    host: HardwareHost, part: PartTag, kind: str, item: InterfaceTag, known: Sequence[str]
 ) -> None:
-    text = f"{part.kind} '{part.name}' has the {kind} interface '{name}', which simulated hardware"
-    text += f" does not offer or has already ({', '.join(known)}); it is left out"
-    hint = did_you_mean(name, known)
-    host.diagnostics.report("control.ros2-control-interface", text, part.span, fix=hint)
+    text = f"{part.kind} '{part.name}' has the {kind} interface '{item.name}', which simulated "
+    text += f"hardware does not offer or has already ({', '.join(known)}); it is left out"
+    hint, span = did_you_mean(item.name, known), item.span or part.span
+    host.diagnostics.report("control.ros2-control-interface", text, span, fix=hint)
 
 
 def _gains(

@@ -25,12 +25,14 @@ class InterfaceTag:
     Attributes:
         lower, upper: ``min`` and ``max``; infinite when absent or switched off.
         initial: ``initial_value``, None when absent.
+        span: of the element, None where there is none.
     """
 
     name: str
     lower: float = -math.inf
     upper: float = math.inf
     initial: float | None = None
+    span: SourceSpan | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +153,7 @@ def _read_interface(tag: Tag, limited: bool, diagnostics: Diagnostics) -> Interf
         -math.inf if lower is None or not limited else lower,
         math.inf if upper is None or not limited else upper,
         numbers.get("initial_value"),
+        tag.span,
     )
 
 

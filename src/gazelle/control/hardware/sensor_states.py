@@ -125,7 +125,8 @@ class SensorStates:
                 text = f"sensor '{part.name}' has no state '{item.name}'; it has"
                 text += f" {', '.join(readout.interfaces)}"
                 hint = did_you_mean(item.name, readout.interfaces)
-                diagnostics.report("control.ros2-control-interface", text, part.span, fix=hint)
+                span = item.span or part.span
+                diagnostics.report("control.ros2-control-interface", text, span, fix=hint)
                 continue
             name = f"{part.name}/{item.name}"
             indices[self._interface_values.add_state(name)] = readout.interfaces.index(item.name)

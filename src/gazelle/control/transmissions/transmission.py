@@ -154,7 +154,7 @@ def read_transmission(tag: TransmissionTag, diagnostics: Diagnostics) -> Transmi
         text = f"transmission '{tag.name}' is of type '{tag.type}', which is not known; its joints"
         text += " are driven directly"
         hint = did_you_mean(tag.type.rpartition("/")[2], _TYPES)
-        diagnostics.report("control.transmission-type", text, tag.span, fix=hint)
+        diagnostics.report("control.transmission-type", text, tag.type_span, fix=hint)
         return None
     count = 1 if kind == "simple" else 2
     if len(tag.joints) != count or len(tag.actuators) != count:

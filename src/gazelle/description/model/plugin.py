@@ -49,6 +49,7 @@ class TransmissionJoint:
     role: str = ""
     mechanical_reduction: float = 1.0
     offset: float = 0.0
+    span: SourceSpan | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +71,7 @@ class TransmissionTag:
     joints: tuple[TransmissionJoint, ...] = ()
     actuators: tuple[ActuatorTag, ...] = ()
     span: SourceSpan | None = None
+    type_span: SourceSpan | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -111,7 +111,10 @@ def read_joint(tag: Tag, name: str, context: ReadContext) -> ReadJoint | None:
             f'<{end} link="…"/>' for end, link in (("parent", parent), ("child", child)) if not link
         )
         message = f"joint '{name}' is missing {lacking}"
-        context.diagnostics.report("urdf.joint-ends", message, tag.span)
+        ends = ("parent", parent), ("child", child)
+        written = [found for end, link in ends if not link and (found := tag.find(end))]
+        span = written[0].span if written else tag.span
+        context.diagnostics.report("urdf.joint-ends", message, span)
     if kind is None:
         return None
     origin = origin_of(tag, context.diagnostics)

@@ -61,7 +61,8 @@ def read_transmission(
     actuators = tuple(
         _read_actuator(child, reduction, context) for child in tag.find_all("actuator")
     )
-    return TransmissionTag(name, kind, members, actuators, span=tag.span)
+    type_span = next((child.span for child in tag.find_all("type")), tag.span)
+    return TransmissionTag(name, kind, members, actuators, tag.span, type_span)
 
 
 def _read_joint(
@@ -84,6 +85,7 @@ def _read_joint(
         tag.text_of("role"),
         float_from(tag.find("mechanicalReduction"), 1.0, context.diagnostics),
         float_from(tag.find("offset"), 0.0, context.diagnostics),
+        tag.span,
     )
 
 

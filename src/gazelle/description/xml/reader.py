@@ -10,6 +10,7 @@ from xml.parsers import expat
 from gazelle.description.xml.tag import Tag
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.documents import TEXT_BYTES, FileLimitError, LimitError, read_limited, scaled
+from gazelle.documents.malformed_xml import malformed_xml
 
 __all__ = ["parse_xml", "read_data", "read_xml", "too_much_in"]
 
@@ -67,9 +68,9 @@ def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | N
             raise _TooMuchError(reason, SourceSpan(file))
         return _parsed_or_repaired(data, encoding, file, diagnostics)
     except expat.ExpatError as error:
-        span = SourceSpan(file, error.lineno, error.offset + 1)
-        message = f"not well-formed XML: {expat.ErrorString(error.code)}"
-        diagnostics.report("xml.malformed", message, span)
+        found = malformed_xml(data, error)
+        span = SourceSpan(file, found.line, found.column)
+        diagnostics.report("xml.malformed", found.message, span, fix=found.fix)
     except (LookupError, ValueError) as error:
         # Python's own words about an encoding that is unknown or of several bytes.
         message = f"not well-formed XML: {error}"

@@ -359,6 +359,22 @@ _PACKAGES = (
         "ModuleNotFoundError, AttributeError: module has no attribute 'main'",
     ),
     Entry(
+        "package.python-syntax",
+        "error",
+        "A program of a package is not Python",
+        "It is neither Python 3 nor Python 2, so it ends before its first line runs.",
+        "mend it at the place shown",
+        "SyntaxError: invalid syntax",
+    ),
+    Entry(
+        "package.import-missing",
+        "error",
+        "A program imports a message that its package does not have",
+        "There is none of this name, and one that is nearly the same.",
+        "correct the name",
+        "ImportError: cannot import name … from …",
+    ),
+    Entry(
         "package.script-not-executable",
         "warning",
         "A script lacks the executable bit",

@@ -367,6 +367,14 @@ _ROS2_STATIC = (
         "Caught exception when trying to load file of format [py]",
     ),
     Entry(
+        "launch_ros2.keyword",
+        "error",
+        "An action of a launch file is given an argument that it does not take",
+        "Python refuses the call, and nothing of the launch starts.",
+        "correct the argument's name",
+        "TypeError: __init__() got an unexpected keyword argument",
+    ),
+    Entry(
         "launch_ros2.package-missing",
         "error",
         "A launch file names a package that is not there",

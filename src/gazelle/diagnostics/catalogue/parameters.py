@@ -109,6 +109,14 @@ _FILES = (
         "Couldn't parse parameter override rule",
     ),
     Entry(
+        "parameters.controller-type",
+        "error",
+        "A controller's type is misspelt",
+        "There is none of this name, and one that is nearly the same; or the key is not `type`.",
+        "correct the type",
+        "Could not load class; The 'type' param was not defined",
+    ),
+    Entry(
         "parameters.interface-claim",
         "warning",
         "A controller needs an interface that its joint does not have",

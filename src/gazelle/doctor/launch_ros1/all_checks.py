@@ -34,6 +34,7 @@ from gazelle.launch.ros1.loader import load_launch_files
 __all__ = ["examine_launch"]
 
 _DESCRIPTION = "robot_description"
+_UNSET = frozenset({"launch.arg-missing", "launch.env-missing"})
 _LACKS = frozenset({"doctor.no-controller-manager", "doctor.no-description", "doctor.spawn-fails"})
 
 
@@ -55,6 +56,11 @@ def examine_launch(files: Sequence[Path], examination: Examination) -> None:
     for file in (*config.files, *config.text_files):
         examination.see(Path(file))
     if examination.is_wide and _report_required(config, found, examination):
+        # What is wrong without them is wrong with them.
+        for item in found:
+            if item.code not in _UNSET:
+                examination.diagnostics.add(item)
+        _executables(config, examination)
         return
     whole, examination = examination, replace(examination, diagnostics=Diagnostics())
     examination.diagnostics.extend(found)
@@ -86,7 +92,7 @@ def _report_required(config: LaunchConfig, found: Diagnostics, examination: Exam
     """Tell of a file that means nothing without arguments or environment; True when it is one."""
     unset = found.by_code("launch.env-missing")
     if unset:
-        text = f"'{Path(config.files[0]).name}' needs the environment and is not examined: "
+        text = f"'{Path(config.files[0]).name}' needs the environment and is not started: "
         text += unset[0].message
         fix = "examine it with the variable exported"
         examination.diagnostics.report(
@@ -100,7 +106,7 @@ def _report_required(config: LaunchConfig, found: Diagnostics, examination: Exam
         return False
     file = Path(config.files[0])
     argv = " ".join(f"{item.name}:=…" for item in missing)
-    text = f"'{file.name}' needs arguments and is not examined: "
+    text = f"'{file.name}' needs arguments and is not started: "
     text += ", ".join(f"{item.name} ({item.doc})" if item.doc else item.name for item in missing)
     fix = f"examine it with them: gazelle doctor {file} {argv}"
     phrase = f"RLException: [{file}] requires the '{missing[0].name}' arg to be set"

@@ -12,6 +12,7 @@ from gazelle.doctor.launch_ros2.launch_tree import Followed, follow, located
 from gazelle.doctor.launch_ros2.node_checks import (
     check_clocks,
     check_executables,
+    check_node_keywords,
     check_spawners,
 )
 from gazelle.doctor.launch_ros2.reference_checks import (
@@ -60,6 +61,7 @@ def check_launch(
     check_packages(files, workspace, diagnostics)
     check_paths(files, workspace, diagnostics)
     check_arguments(root, arguments or {}, diagnostics)
+    check_node_keywords(files, diagnostics)
     check_executables(files, workspace, diagnostics)
     parameter_files = _named(files, (".yaml", ".yml"))
     check_spawners(files, parameter_files, diagnostics)

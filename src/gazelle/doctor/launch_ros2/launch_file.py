@@ -18,6 +18,7 @@ __all__ = [
     "LaunchedNode",
     "Parameters",
     "RobotSource",
+    "UnknownKeyword",
     "Use",
 ]
 
@@ -96,7 +97,11 @@ class Parameters:
 
 @dataclass(frozen=True, slots=True)
 class LaunchedNode:
-    """A node; None stands for what is known at run time only."""
+    """A node; None stands for what is known at run time only.
+
+    Attributes:
+        places: where each text that it is given stands, as far as that is not its own place.
+    """
 
     package: str | None
     executable: str | None
@@ -105,6 +110,11 @@ class LaunchedNode:
     parameters: Parameters
     arguments: tuple[str | None, ...]
     span: SourceSpan
+    places: Mapping[str, SourceSpan] = field(default_factory=dict)
+
+    def place_of(self, text: str) -> SourceSpan:
+        """Return where a text stands that the node is given, its own place where nobody knows."""
+        return self.places.get(text, self.span)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,6 +148,23 @@ class Command:
     is_wrapped: bool = True
 
 
+@dataclass(frozen=True, slots=True)
+class UnknownKeyword:
+    """An argument that an action does not take.
+
+    Attributes:
+        action: name of its class.
+        name: of the argument.
+        span: where it is given.
+        hint: what it may have been meant for; may be empty.
+    """
+
+    action: str
+    name: str
+    span: SourceSpan
+    hint: str
+
+
 @dataclass(slots=True)
 class LaunchFile:
     """One launch file as read.
@@ -148,6 +175,7 @@ class LaunchFile:
         paths: files of packages that are named.
         opened: files that the file itself opens.
         sets_parameters: parameters of all nodes that follow (``SetParameter``).
+        unknown_keywords: arguments that actions do not take.
         text: the file.
     """
 
@@ -161,6 +189,7 @@ class LaunchFile:
     commands: list[Command] = field(default_factory=list)
     opened: set[str] = field(default_factory=set)
     sets_parameters: set[str] = field(default_factory=set)
+    unknown_keywords: list[UnknownKeyword] = field(default_factory=list)
     text: str = ""
 
     def uses_path(self, path: str) -> bool:

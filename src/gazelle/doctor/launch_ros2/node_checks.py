@@ -16,7 +16,7 @@ from gazelle.node_specs.unavailable_packages import missing_node
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.entry_points import console_scripts
 
-__all__ = ["check_clocks", "check_executables", "check_spawners"]
+__all__ = ["check_clocks", "check_executables", "check_node_keywords", "check_spawners"]
 
 _SPAWNERS = frozenset({"spawner", "spawner.py"})
 _SPAWNER_VALUES = frozenset(
@@ -52,6 +52,14 @@ def check_executables(
             _check_own(node, package, diagnostics)
 
 
+def check_node_keywords(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
+    """Report arguments that nodes do not take."""
+    for item in files:
+        for one in item.file.unknown_keywords:
+            text = f"{one.action}() got an unexpected keyword argument '{one.name}'"
+            diagnostics.report("launch_ros2.keyword", text, one.span, fix=one.hint)
+
+
 def check_spawners(
     files: Sequence[Followed],
     parameter_files: Sequence[Path],
@@ -76,7 +84,9 @@ def check_spawners(
                 text += f"of this launch configures: they have {', '.join(dict.fromkeys(known))} "
                 text += f"(The 'type' param was not defined for '{name}')"
                 hint = did_you_mean(name, known)
-                diagnostics.report("launch_ros2.controller-missing", text, node.span, fix=hint)
+                diagnostics.report(
+                    "launch_ros2.controller-missing", text, node.place_of(name), fix=hint
+                )
 
 
 def check_clocks(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
@@ -112,7 +122,7 @@ def _check_builtin(node: LaunchedNode, package: Package, diagnostics: Diagnostic
         )
         text += "on the libexec directory)"
         hint = absent or did_you_mean(name, known)
-        diagnostics.report("launch_ros2.executable-missing", text, node.span, fix=hint)
+        diagnostics.report("launch_ros2.executable-missing", text, node.place_of(name), fix=hint)
 
 
 def _check_own(node: LaunchedNode, package: Package, diagnostics: Diagnostics) -> None:
@@ -136,7 +146,7 @@ def _check_own(node: LaunchedNode, package: Package, diagnostics: Diagnostics) -
     hint = did_you_mean(name, known)
     if not hint and known:
         hint = f"it has {', '.join(sorted(known)[:8])}"
-    diagnostics.report("launch_ros2.executable-missing", text, node.span, fix=hint)
+    diagnostics.report("launch_ros2.executable-missing", text, node.place_of(name), fix=hint)
 
 
 def _is_hidden(source: SourcePackage) -> bool:

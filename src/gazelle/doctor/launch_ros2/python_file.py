@@ -15,17 +15,21 @@ from gazelle.doctor.launch_ros2.launch_file import (
     LaunchedNode,
     LaunchFile,
     Parameters,
+    UnknownKeyword,
     Use,
 )
 from gazelle.doctor.launch_ros2.substitutions import Substitutions
+from gazelle.launch.ros2.launch_ros import actions as launch_ros_actions
+from gazelle.launch.ros2.launch_ros.actions.node_keywords import unknown_keywords
 from gazelle.workspace import Workspace
-from gazelle.workspace.static_python import UNKNOWN, Call, Evaluator, parse_python
+from gazelle.workspace.static_python import UNKNOWN, Call, Evaluator, parse_python, syntax_problem
 
 __all__ = ["read_python_file"]
 
 _MAX_DEPTH = 12
 _ENTRY = "generate_launch_description"
 _NODES = frozenset({"Node", "LifecycleNode", "ComposableNodeContainer"})
+_OLD_KEYWORDS = frozenset({"node_executable", "node_name", "node_namespace"})
 _FOLDER_CALLS = frozenset(
     {"get_package_share_directory", "get_package_share_path", "get_package_prefix"}
 )
@@ -48,14 +52,15 @@ def read_python_file(
         workspace: finds packages.
         diagnostics: receives errors of syntax.
     """
+    text = ""
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
         tree = parse_python(text)
     except (OSError, SyntaxError) as error:
-        line, column = getattr(error, "lineno", 0) or 0, getattr(error, "offset", 0) or 0
-        message = f"the launch file is not Python 3: {getattr(error, 'msg', error)}"
-        span = SourceSpan(str(path), line, column)
-        diagnostics.report("launch_ros2.unreadable", message, span)
+        problem = syntax_problem(text, error)
+        message = f"the launch file is not Python 3: {problem.message}"
+        span = SourceSpan(str(path), problem.line, problem.column)
+        diagnostics.report("launch_ros2.unreadable", message, span, fix=problem.fix)
         return None
     if not any(
         isinstance(node, ast.FunctionDef) and node.name == _ENTRY for node in ast.walk(tree)
@@ -263,8 +268,32 @@ class _Reader:
                 self._parameters(call.get("parameters", default=[])),
                 tuple(texts),
                 self._span(call),
+                self._places(call),
             )
         )
+        kind: type = getattr(launch_ros_actions, call.name, launch_ros_actions.Node)
+        names = [name for name in call.keywords if name not in _OLD_KEYWORDS]
+        places: dict[str | None, ast.expr | ast.keyword] = {
+            one.arg: one for one in call.node.keywords
+        }
+        for name, hint in unknown_keywords(kind, names):
+            at = places.get(name, call.node)
+            span = SourceSpan(str(self.file.path), at.lineno, at.col_offset + 1, len(name))
+            self.file.unknown_keywords.append(UnknownKeyword(call.name, name, span, hint))
+
+    def _places(self, call: Call) -> dict[str, SourceSpan]:
+        """Return where each text stands that a call is given."""
+        found = [
+            node
+            for node in ast.walk(call.node)
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)
+        ]
+        file = str(self.file.path)
+        return {
+            text: SourceSpan(file, node.lineno, node.col_offset + 1, len(text) + 2)
+            for node in reversed(found)
+            if (text := str(node.value))
+        }
 
     def _parameters(self, rows: Any) -> Parameters:
         values: dict[str, str | None] = {}

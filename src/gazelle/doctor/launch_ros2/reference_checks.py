@@ -109,7 +109,7 @@ def paths_of(files: Sequence[Followed]) -> Iterator[Use]:
         yield from file.paths
         yield from (Use(inc.path, inc.span) for inc in file.includes if inc.path is not None)
         for node in file.nodes:
-            yield from (Use(path, node.span) for path in node.parameters.files)
+            yield from (Use(path, node.place_of(path)) for path in node.parameters.files)
         for argument in file.arguments:
             value = argument.default or ""
             if value.startswith("/") and Path(value).suffix:
@@ -161,7 +161,7 @@ def _package_uses(files: Sequence[Followed]) -> Iterator[Use]:
         yield from item.file.packages
         for node in item.file.nodes:
             if node.package:
-                yield Use(node.package, node.span)
+                yield Use(node.package, node.place_of(node.package))
 
 
 def _report_missing(package: Package, inside: str, use: Use, diagnostics: Diagnostics) -> None:

@@ -8,6 +8,7 @@ from gazelle.doctor.packages.install_checks import check_install
 from gazelle.doctor.packages.manifest_checks import check_manifest
 from gazelle.doctor.packages.message_checks import check_messages
 from gazelle.doctor.packages.python_checks import check_python
+from gazelle.doctor.packages.python_source_checks import check_python_sources
 from gazelle.doctor.packages.ros_versions import check_ros_versions, ros_versions_section
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.report import Section
@@ -38,6 +39,7 @@ def check_package(
     check_manifest(source, diagnostics)
     check_install(source, diagnostics)
     check_python(source, diagnostics)
+    check_python_sources(source, workspace, diagnostics)
     check_messages(source, diagnostics)
     check_dependencies(source, workspace, diagnostics)
     check_ros_versions(source, diagnostics)

@@ -9,7 +9,11 @@ from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.file_kinds import is_launch_yaml
 from gazelle.doctor.packages.source import SourcePackage
-from gazelle.doctor.parameters.controllers import check_controllers, controllers_in
+from gazelle.doctor.parameters.controllers import (
+    check_controllers,
+    check_untyped,
+    controllers_in,
+)
 from gazelle.doctor.parameters.name_checks import NameFiles, check_names, read_name_files
 from gazelle.doctor.parameters.parameter_file import Layout, check_layout, layout_of, read_document
 from gazelle.doctor.parameters.robot_descriptions import (
@@ -61,6 +65,7 @@ def check_parameter_file(
     loader = 1 if layout is Layout.MOVEIT else reader
     check_values(document, layout, loader, diagnostics, joints=joints)
     check_controllers(controllers_in(document, layout), diagnostics)
+    check_untyped(document, layout, diagnostics)
     if layout is Layout.ROS2 and reader == 2:
         check_idle(document, diagnostics)
 

@@ -8,13 +8,19 @@ from functools import partial
 from typing import Any
 
 from gazelle.control.controller_parameters import controller_parameters
-from gazelle.control.controllers.registry import controller_class
-from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.control.controllers.registry import controller_class, known_types
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
 from gazelle.doctor.parameters.parameter_file import MARK, Document, Layout, plain
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, entries
 from gazelle.parameters.trees import flattened, nested
 
-__all__ = ["FoundController", "FoundControllers", "check_controllers", "controllers_in"]
+__all__ = [
+    "FoundController",
+    "FoundControllers",
+    "check_controllers",
+    "check_untyped",
+    "controllers_in",
+]
 
 _MANAGER = "controller_manager"
 _KINDS = {"number": "double", "integer": "integer", "numbers": "double_array"}
@@ -40,6 +46,13 @@ class FoundController:
     nodes: Mapping[str, tuple[YamlNode, SourceSpan]] = field(repr=False)
     span: SourceSpan
 
+    def place_of(self, key: str, word: str) -> SourceSpan:
+        """Return where a word stands in the list of a key, else the key's or the type's place."""
+        node, span = self.nodes.get(key, (None, self.span))
+        items = node.items if isinstance(node, YamlSequence) else ()
+        found = (one for one in items if isinstance(one, YamlScalar) and one.text == word)
+        return next((one.span for one in found), span)
+
 
 def controllers_in(document: Document, layout: Layout) -> tuple[FoundController, ...]:
     """Return the controllers of a file, in its order."""
@@ -51,10 +64,11 @@ def controllers_in(document: Document, layout: Layout) -> tuple[FoundController,
 
 
 def check_controllers(found: Iterable[FoundController], diagnostics: Diagnostics) -> None:
-    """Report keys that a controller does not know, and types that ROS 2 does not take."""
+    """Report types of controllers that nobody has, keys unknown, values that ROS 2 refuses."""
     for item in found:
         kind = controller_class(item.type)
         if kind is None:
+            _check_kind(item, diagnostics)
             continue
         prefix = f"{item.full_name}/" if item.ros_version == 1 else ""
         parameters = controller_parameters(
@@ -68,6 +82,32 @@ def check_controllers(found: Iterable[FoundController], diagnostics: Diagnostics
         parameters.report_unknown()
         if item.ros_version == 2:
             _check_types(item, diagnostics)
+
+
+def check_untyped(document: Document, layout: Layout, diagnostics: Diagnostics) -> None:
+    """Report controllers of a manager whose ``type`` is spelt otherwise."""
+    if layout is not Layout.ROS2:
+        return
+    for name, section in _sections(document.root, ""):
+        rows = section.pairs if name.endswith(_MANAGER) else ()
+        for key, value in rows:
+            names = [one.text for one, _ in value.pairs] if isinstance(value, YamlMapping) else []
+            near = nearest_names("type", names, count=1) if "type" not in names else ()
+            if near and isinstance(value, YamlMapping):
+                place = next(one.span for one, _ in value.pairs if one.text == near[0])
+                text = f"controller '{key.text}' has no 'type' and has '{near[0]}' (The 'type' "
+                text += f"param was not defined for '{key.text}')"
+                fix = f"did you mean 'type' for '{near[0]}'?"
+                diagnostics.report("parameters.controller-type", text, place, fix=fix)
+
+
+def _check_kind(item: FoundController, diagnostics: Diagnostics) -> None:
+    """Report a type that is nearly one of ours; others may be a package's own."""
+    hint = did_you_mean(item.type, known_types())
+    if hint:
+        text = f"there is no controller type '{item.type}' (Could not load class '{item.type}': "
+        text += "According to the loaded plugin descriptions the class does not exist)"
+        diagnostics.report("parameters.controller-type", text, item.span, fix=hint)
 
 
 class FoundControllers:
@@ -145,7 +185,7 @@ def _of_ros1(
     document: Document, node: YamlMapping, above: tuple[str, ...]
 ) -> Iterator[FoundController]:
     kind = _type_of(node)
-    if kind is not None and controller_class(kind.text) is not None:
+    if kind is not None and (controller_class(kind.text) or _is_nearly_known(kind.text)):
         tree = dict(plain(node))
         tree.pop("type", None)
         name = above[-1] if above else document.file.stem
@@ -174,6 +214,10 @@ def _type_of(node: YamlNode) -> YamlScalar | None:
     found = next((value for key, value in pairs if key.text == "type"), None)
     is_class = isinstance(found, YamlScalar) and ("/" in found.text or "::" in found.text)
     return found if is_class and isinstance(found, YamlScalar) else None
+
+
+def _is_nearly_known(type_name: str) -> bool:
+    return bool(nearest_names(type_name, known_types(), count=1))
 
 
 def _leaves(node: YamlNode) -> dict[str, tuple[YamlNode, SourceSpan]]:

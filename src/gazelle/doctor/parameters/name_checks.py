@@ -182,18 +182,23 @@ def check_claims(
 ) -> None:
     """Report controllers that need an interface which their joint does not have."""
     for item in controllers:
+        told: set[tuple[str, str]] = set()
         for joint, interface, key in _claims(item):
             resource = hardware.get(joint)
-            if resource is None or interface in resource.command_interfaces:
+            is_there = resource is None or interface in resource.command_interfaces
+            # One word that is wrong is wrong for every joint of the list.
+            if is_there or resource is None or (interface, key) in told:
                 continue
-            span = item.nodes[key][1] if key in item.nodes else item.span
+            told.add((interface, key))
             has = ", ".join(resource.command_interfaces) or "none"
             text = f"controller '{item.name}' ({item.type}) needs the command interface "
             text += f"'{interface}' of joint '{joint}', which has {has} "
             text += f"({_words(item, joint, interface)})"
             hint = did_you_mean(interface, resource.command_interfaces)
             fix = hint or _fix(item, interface, resource)
-            diagnostics.report("parameters.interface-claim", text, span, fix=fix)
+            diagnostics.report(
+                "parameters.interface-claim", text, item.place_of(key, interface), fix=fix
+            )
 
 
 def read_name_files(files: Sequence[Path]) -> NameFiles:

@@ -47,6 +47,11 @@ _KINDS: tuple[tuple[type[Exception], ProblemKind], ...] = (
 )
 
 
+_LEFT_OPEN = (
+    "while parsing a flow", "while scanning a simple key", "while scanning a quoted scalar",
+)  # fmt: skip
+
+
 @dataclass(frozen=True, slots=True)
 class YamlProblem:
     """Something that is wrong with a text.
@@ -56,7 +61,8 @@ class YamlProblem:
         what: in one line.
         span: the place; without a line where only the file is known.
         context: what was being read, such as ``while parsing a flow sequence``; may be empty.
-        context_span: where that begins, when it is another place.
+        context_span: where that begins or, of brackets, quotes and keys, is noticed, when it is
+            another place.
         text: all of that as PyYAML prints it, in several lines.
     """
 
@@ -113,6 +119,9 @@ def problem_of(error: Exception, file: str) -> YamlProblem:
     if not isinstance(error, yaml.MarkedYAMLError):
         return YamlProblem(ProblemKind.SYNTAX, str(error), SourceSpan(file), text=str(error))
     mark, begin = error.problem_mark, error.context_mark
+    if begin is not None and (error.context or "").startswith(_LEFT_OPEN):
+        # What was left open is the mistake; it shows lines behind.
+        mark, begin = begin, mark
     return YamlProblem(
         _kind(error),
         error.problem or str(error),

@@ -280,9 +280,18 @@ class PluginContext:
         host = self.host
         return PluginReader(self.plugin, table, host.diagnostics, host.ros_version)
 
-    def report(self, code: str, message: str, *, fix: str = "") -> None:
-        """Report something about this plug-in at its place."""
-        self.host.diagnostics.report(code, message, self.plugin.span, fix=fix)
+    def report(self, code: str, message: str, *, fix: str = "", about: str = "") -> None:
+        """Report something about this plug-in.
+
+        Args:
+            code: of the catalogue.
+            message: what is wrong.
+            fix: what to do.
+            about: a value that is wrong; its element is the place, else the plug-in's.
+        """
+        tags = self.plugin.parameters.walk() if about else iter(())
+        span = next((tag.span for tag in tags if about in tag.text.split()), self.plugin.span)
+        self.host.diagnostics.report(code, message, span, fix=fix)
 
     def namespace(self, parameters: PluginReader) -> str:
         """Return the namespace of the plug-in's topics, absolute.
@@ -317,7 +326,7 @@ class PluginContext:
             return f"{self.model.name}::{name}"
         text = f"plug-in '{self.plugin.name}' needs joint '{name}', which {self.owner} does not "
         text += "have; the plug-in is left out"
-        self.report("plugin.missing-joint", text, fix=did_you_mean(name, names))
+        self.report("plugin.missing-joint", text, fix=did_you_mean(name, names), about=name)
         return None
 
     def link_name(self, name: str) -> str | None:
@@ -328,7 +337,7 @@ class PluginContext:
             return f"{self.model.name}::{wanted}"
         text = f"plug-in '{self.plugin.name}' needs link '{name}', which {self.owner} does not "
         text += "have; the plug-in is left out"
-        self.report("plugin.missing-link", text, fix=did_you_mean(name, names))
+        self.report("plugin.missing-link", text, fix=did_you_mean(name, names), about=name)
         return None
 
     def tf_prefix(self, namespace: str) -> str:

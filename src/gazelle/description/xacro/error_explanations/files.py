@@ -13,6 +13,7 @@ from gazelle.description.xacro.failure import Explanation, Failure, one_line
 from gazelle.diagnostics import SourceSpan, did_you_mean
 from gazelle.documents import TEXT_BYTES, LimitError, read_limited
 from gazelle.documents.files import exists, is_folder
+from gazelle.documents.malformed_xml import malformed_xml
 from gazelle.documents.yaml import ProblemKind, PyYamlError, problem_of
 from gazelle.errors import NotFoundError
 
@@ -34,7 +35,7 @@ def explain_document(failure: Failure) -> Explanation | None:
     span = SourceSpan(failure.files[-1], error.lineno, error.offset + 1, 0, via)
     if error.code == _UNBOUND:
         return _unbound(span)
-    return Explanation("xml.malformed", f"not well-formed XML: {ErrorString(error.code)}", span)
+    return _malformed(error, span)
 
 
 def explain_limit(failure: Failure) -> Explanation | None:
@@ -64,6 +65,15 @@ def explain_file(failure: Failure) -> Explanation | None:
         return _broken_yaml(broken, failure)
     error = failure.cause(OSError)
     return None if error is None else _unreadable(error, failure)
+
+
+def _malformed(error: ExpatError, span: SourceSpan) -> Explanation:
+    try:
+        found = malformed_xml(read_limited(span.file, TEXT_BYTES), error)
+    except (OSError, LimitError):
+        return Explanation("xml.malformed", f"not well-formed XML: {ErrorString(error.code)}", span)
+    place = replace(span, line=found.line, column=found.column)
+    return Explanation("xml.malformed", found.message, place, found.fix)
 
 
 def _unbound(span: SourceSpan) -> Explanation:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import shlex
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from gazelle.diagnostics import did_you_mean
@@ -13,7 +13,7 @@ from gazelle.launch.ros2.deprecation import warn_once
 from gazelle.launch.ros2.descriptions import Executable
 from gazelle.launch.ros2.substitution import Substitution
 
-__all__ = ["check_keywords", "check_lists", "newer_names"]
+__all__ = ["check_keywords", "check_lists", "newer_names", "unknown_keywords"]
 
 # Names of XML, of roslaunch and of haste.
 _MEANT = {
@@ -66,6 +66,13 @@ def check_keywords(kind: type, kwargs: Mapping[str, Any]) -> None:
     Raises:
         TypeError: one is unknown; the message names what it may have been meant for.
     """
+    for name, hint in unknown_keywords(kind, kwargs):
+        text = f"{kind.__name__}() got an unexpected keyword argument '{name}'"
+        raise TypeError(f"{text}; {hint}" if hint else text)
+
+
+def unknown_keywords(kind: type, names: Iterable[str]) -> Iterator[tuple[str, str]]:
+    """Yield names of arguments that neither a class nor one it is made of takes, with a hint."""
     classes = [*kind.__mro__, Executable]
     known = {
         name
@@ -73,12 +80,10 @@ def check_keywords(kind: type, kwargs: Mapping[str, Any]) -> None:
         if "__init__" in vars(one)
         for name in inspect.signature(vars(one)["__init__"]).parameters
     }
-    for name in kwargs:
+    for name in names:
         if name not in known:
             usual = f"did you mean '{_MEANT[name]}'?" if name in _MEANT else ""
-            hint = usual or did_you_mean(name, sorted(known - {"self", "kwargs"}))
-            text = f"{kind.__name__}() got an unexpected keyword argument '{name}'"
-            raise TypeError(f"{text}; {hint}" if hint else text)
+            yield name, usual or did_you_mean(name, sorted(known - {"self", "kwargs"}))
 
 
 def check_lists(*, parameters: Any, remappings: Any, arguments: Any) -> None:

@@ -1,0 +1,216 @@
+"""How exactly the doctor tells of mistakes: mutants of robot packages, each looked at once.
+
+Run ``python benchmarks/doctor_precision/measure.py [--count 1000] [--kind PREFIX]
+[--workspaces DIR] [--out FILE]`` from the repository. Every mutant is one of `mistakes.MISTAKES`
+made at one place of one package: those of ``examples/``, those that ``gazelle new`` writes, and the
+packages in the workspaces of another folder. Told is what the doctor did not say of it before.
+
+A mutant counts as told with one finding more than before (a notice where there is nothing worse),
+and as placed when the worst of them, the first of these, names the line that was written wrongly.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import multiprocessing
+import os
+import random
+import re
+import shutil
+import statistics
+import sys
+import tempfile
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from mistakes import MISTAKES, Mutant
+
+_REPOSITORY = Path(__file__).parents[2]
+_SEED = 7
+_NUMBER = re.compile(r"\d+")
+_TEXTS = {
+    ".xacro", ".urdf", ".xml", ".launch", ".world", ".sdf", ".yaml", ".srdf", ".py", ".txt",
+}  # fmt: skip
+_place = Path()
+
+
+class Case(NamedTuple):
+    """A mutant of one package of one workspace."""
+
+    base: str
+    package: str
+    mutant: Mutant
+
+
+def main() -> None:
+    """Measure, print the kinds, and the mutants that fell short."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=1000, help="of mutants")
+    parser.add_argument("--kind", default="", help="only kinds whose name begins so")
+    parser.add_argument("--workspaces", type=Path, help="a folder of more workspaces")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--out", type=Path, help="a line of JSON for each mutant")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder)
+        _lay_out(place / "bases", options.workspaces)
+        cases = _chosen(list(_cases(place / "bases")), options.count, options.kind)
+        packages = sorted({(case.base, case.package) for case in cases})
+        with multiprocessing.get_context("spawn").Pool(
+            options.jobs, _begin, (place / "bases",), maxtasksperchild=60
+        ) as pool:
+            before = dict(zip(packages, pool.map(_examined, packages, 1), strict=True))
+            jobs = [(case, before[case.base, case.package]) for case in cases]
+            results = []
+            for number, result in enumerate(pool.imap_unordered(_tried, jobs, 4), 1):
+                results.append(result)
+                print(f"\r{number} of {len(jobs)}", end="", file=sys.stderr, flush=True)
+    results.sort(key=lambda item: (item["kind"], item["base"], item["file"], item["lines"]))
+    if options.out:
+        options.out.write_text("".join(json.dumps(item) + "\n" for item in results), "utf-8")
+    _print_kinds(results)
+
+
+def _lay_out(place: Path, workspaces: Path | None) -> None:
+    """Put every workspace side by side."""
+    from gazelle.workspace.scaffold import create_package
+
+    for folder in sorted((_REPOSITORY / "examples").glob("*_ws")):
+        shutil.copytree(folder, place / folder.name)
+    for number in (1, 2):
+        source = place / f"new{number}_ws" / "src"
+        source.mkdir(parents=True)
+        create_package("robot", f"rover{number}", source, ros_version=number)  # type: ignore[arg-type]
+    for folder in sorted(workspaces.iterdir()) if workspaces else ():
+        if (folder / "src").is_dir():
+            shutil.copytree(folder, place / folder.name, symlinks=True)
+
+
+def _cases(bases: Path) -> Iterator[Case]:
+    for manifest in sorted(bases.rglob("package.xml")):
+        package = manifest.parent
+        base = bases / package.relative_to(bases).parts[0]
+        for path in sorted(package.rglob("*")):
+            if path.suffix not in _TEXTS or path.is_symlink() or not path.is_file():
+                continue
+            text = path.read_text("utf-8")
+            for mistake in MISTAKES:
+                for mutant in mistake.mutants(path.relative_to(base), text):
+                    yield Case(base.name, package.name, mutant)
+
+
+def _chosen(cases: Sequence[Case], count: int, kind: str) -> list[Case]:
+    """Take of each kind in turn, in a shuffled order that is the same each time."""
+    by_kind: dict[str, list[Case]] = defaultdict(list)
+    for case in cases:
+        if case.mutant.mistake.startswith(kind):
+            by_kind[case.mutant.mistake].append(case)
+    for name, some in by_kind.items():
+        random.Random(f"{_SEED}{name}").shuffle(some)
+    chosen: list[Case] = []
+    while len(chosen) < count and any(by_kind.values()):
+        for some in by_kind.values():
+            if some and len(chosen) < count:
+                chosen.append(some.pop())
+    return chosen
+
+
+def _begin(bases: Path) -> None:
+    """Give a worker workspaces of its own."""
+    global _place
+    _place = Path(tempfile.mkdtemp(dir=bases.parent))
+    shutil.copytree(bases, _place, dirs_exist_ok=True, symlinks=True)
+
+
+def _examined(target: tuple[str, str]) -> list[dict[str, Any]]:
+    """Return what the doctor says of a package."""
+    from gazelle.doctor import Options, examine
+
+    base, package = target
+    place = _place / base
+    environ = {
+        **os.environ,
+        "ROS_PACKAGE_PATH": str(place / "src"),
+        "TURTLEBOT3_MODEL": "waffle_pi",
+    }
+    manifests = place.rglob("package.xml")
+    folder = next(path.parent for path in manifests if path.parent.name == package)
+    try:
+        report = examine([f"{folder}/"], options=Options(environ=environ), cwd=place)
+    except Exception as error:  # noqa: BLE001 - a crash is a result, too
+        return [{"code": f"CRASH {type(error).__name__}", "severity": 30, "message": str(error),
+                 "file": "", "line": 0, "fix": ""}]  # fmt: skip
+    return [
+        {
+            "code": item.code,
+            "severity": int(item.severity),
+            "message": item.message.replace(str(place), ""),
+            "file": item.span.file.replace(f"{place}/", "") if item.span else "",
+            "line": item.span.line if item.span else 0,
+            "fix": item.fix,
+        }
+        for item in report.findings
+    ]
+
+
+def _tried(job: tuple[Case, list[dict[str, Any]]]) -> dict[str, Any]:
+    case, before = job
+    file = _place / case.base / case.mutant.file
+    whole = file.read_text("utf-8")
+    file.write_text(case.mutant.text, "utf-8")
+    try:
+        after = _examined((case.base, case.package))
+    finally:
+        file.write_text(whole, "utf-8")
+    new = _new(before, after)
+    alarms = sorted((one for one in new if one["severity"] > 10), key=_severity_order)
+    alarms = alarms or new
+    first = alarms[0] if alarms else None
+    place = first is not None and first["file"] == str(case.mutant.file)
+    return {
+        "kind": case.mutant.mistake, "base": case.base, "file": str(case.mutant.file),
+        "lines": sorted(case.mutant.lines),
+        "wrote": case.mutant.text.splitlines()[min(case.mutant.lines) - 1 :][:2],
+        "told": bool(alarms), "placed": place and first["line"] in case.mutant.lines,
+        "findings": alarms, "notices": [one for one in new if one["severity"] <= 10],
+    }  # fmt: skip
+
+
+def _severity_order(finding: dict[str, Any]) -> int:
+    return -int(finding["severity"])
+
+
+def _new(before: list[dict[str, Any]], after: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return what was not said before; lines and numbers may have moved."""
+    known = Counter(_kind(one) for one in before)
+    new = []
+    for one in after:
+        if known[_kind(one)] > 0:
+            known[_kind(one)] -= 1
+        else:
+            new.append(one)
+    return new
+
+
+def _kind(finding: dict[str, Any]) -> tuple[str, str, str]:
+    message = _NUMBER.sub("0", finding["message"].partition("\n")[0])
+    return finding["code"], finding["file"], message
+
+
+def _print_kinds(results: Sequence[dict[str, Any]]) -> None:
+    kinds: dict[str, list[dict[str, Any]]] = defaultdict(list)
+    for result in results:
+        kinds[result["kind"]].append(result)
+    print(f"{'kind':34} mutants  told  placed  findings")
+    for name, some in [*kinds.items(), ("all", list(results))]:
+        told = sum(item["told"] for item in some)
+        placed = sum(item["placed"] for item in some)
+        number = statistics.median(len(item["findings"]) for item in some) if some else 0
+        print(f"{name:34} {len(some):7} {told:5} {placed:7} {number:9g}")
+
+
+if __name__ == "__main__":
+    main()
