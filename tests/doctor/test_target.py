@@ -134,7 +134,7 @@ def test_launch_file_that_needs_arguments_is_told_with_the_words(
     (found,) = [
         item for item in examined(folder, "bot").findings if item.code == "doctor.needs-arguments"
     ]
-    assert found.message == "'one.launch' needs arguments and is not examined: model (which robot)"
+    assert found.message == "'one.launch' needs arguments and is not started: model (which robot)"
     assert found.fix.endswith("launch/one.launch model:=…")
     assert "doctor.needs-arguments" not in codes(
         examined(folder, "bot", "one.launch", model="a"), "info"

@@ -128,8 +128,8 @@ def test_a_broken_manifest_is_reported_with_its_place(tmp_path, discover):
     workspace = discover(tmp_path)
     assert workspace.package("alpha").exports == ()
     (found,) = workspace.diagnostics.by_code("workspace.bad-manifest")
-    assert "mismatched tag" in found.message
-    assert (found.span.file, found.span.line) == (str(folder / "package.xml"), 4)
+    assert "mismatched tag: <export> has no end before </package> of line 4" in found.message
+    assert (found.span.file, found.span.line) == (str(folder / "package.xml"), 3)
 
 
 def test_a_manifest_without_a_name_is_reported(tmp_path, discover):

@@ -135,7 +135,7 @@ def _is_left(file: Path, found: Diagnostics, examination: Examination) -> bool:
         return False
     unset = found.by_code("xacro.argument-missing")
     if unset:
-        text = f"'{file.name}' needs arguments and is not examined: {unset[0].message}"
+        text = f"'{file.name}' needs arguments and is not started: {unset[0].message}"
         fix = f"examine it with them: gazelle doctor {file} …:=…"
         diagnostics.report(
             "doctor.needs-arguments", text, unset[0].span, fix=fix, phrase=unset[0].phrase

@@ -109,7 +109,7 @@ def _of_end(text: str, plain: MalformedXml) -> MalformedXml:
     if not open_tags:
         return plain
     inner = open_tags[-1]
-    message = f"not well-formed XML: <{inner.name}> has no end, and the file is over"
+    message = f"{plain.message}: <{inner.name}> has no end, and the file is over"
     return _at(text, inner.at, message, _end_of(text, inner))
 
 

@@ -105,7 +105,7 @@ def test_file_without_ros_parameters_is_read_and_told(tmp_path: Path) -> None:
     ("text", "wanted"),
     [
         ("a: [1, 2\n", "parameter file is not YAML"),
-        ("a: [1, 2\n", "while parsing a flow sequence, which begins at 1:4"),
+        ("a: [1, 2\n", "while parsing a flow sequence, which goes on to 2:1"),
         ("- 1\n", "a parameter file is a mapping of node names"),
         ("a:\n  ros__parameters:\n    x: !what 3\n", "this value cannot be read"),
         ("a:\n  ros__parameters:\n    [x]: 3\n", "a name of a parameter is a word"),

@@ -116,3 +116,15 @@ def test_mistyped_type_gets_a_hint(read_joint) -> None:
 def test_mistyped_attribute_gets_a_hint(read_joint) -> None:
     found = read_joint('<limit effort="1" velocity="1" uper="1"/>')
     assert "did you mean 'upper'" in found.message("xml.unknown-attribute")
+
+
+def test_angle_that_looks_like_degrees(read_joint) -> None:
+    found = read_joint(f'{LIMIT}<origin xyz="0 0 0" rpy="90 0 -0.5"/>')
+    (item,) = found.diagnostics.by_code("urdf.degrees")
+    assert item.message == ("rpy is 90 0 -0.5: angles are radians here, and 90 looks like degrees")
+    assert item.fix == 'write rpy="1.5708 0 -0.5"'
+
+
+@pytest.mark.parametrize("rpy", ["3.14159 0 0", "0 6.2832 0", "0 0 7.5", "0 0 0"])
+def test_angles_in_radians_are_nobodys_degrees(rpy: str, read_joint) -> None:
+    assert "urdf.degrees" not in read_joint(f'{LIMIT}<origin rpy="{rpy}"/>').codes

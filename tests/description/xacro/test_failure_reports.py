@@ -67,7 +67,7 @@ Fail = Callable[..., Diagnostic]
         ('<xacro:if value="yes"/>', "xacro.bad-condition", "not a boolean", (2, 18, 3)),
         ('<xacro:arg name="a"/>', "xacro.bad-element", "needs the attribute", (2, 1, 10)),
         ('<v a="&lt; ${x" b=""/>', "xacro.bad-expression", "no closing '}'", (2, 12, 3)),
-        ("<a>\n</b>", "xml.malformed", "mismatched tag", (3, 3, 0)),
+        ("<a>\n</b>", "xml.malformed", "mismatched tag", (3, 1, 0)),
     ],
 )
 def test_failures_are_explained_at_their_place(
@@ -249,7 +249,7 @@ def test_default_of_a_parameter_is_shown_in_params(fail: Fail) -> None:
 def test_yaml_errors_are_shown_in_the_yaml_file(expand: Expand) -> None:
     load = "<xacro:property name='c' value=\"${xacro.load_yaml('c.yaml')}\"/>\n"
     (broken,) = expand(f'{load}<v a="${{c.a}}"/>', c__yaml="a: 1\nb: [1\nc: 3\n").errors
-    assert (broken.code, str(broken.span)) == ("xacro.bad-yaml", "c.yaml:3:2")
+    assert (broken.code, str(broken.span)) == ("xacro.bad-yaml", "c.yaml:2:4")
     assert [str(item) for item in broken.span.via] == ["one.xacro:2:33"]
     (key,) = expand(f'{load}<v a="${{c.wheel.radus}}"/>', c__yaml="wheel: {radius: 1}").errors
     assert key.message.endswith("the yaml dictionary has no key 'radus'; it has radius")
@@ -335,7 +335,7 @@ def test_error_in_a_macro_of_an_include_shows_the_way_there(fail: Fail) -> None:
 
 def test_malformed_include_names_its_own_line_and_who_includes_it(fail: Fail) -> None:
     error = fail('<xacro:include filename="inc.xacro"/>', inc__xacro=f"{HEAD}<a>\n</robot>")
-    assert (error.code, error.span.file, error.span.line) == ("xml.malformed", "inc.xacro", 3)
+    assert (error.code, error.span.file, error.span.line) == ("xml.malformed", "inc.xacro", 2)
     assert [item.line for item in error.span.via] == [2]
 
 
@@ -436,7 +436,7 @@ BROKEN = [
     ("arm", "config/joints.yaml", "effort: 20", "efort: 20",
      "inc/common.xacro:23:64", "bad-expression", 2),
     ("arm", "config/joints.yaml", "fore: 0.35}", "fore: 0.35",
-     "config/joints.yaml:8:1", "bad-yaml", 2),
+     "config/joints.yaml:7:8", "bad-yaml", 2),
     ("arm", "inc/macro.xacro", "*origin config", "origin config",
      "arm.urdf.xacro:7:3", "bad-call", 0),
     ("rover", "rover.urdf.xacro", "sides[side]}", "sides[side]",

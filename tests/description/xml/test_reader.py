@@ -57,11 +57,11 @@ def test_the_declared_encoding_counts_for_bytes_only():
 @pytest.mark.parametrize(
     ("text", "reason", "span"),
     [
-        ("<a><b></a>", "mismatched tag", "a.urdf:1:9"),
+        ("<a><b></a>", "mismatched tag", "a.urdf:1:4"),
         ("<a name=b/>", "not well-formed", "a.urdf:1:9"),
         ("<a/><b/>", "junk after document element", "a.urdf:1:5"),
         ("", "no element found", "a.urdf:1:1"),
-        ("<a>", "no element found", "a.urdf:1:4"),
+        ("<a>", "no element found", "a.urdf:1:1"),
         ("<a>&undefined;</a>", "undefined entity", "a.urdf:1:4"),
     ],
 )

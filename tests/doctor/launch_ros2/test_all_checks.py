@@ -59,7 +59,7 @@ def check(tmp_path: Path) -> Check:
     [
         (
             "launch_ros2.package-missing",
-            "bot.launch.py:41:14",
+            "bot.launch.py:41:27",
             "PackageNotFoundError: \"package 'bot_bringups' not found",
             "did you mean 'bot_bringup'?",
         ),
@@ -89,13 +89,13 @@ def check(tmp_path: Path) -> Check:
         ),
         (
             "launch_ros2.executable-missing",
-            "robot.launch.py:11:13",
+            "robot.launch.py:11:52",
             "executable 'drive' not found on the libexec directory '…/lib/bot_bringup'",
             "did you mean 'drive.py'?",
         ),
         (
             "launch_ros2.controller-missing",
-            "bot.launch.py:27:15",
+            "bot.launch.py:30:20",
             "The 'type' param was not defined for 'arm_controler'",
             "did you mean 'arm_controller'?",
         ),
@@ -382,3 +382,27 @@ def test_file_that_cmake_configures_is_there(
     )
     found, _ = check("one.launch.py", text, made)
     assert [item.code for item in found if item.severity is Severity.ERROR] == codes
+
+
+def test_argument_that_a_node_does_not_take(check: Check) -> None:
+    node = "Node(\n    package='bot',\n    execuatble='go',\n)"
+    found, _ = check("bot.launch.py", PYTHON.format(node))
+    (item,) = found.by_code("launch_ros2.keyword")
+    assert item.message == "Node() got an unexpected keyword argument 'execuatble'"
+    assert item.fix.startswith("did you mean 'executable'")
+    assert str(item.span).endswith("bot.launch.py:7:5")
+
+
+def test_a_name_of_a_node_is_told_at_its_own_line(check: Check) -> None:
+    node = "Node(\n    package='gazbeo_ros',\n    executable='spawn_entity.py',\n)"
+    found, _ = check("bot.launch.py", PYTHON.format(node))
+    (item,) = found.by_code("launch_ros2.package-missing")
+    assert str(item.span).endswith("bot.launch.py:6:13")
+
+
+def test_comma_that_was_forgotten_in_a_launch_file(check: Check) -> None:
+    nodes = "\n  Node(package='a', executable='b')\n  Node(package='c', executable='d'),\n"
+    found, _ = check("bot.launch.py", PYTHON.format(nodes))
+    (item,) = found.by_code("launch_ros2.unreadable")
+    assert str(item.span).endswith("bot.launch.py:6:35")
+    assert item.fix == "write a comma at the end of line 6"

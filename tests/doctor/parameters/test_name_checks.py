@@ -41,9 +41,9 @@ def test_joint_with_effort_limit_0_is_told_at_its_place() -> None:
 
 def test_controller_claims_an_interface_that_is_not_there() -> None:
     found, _ = checked("arm_moveit_config", FIXTURES / "broken")
-    first, _ = found.by_code("parameters.interface-claim")
+    (first,) = found.by_code("parameters.interface-claim")
     assert "Command interface with 'shoulder/position' does not exist" in first.message
-    assert str(first.span).endswith("ros2_controllers.yaml:10:5")
+    assert str(first.span).endswith("ros2_controllers.yaml:10:26")
     assert '<command_interface name="position"/>' in first.fix
 
 

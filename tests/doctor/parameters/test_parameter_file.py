@@ -224,3 +224,41 @@ def test_aliases_that_never_end_or_stand_for_too_much_are_told(check: Check) -> 
 def test_parameter_files_that_run_have_no_finding(workspace: Path, names: tuple[str, ...]) -> None:
     for name in names:
         assert list(package(name, workspace / "src")) == []
+
+
+def test_parameters_in_place_of_ros__parameters_is_told_once(check: Check) -> None:
+    text = "n:\n  ros__parameters:\n    a: 1\nm:\n  parameters:\n    b: 1\n    c: 2\n"
+    (item,) = check(text, 2).by_code("parameters.layout")
+    assert (item.span and item.span.line, item.fix) == (5, "did you mean 'ros__parameters'?")
+    assert "'parameters' is taken for the name of a node" in item.message
+
+
+MANAGER = "controller_manager:\n  ros__parameters:\n    c:\n      {}\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "fix"),
+    [
+        (
+            MANAGER.format("type: joint_state_broadcaster/JointStateBroadcsater"),
+            4,
+            "did you mean 'joint_state_broadcaster/JointStateBroadcaster'",
+        ),
+        (
+            "c:\n  type: effort_controllers/JointPositionContorller\n  joint: a\n",
+            2,
+            "did you mean 'effort_controllers/JointPositionController'",
+        ),
+        (MANAGER.format("tyep: own/Controller"), 4, "did you mean 'type' for 'tyep'?"),
+    ],
+)
+def test_controller_type_that_is_misspelt(check: Check, text: str, line: int, fix: str) -> None:
+    (item,) = check(text).by_code("parameters.controller-type")
+    assert item.span is not None
+    assert item.span.line == line
+    assert item.fix.startswith(fix)
+
+
+def test_controllers_of_a_packages_own_are_nobodys_slip(check: Check) -> None:
+    text = MANAGER.format("type: my_controllers/Balance")
+    assert check(text).by_code("parameters.controller-type") == ()

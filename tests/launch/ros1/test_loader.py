@@ -236,6 +236,15 @@ def test_argument_of_the_command_line_that_nothing_declares_is_a_warning(tmp_pat
     assert "world" in found.message
 
 
+def test_argument_that_an_included_file_does_not_have_is_told_at_its_line(tmp_path: Path) -> None:
+    inner = tmp_path / "inner.launch"
+    inner.write_text('<launch><arg name="world" default=""/></launch>')
+    body = f'<include file="{inner}">\n<arg name="wrold" value="x"/></include>'
+    _, diagnostics = _load(f"<launch>{body}</launch>", tmp_path)
+    (found,) = diagnostics.by_code("launch.arg-unused")
+    assert (found.span and found.span.line, found.fix) == (2, "did you mean 'world'?")
+
+
 def test_arguments_of_a_group_do_not_leak_out_of_it(tmp_path: Path) -> None:
     body = """<group><arg name="a" default="1"/></group><param name="p" value="$(arg a)"/>"""
     _, diagnostics = _load(f"<launch>{body}</launch>", tmp_path)

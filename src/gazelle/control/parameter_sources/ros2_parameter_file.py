@@ -93,8 +93,9 @@ def _report(problem: YamlProblem, diagnostics: Diagnostics) -> None:
         what = "not read" if problem.is_limit else "not YAML"
         message = f"parameter file is {what}: {problem.what}"
     if problem.context_span is not None:
-        begin = problem.context_span
-        message += f" ({problem.context}, which begins at {begin.line}:{begin.column})"
+        other = problem.context_span
+        where = "begins at" if other < problem.span else "goes on to"
+        message += f" ({problem.context}, which {where} {other.line}:{other.column})"
     diagnostics.report("control.parameter-file", message, span)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from typing import cast
 
@@ -12,6 +13,11 @@ from gazelle.geometry import IDENTITY_POSE, Pose, Vector3
 from gazelle.workspace import Resolved
 
 __all__ = ["check_vocabulary", "find_file", "number_attribute", "origin_of", "vector_attribute"]
+
+
+# A little more, for those who write 6.2832.
+_FULL_TURN = 2 * math.pi + 0.01
+_DEGREES = 15
 
 
 def find_file(uri: str, span: SourceSpan, context: ReadContext) -> Resolved:
@@ -64,7 +70,19 @@ def origin_of(tag: Tag, diagnostics: Diagnostics) -> Pose:
     turn = _quaternion(origin, diagnostics)
     if turn is not None:
         return Pose(xyz, turn)
-    return Pose.from_xyz_rpy(xyz, vector_attribute(origin, "rpy", diagnostics) or (0.0, 0.0, 0.0))
+    rpy = vector_attribute(origin, "rpy", diagnostics) or (0.0, 0.0, 0.0)
+    _check_angles(rpy, origin, diagnostics)
+    return Pose.from_xyz_rpy(xyz, rpy)
+
+
+def _check_angles(rpy: Vector3, origin: Tag, diagnostics: Diagnostics) -> None:
+    """Report angles beyond a full turn that are whole degrees, and look like right ones."""
+    wrong = [angle for angle in rpy if abs(angle) > _FULL_TURN and angle % _DEGREES == 0]
+    if wrong:
+        written = " ".join(f"{math.radians(angle) if angle in wrong else angle:g}" for angle in rpy)
+        message = f"rpy is {' '.join(f'{angle:g}' for angle in rpy)}: angles are radians here, and "
+        message += f"{wrong[0]:g} looks like degrees"
+        diagnostics.report("urdf.degrees", message, origin.span, fix=f'write rpy="{written}"')
 
 
 def check_vocabulary(

@@ -164,6 +164,13 @@ _JOINT = (
         "The norm of the axis vector cannot be zero",
     ),
     Entry(
+        "urdf.degrees",
+        "warning",
+        "An angle looks like degrees",
+        "URDF counts in radians; 90 is fourteen turns and a bit.",
+        'write radians, in xacro rpy="${pi/2} 0 0"',
+    ),
+    Entry(
         "urdf.limit-missing",
         "error",
         "A revolute or prismatic joint has no limits",

@@ -108,8 +108,10 @@ def _check_package(found: _Import, workspace: Workspace, diagnostics: Diagnostic
 
 
 def _report_missing(found: _Import, names: list[str], diagnostics: Diagnostics) -> None:
-    hint = did_you_mean(found.name, names)
-    if found.name not in names and hint:
+    near = nearest_names(found.name, names, count=1)
+    # A type that we do not know may be one of another version.
+    if found.name not in names and near and is_slip(found.name, near[0]):
+        hint = did_you_mean(found.name, near)
         text = f"package '{found.package}' has no {found.part} '{found.name}' (ImportError: cannot "
         text += f"import name '{found.name}' from '{found.package}.{found.part}')"
         diagnostics.report("package.import-missing", text, found.span, fix=hint)

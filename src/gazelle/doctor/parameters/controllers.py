@@ -10,7 +10,13 @@ from typing import Any
 from gazelle.control.controller_parameters import controller_parameters
 from gazelle.control.controllers.registry import controller_class, known_types
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
-from gazelle.doctor.parameters.parameter_file import MARK, Document, Layout, plain
+from gazelle.doctor.parameters.parameter_file import (
+    MARK,
+    Document,
+    Layout,
+    is_controller_type,
+    plain,
+)
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, entries
 from gazelle.parameters.trees import flattened, nested
 
@@ -103,8 +109,8 @@ def check_untyped(document: Document, layout: Layout, diagnostics: Diagnostics) 
 
 def _check_kind(item: FoundController, diagnostics: Diagnostics) -> None:
     """Report a type that is nearly one of ours; others may be a package's own."""
-    hint = did_you_mean(item.type, known_types())
-    if hint:
+    if is_controller_type(item.type):
+        hint = did_you_mean(item.type, known_types())
         text = f"there is no controller type '{item.type}' (Could not load class '{item.type}': "
         text += "According to the loaded plugin descriptions the class does not exist)"
         diagnostics.report("parameters.controller-type", text, item.span, fix=hint)
@@ -185,7 +191,7 @@ def _of_ros1(
     document: Document, node: YamlMapping, above: tuple[str, ...]
 ) -> Iterator[FoundController]:
     kind = _type_of(node)
-    if kind is not None and (controller_class(kind.text) or _is_nearly_known(kind.text)):
+    if kind is not None and is_controller_type(kind.text):
         tree = dict(plain(node))
         tree.pop("type", None)
         name = above[-1] if above else document.file.stem
@@ -214,10 +220,6 @@ def _type_of(node: YamlNode) -> YamlScalar | None:
     found = next((value for key, value in pairs if key.text == "type"), None)
     is_class = isinstance(found, YamlScalar) and ("/" in found.text or "::" in found.text)
     return found if is_class and isinstance(found, YamlScalar) else None
-
-
-def _is_nearly_known(type_name: str) -> bool:
-    return bool(nearest_names(type_name, known_types(), count=1))
 
 
 def _leaves(node: YamlNode) -> dict[str, tuple[YamlNode, SourceSpan]]:

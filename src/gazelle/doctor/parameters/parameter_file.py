@@ -10,6 +10,7 @@ from typing import Any
 
 from gazelle.control.controllers.registry import known_types
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
+from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.documents import read_text_limited
 from gazelle.documents.yaml import (
     ProblemKind,
@@ -29,6 +30,7 @@ __all__ = [
     "Document",
     "Layout",
     "check_layout",
+    "is_controller_type",
     "layout_of",
     "plain",
     "read_document",
@@ -221,18 +223,33 @@ def _check_mistyped(node: YamlMapping, diagnostics: Diagnostics) -> bool:
     return found
 
 
+# What people write who have seen it and do not look it up.
+_MEANT_MARK = frozenset({"param", "parameters", "params", "ros_param", "ros_parameters"})
+
+
 def _is_mistyped(word: str) -> bool:
     is_near = word.startswith("ros") and "param" in word and bool(nearest_names(word, [MARK]))
     return is_near and word != MARK
 
 
-def _check_values_above(node: YamlMapping, diagnostics: Diagnostics) -> None:
+def _check_values_above(
+    node: YamlMapping, diagnostics: Diagnostics, parent: YamlNode | None = None
+) -> None:
     """Report values beside ``ros__parameters``, where only names of nodes can stand."""
     names = [key.text for key, _ in node.pairs]
+    values = [key for key, value in node.pairs if not isinstance(value, YamlMapping)]
+    above = parent.text if isinstance(parent, YamlScalar) else ""
+    if parent is not None and above in _MEANT_MARK and values and MARK not in names:
+        text = f"'{above}' is taken for the name of a node, and '{values[0].text}' stands "
+        text += f"above '{MARK}' (Cannot have a value before ros__parameters); real ROS 2 refuses "
+        text += "the whole file"
+        fix = f"did you mean '{MARK}'?"
+        diagnostics.report("parameters.layout", text, parent.span, fix=fix)
+        return
     for key, value in node.pairs:
         if isinstance(value, YamlMapping):
             if key.text != MARK and not _is_mistyped(key.text):
-                _check_values_above(value, diagnostics)
+                _check_values_above(value, diagnostics, key)
         elif key.text == MARK:
             _report_empty(key, value, diagnostics)
         else:
@@ -260,12 +277,21 @@ def _marks(node: YamlNode) -> list[YamlNode]:
     return found
 
 
+def is_controller_type(text: str) -> bool:
+    """Tell whether a type is that of a controller of ours, or one with a slip in it."""
+    name = text.replace("::", "/")
+    if name in known_types():
+        return True
+    near = nearest_names(name, known_types(), count=1) if "/" in name else ()
+    return bool(near) and is_slip(name, near[0])
+
+
 def _has_controllers(node: YamlNode) -> bool:
     if not isinstance(node, YamlMapping):
         return False
     for key, value in node.pairs:
         if key.text == "type" and isinstance(value, YamlScalar):
-            if value.text.replace("::", "/") in known_types():
+            if is_controller_type(value.text):
                 return True
         elif _has_controllers(value):
             return True

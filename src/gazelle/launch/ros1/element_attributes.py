@@ -78,6 +78,7 @@ class Scope:
         env: environment for the nodes that follow.
         private_params: ``~name`` parameters for the nodes that follow.
         stack: places of the includes that led here, outermost first.
+        given_at: where the include passes each argument.
         pass_all: the include passed all its arguments, so unknown ones are fine.
         in_node: this is the inside of a ``<node>``: names are private to it.
     """
@@ -91,6 +92,7 @@ class Scope:
     env: dict[str, str] = field(default_factory=dict)
     private_params: dict[str, Any] = field(default_factory=dict)
     stack: tuple[SourceSpan, ...] = ()
+    given_at: dict[str, SourceSpan] = field(default_factory=dict)
     pass_all: bool = False
     in_node: bool = False
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from gazelle.description.xml import Tag, parse_xml, read_xml
-from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.documents.files import is_file
 from gazelle.launch.environment import ros1_variables
 from gazelle.launch.launch_config import LaunchConfig
@@ -116,6 +116,8 @@ def _include(tag: Tag, scope: Scope, reading: Reading) -> None:
     path = Path(file) if Path(file).is_absolute() else Path(scope.file).parent / file
     given = _include_args(tag, scope, reading)
     inner = scope.included(str(path), reading.namespace(tag, scope), given, tag.span)
+    named = tag.find_all("arg")
+    inner.given_at = {one.attributes.get("name", ""): one.span for one in named}
     inner.pass_all = reading.flag(tag, "pass_all_args", scope)
     for child in tag.find_all("env"):
         HANDLERS["env"](child, inner, reading)
@@ -167,9 +169,11 @@ def _check_given(root: Tag, scope: Scope, reading: Reading, *, top: bool) -> Non
     declared = ", ".join(sorted(scope.args)) or "none"
     what = f"[{scope.file}]" if top else f"include of [{scope.file}]"
     message = f"unused args [{names}] for {what}; it declares: {declared}"
-    span = scope.stack[-1] if scope.stack else root.span
+    given_at = scope.given_at.get(unused[0]) if scope.stack else None
+    span = given_at or (scope.stack[-1] if scope.stack else root.span)
+    hint = did_you_mean(unused[0], scope.args)
     phrase = "" if top else f"RLException: unused args [{names}] for {what}"
-    reading.diagnostics.report(code, message, span, phrase=phrase)
+    reading.diagnostics.report(code, message, span, fix=hint, phrase=phrase)
 
 
 def _check_names(reading: Reading) -> None:
