@@ -95,6 +95,9 @@ def json_text(report: Report, least: Severity = Severity.INFO) -> str:
             "exit_code": report.exit_code,
             "counts": {str(severity): report.count(severity) for severity in Severity},
             "findings": [_finding(item) for item in report.findings if item.severity >= least],
+            "consequences": [
+                _finding(item) for item in report.consequences if item.severity >= least
+            ],
             "sections": [
                 {
                     "name": section.name,
@@ -117,6 +120,7 @@ def print_report(
     least: Severity = Severity.INFO,
     seconds: float = 0.0,
     tables: Tables = Tables.FITTING,
+    verbose: bool = False,
     stream: TextIO | None = None,
 ) -> None:
     """Print a report.
@@ -126,6 +130,7 @@ def print_report(
         least: findings below it are left out; the verdict counts all.
         seconds: how long the examination took.
         tables: which tables are printed.
+        verbose: print what follows from findings, too.
         stream: standard output when None.
     """
     from rich.console import Console
@@ -135,12 +140,18 @@ def print_report(
     console = Console(file=out, highlight=False, soft_wrap=False)
     console.width = max(_NARROWEST, min(_MAX_WIDTH, console.width))
     sources = dict(report.sources)
-    _print_notices([item for item in report.findings if least <= item.severity], console)
-    for file, items in _by_file(report.findings, max(least, Severity.WARNING)).items():
+    findings = (*report.consequences, *report.findings) if verbose else report.findings
+    _print_notices([item for item in findings if least <= item.severity], console)
+    for file, items in _by_file(findings, max(least, Severity.WARNING)).items():
         console.print(Text(f"── {file or 'in general'}", style="bold"), soft_wrap=True)
         render(items, stream=out, sources=sources)
         console.print()
     _print_tables(report, tables, console)
+    late = len(report.consequences)
+    if late and not verbose:
+        verb = "follows" if late == 1 else "follow"
+        text = f"{late} finding{'s' * (late != 1)} more {verb} from these; -v shows them"
+        console.print(text, soft_wrap=True)
     console.print(verdict(report, seconds), style="bold", soft_wrap=True)
 
 
@@ -159,7 +170,7 @@ def _show(report: Report, options: argparse.Namespace, seconds: float) -> None:
     else:
         tables = Tables.ALL if options.tables else Tables.FITTING
         tables = Tables.NONE if options.quiet else tables
-        print_report(report, least=least, seconds=seconds, tables=tables)
+        print_report(report, least=least, seconds=seconds, tables=tables, verbose=options.verbose)
 
 
 def _is_argument(word: str) -> bool:
@@ -186,6 +197,7 @@ def _parser() -> argparse.ArgumentParser:
         help="leave out findings below this severity",
     )
     add("--tables", action="store_true", help="all tables, for a package those of each launch too")
+    add("-v", "--verbose", action="store_true", help="what follows from other findings, too")
     add("-q", "--quiet", action="store_true", help="warnings and errors only, no tables")
     return parser
 

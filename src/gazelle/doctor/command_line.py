@@ -8,6 +8,7 @@ from pathlib import Path
 
 from gazelle.description.errors_as_warnings import strict
 from gazelle.diagnostics import Diagnostic
+from gazelle.doctor.causes import causes_first
 from gazelle.doctor.examine_file import examine_file, kind_name
 from gazelle.doctor.examine_package import examine_folder, examine_package
 from gazelle.doctor.file_kinds import Kind, kind_of
@@ -55,11 +56,13 @@ def examine(
     check_environment(options.environ, diagnostics=examination.diagnostics)
     kind = _examine(target, examination)
     examination.diagnostics.extend(workspace.diagnostics)
+    findings, consequences = causes_first(_findings(examination))
     return Report(
         target=target.name,
         kind=kind,
-        findings=tuple(_findings(examination)),
+        findings=findings,
         sections=tuple(examination.sections),
+        consequences=consequences,
     )
 
 

@@ -60,6 +60,7 @@ class Report:
         kind: ``launch``, ``package``, ``workspace``, ``robot``, ``world``, ``parameters`` or
             ``semantics`` (SRDF).
         findings: in the order found, each once.
+        consequences: what follows from findings and goes with them.
         sections: tables, empty ones left out.
         sources: texts of findings' places that are no files, by name.
     """
@@ -69,6 +70,7 @@ class Report:
     findings: tuple[Diagnostic, ...]
     sections: tuple[Section, ...] = ()
     sources: tuple[tuple[str, str], ...] = ()
+    consequences: tuple[Diagnostic, ...] = ()
 
     @property
     def worst(self) -> Severity | None:

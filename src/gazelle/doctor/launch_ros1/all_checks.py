@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from gazelle.description.xml import parse_xml
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.doctor.dry_start import DryStart, dry_start
 from gazelle.doctor.launch_ros1.frames import check_frames, frames_of, frames_section
@@ -154,9 +155,10 @@ def _examine_descriptions(
 ) -> None:
     for start in starts.values():
         examine_models(start.world, examination)
-    if not starts:
-        texts = {launched.description(node) for node in launched.nodes}
-        for text in sorted(text for text in texts if text and text.lstrip().startswith("<")):
+    texts = {launched.description(node) for node in launched.nodes}
+    for text in sorted(text for text in texts if text and text.lstrip().startswith("<")):
+        # What is no XML comes into no world, and the spawner does not know its file.
+        if not starts or parse_xml(text, "", Diagnostics()) is None:
             examine_text(text, launched.config.text_files, examination)
 
 

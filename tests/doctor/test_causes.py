@@ -1,0 +1,66 @@
+"""What follows from other findings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gazelle.cli.doctor import main
+from gazelle.diagnostics import Diagnostic, Severity
+from gazelle.doctor.causes import causes_first
+
+LAUNCH = """<launch>
+  <param name="robot_description" textfile="$(dirname)/robot.urdf"/>
+  <node name="state" pkg="robot_state_publisher" type="robot_state_publisher"/>
+  <include file="$(find gazebo_ros)/launch/empty_world.launch"/>
+  <node name="spawn" pkg="gazebo_ros" type="spawn_model"
+        args="-urdf -param robot_description -model r"/>
+  <node name="go" pkg="controller_manager" type="spawner" args="arm"/>
+</launch>
+"""
+
+
+def error(code: str, message: str = "", severity: Severity = Severity.ERROR) -> Diagnostic:
+    return Diagnostic(code, severity, message)
+
+
+def test_consequences_go_behind_their_causes() -> None:
+    broken = error("xml.malformed")
+    late = [error("doctor.spawn-fails"), error("doctor.no-controller-manager")]
+    other = error("workspace.bad-manifest")
+    assert causes_first([*late, broken, other]) == ((broken, other), tuple(late))
+
+
+def test_without_a_cause_nothing_is_a_consequence() -> None:
+    alone = [error("doctor.spawn-fails"), error("doctor.joint-without-state")]
+    causes, late = causes_first(alone)
+    assert causes[0] == alone[0]
+    assert late == (alone[1],)
+
+
+def test_a_notice_is_no_cause_of_an_error() -> None:
+    found = [error("xml.unknown-tag", severity=Severity.INFO), error("doctor.spawn-fails")]
+    assert causes_first(found) == (tuple(found), ())
+
+
+def test_findings_of_other_names_stand_for_themselves() -> None:
+    hardware = error("control.hardware-joint", "transmission 't' drives joint 'elbo'")
+    same = error("control.names-disagree", "'elbo' is not a joint", Severity.WARNING)
+    other = error("control.names-disagree", "'wrist' is not a joint", Severity.WARNING)
+    assert causes_first([same, other, hardware]) == ((other, hardware), (same,))
+
+
+def test_report_says_how_many_follow(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "robot.urdf").write_text('<robot name="r"><link name="a"></robot>', "utf-8")
+    (tmp_path / "go.launch").write_text(LAUNCH, "utf-8")
+    monkeypatch.chdir(tmp_path)
+    assert main(["go.launch", "-q"]) == 2
+    short = capsys.readouterr().out
+    assert "robot.urdf:1:17: error" in short
+    assert "doctor.no-controller-manager" not in short
+    assert "more follow from these; -v shows them" in short
+    assert main(["go.launch", "-q", "-v"]) == 2
+    assert "doctor.no-controller-manager" in capsys.readouterr().out
