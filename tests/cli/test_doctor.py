@@ -76,7 +76,7 @@ def test_json_is_all_there_is_on_standard_output(
     report = json.loads(output.out)
     assert output.err == ""
     assert set(report) == {
-        "schema", "target", "kind", "exit_code", "counts", "findings", "sections",
+        "schema", "target", "kind", "exit_code", "counts", "findings", "consequences", "sections",
     }  # fmt: skip
     assert (report["schema"], report["kind"], report["exit_code"]) == (1, "launch", 1)
     assert report["counts"] == {"info": 2, "warning": 1, "error": 0}

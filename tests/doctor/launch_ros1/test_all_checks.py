@@ -109,7 +109,8 @@ def test_spawner_that_waits_for_ever_is_told(launched: Launch, args: str, reason
 )
 def test_spawner_that_fails_says_why(launched: Launch, args: str, reason: str) -> None:
     report = launched(QUIET, ROBOT, SPAWN.format(args, ""))
-    (found,) = [item for item in report.findings if item.code == "doctor.spawn-fails"]
+    told = (*report.findings, *report.consequences)
+    (found,) = [item for item in told if item.code == "doctor.spawn-fails"]
     assert reason in found.message
     assert found.span is not None
 
