@@ -43,6 +43,7 @@ def test_controller_claims_an_interface_that_is_not_there() -> None:
     found, _ = checked("arm_moveit_config", FIXTURES / "broken")
     (first,) = found.by_code("parameters.interface-claim")
     assert "Command interface with 'shoulder/position' does not exist" in first.message
+    assert first.message.endswith("; 'wrist' lacks it, too")
     assert str(first.span).endswith("ros2_controllers.yaml:10:26")
     assert '<command_interface name="position"/>' in first.fix
 

@@ -182,18 +182,20 @@ def check_claims(
 ) -> None:
     """Report controllers that need an interface which their joint does not have."""
     for item in controllers:
-        told: set[tuple[str, str]] = set()
+        # One word that is wrong is wrong for every joint of the list.
+        lacking: dict[tuple[str, str], list[JointResource]] = {}
         for joint, interface, key in _claims(item):
             resource = hardware.get(joint)
-            is_there = resource is None or interface in resource.command_interfaces
-            # One word that is wrong is wrong for every joint of the list.
-            if is_there or resource is None or (interface, key) in told:
-                continue
-            told.add((interface, key))
-            has = ", ".join(resource.command_interfaces) or "none"
+            if resource is not None and interface not in resource.command_interfaces:
+                lacking.setdefault((interface, key), []).append(resource)
+        for (interface, key), (resource, *others) in lacking.items():
+            joint, has = resource.name, ", ".join(resource.command_interfaces) or "none"
             text = f"controller '{item.name}' ({item.type}) needs the command interface "
             text += f"'{interface}' of joint '{joint}', which has {has} "
             text += f"({_words(item, joint, interface)})"
+            if others:
+                names = ", ".join(f"'{one.name}'" for one in others)
+                text += f"; {names} {'lacks' if len(others) == 1 else 'lack'} it, too"
             hint = did_you_mean(interface, resource.command_interfaces)
             fix = hint or _fix(item, interface, resource)
             diagnostics.report(
