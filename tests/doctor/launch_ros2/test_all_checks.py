@@ -406,3 +406,10 @@ def test_comma_that_was_forgotten_in_a_launch_file(check: Check) -> None:
     (item,) = found.by_code("launch_ros2.unreadable")
     assert str(item.span).endswith("bot.launch.py:6:35")
     assert item.fix == "write a comma at the end of line 6"
+
+
+def test_words_of_roslaunch_are_no_arguments_of_a_node(check: Check) -> None:
+    node = "Node(package='bot', executable='go', args=['a'], parms=[{}])"
+    found, _ = check("bot.launch.py", PYTHON.format(node))
+    fixes = [item.fix for item in found.by_code("launch_ros2.keyword")]
+    assert fixes == ["did you mean 'arguments'?", "did you mean 'parameters'?"]

@@ -29,6 +29,8 @@ _MEANT = {
     "type": "executable",
 }
 
+_BY_NAME = frozenset({inspect.Parameter.KEYWORD_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD})
+
 
 def newer_names(
     owner: str, given: dict[str, Any], kwargs: dict[str, Any], old_names: Mapping[str, str]
@@ -78,12 +80,13 @@ def unknown_keywords(kind: type, names: Iterable[str]) -> Iterator[tuple[str, st
         name
         for one in classes
         if "__init__" in vars(one)
-        for name in inspect.signature(vars(one)["__init__"]).parameters
+        for name, value in inspect.signature(vars(one)["__init__"]).parameters.items()
+        if value.kind in _BY_NAME
     }
     for name in names:
         if name not in known:
             usual = f"did you mean '{_MEANT[name]}'?" if name in _MEANT else ""
-            yield name, usual or did_you_mean(name, sorted(known - {"self", "kwargs"}))
+            yield name, usual or did_you_mean(name, sorted(known - {"self"}))
 
 
 def check_lists(*, parameters: Any, remappings: Any, arguments: Any) -> None:
