@@ -6,7 +6,7 @@ import re
 import sys
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import NamedTuple
 
 import gazelle.interfaces
@@ -40,7 +40,6 @@ _ALWAYS_THERE = frozenset(
     {"ament_index_python", "launch", "launch_ros", "launch_xml", "launch_yaml"}
 )
 _LONG_NAME = 12
-_TEST_FOLDERS = frozenset({"test", "tests"})
 
 
 class Use(NamedTuple):
@@ -66,7 +65,7 @@ def is_ros_package(name: str) -> bool:
 def uses(source: SourcePackage) -> Iterator[Use]:
     """Yield what a package's launch files, descriptions, Python and ``CMakeLists.txt`` name."""
     for name in source.files:
-        if _TEST_FOLDERS & set(PurePosixPath(name).parts):
+        if source.is_test(name):
             continue
         if name.endswith(_XML) and name != "package.xml":
             text = _COMMENT.sub(_blanked, source.text(name))

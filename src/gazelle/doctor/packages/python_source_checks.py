@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from pathlib import PurePosixPath
 from typing import NamedTuple
 
 from gazelle.compat.python2 import translated
@@ -18,8 +17,6 @@ from gazelle.workspace.static_python import parse_python, syntax_problem
 __all__ = ["check_python_sources"]
 
 _PARTS = frozenset({"action", "msg", "srv"})
-_LAUNCH = ("launch.py", "_launch.py")
-_TEST_FOLDERS = frozenset({"test", "tests"})
 # What the generators of ROS 1 and ROS 2 make beside the type itself.
 _OF_ACTION = ("Action", "Goal", "Result", "Feedback", "ActionGoal", "ActionResult",
               "ActionFeedback")  # fmt: skip
@@ -38,8 +35,7 @@ def check_python_sources(
 ) -> None:
     """Report programs that are no Python, and imports of messages that nobody has."""
     for file in source.files:
-        is_test = bool(_TEST_FOLDERS & set(PurePosixPath(file).parts))
-        if is_test or not _is_python(source, file):
+        if source.is_test(file) or not _is_python(source, file):
             continue
         tree = _tree(source, file, diagnostics)
         if tree is not None:
@@ -50,7 +46,7 @@ def check_python_sources(
 def _is_python(source: SourcePackage, file: str) -> bool:
     if file.endswith(".py"):
         # What launches is read as such, and setup.py by its rules.
-        return not file.endswith(_LAUNCH) and file != "setup.py"
+        return not file.endswith("launch.py") and file != "setup.py"
     first = source.text(file).partition("\n")[0] if "." not in file else ""
     return first.startswith("#!") and "python" in first
 

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
@@ -20,6 +20,7 @@ __all__ = ["SourcePackage"]
 _PRUNED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__", "venv"})
 _MAX_FILES = 20_000
 _MAX_TEXT = 2_000_000
+_TEST_FOLDERS = frozenset({"test", "tests"})
 
 
 @dataclass(frozen=True)
@@ -98,6 +99,10 @@ class SourcePackage:
         """The file that install rules are written in."""
         name = "setup.py" if self.build_type == "ament_python" else "CMakeLists.txt"
         return self.folder / name
+
+    def is_test(self, relative: str) -> bool:
+        """Tell whether a file is in a folder of tests."""
+        return bool(_TEST_FOLDERS & set(PurePosixPath(relative).parts))
 
     def text(self, relative: str) -> str:
         """Return a file's text, empty when it is too long or not there."""
