@@ -19,8 +19,6 @@ from gazelle.doctor.launch_ros2.launch_file import (
     Use,
 )
 from gazelle.doctor.launch_ros2.substitutions import Substitutions
-from gazelle.launch.ros2.launch_ros import actions as launch_ros_actions
-from gazelle.launch.ros2.launch_ros.actions.node_keywords import unknown_keywords
 from gazelle.workspace import Workspace
 from gazelle.workspace.static_python import UNKNOWN, Call, Evaluator, parse_python, syntax_problem
 
@@ -271,7 +269,14 @@ class _Reader:
                 self._places(call),
             )
         )
-        kind: type = getattr(launch_ros_actions, call.name, launch_ros_actions.Node)
+        self._take_keywords(call)
+
+    def _take_keywords(self, call: Call) -> None:
+        # The whole launch system comes with it, which a look at a robot does not need.
+        from gazelle.launch.ros2.launch_ros import actions
+        from gazelle.launch.ros2.launch_ros.actions.node_keywords import unknown_keywords
+
+        kind: type = getattr(actions, call.name, actions.Node)
         names = [name for name in call.keywords if name not in _OLD_KEYWORDS]
         places: dict[str | None, ast.expr | ast.keyword] = {
             one.arg: one for one in call.node.keywords
