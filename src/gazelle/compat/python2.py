@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import builtins
+import contextlib
 import hashlib
 import os
 import re
@@ -51,8 +52,8 @@ def is_python2(source: bytes) -> bool:
         return True
 
 
-def translated(source: str) -> str:
-    """Return Python 2 source as Python 3 source, line numbers kept where possible.
+def _translation(source: str) -> str:
+    """Translate Python 2 source to Python 3.
 
     Raises:
         SyntaxError: it is not Python 2 either.
@@ -76,7 +77,7 @@ def translated(source: str) -> str:
 def _compile_python2(source: bytes, file: str, error: Exception | None) -> CodeType:
     text = _decoded(source)
     try:
-        tree = ast.parse(_cached_translation(text), file)
+        tree = ast.parse(translated(text), file)
     except (SyntaxError, ValueError):
         if error is not None:
             raise error from None
@@ -127,18 +128,26 @@ def _uses_old_names(tree: ast.AST) -> bool:
     return bool((used - defined) & _OLD_NAMES)
 
 
-def _cached_translation(text: str) -> str:
-    """Translate, or take the translation of the last time: it takes half a second."""
+def translated(source: str) -> str:
+    """Return Python 2 source as Python 3 source, line numbers kept where possible.
+
+    It takes half a second, so it is kept for the next time.
+
+    Raises:
+        SyntaxError: it is not Python 2 either.
+    """
     root = cache_folder() / "python2"
-    key = hashlib.sha256(text.encode()).hexdigest()[:24]
+    key = hashlib.sha256(source.encode()).hexdigest()[:24]
     cached = root / f"{key}.py"
     if cached.is_file():
         return cached.read_text(encoding="utf-8")
-    result = translated(text)
-    root.mkdir(parents=True, exist_ok=True)
-    part = root / f"{key}.{os.getpid()}"
-    part.write_text(result, encoding="utf-8")
-    part.replace(cached)
+    result = _translation(source)
+    # Where nothing can be kept it is done again.
+    with contextlib.suppress(OSError):
+        root.mkdir(parents=True, exist_ok=True)
+        part = root / f"{key}.{os.getpid()}"
+        part.write_text(result, encoding="utf-8")
+        part.replace(cached)
     return result
 
 
