@@ -28,6 +28,9 @@ from typing import Any, NamedTuple
 
 from mistakes import MISTAKES, Mutant
 
+from gazelle.diagnostics import Diagnostic, Severity
+from gazelle.doctor.fixes import SourceText, mend
+
 _REPOSITORY = Path(__file__).parents[2]
 _SEED = 7
 _NUMBER = re.compile(r"\d+")
@@ -127,6 +130,10 @@ def _begin(bases: Path) -> None:
 
 def _examined(target: tuple[str, str]) -> list[dict[str, Any]]:
     """Return what the doctor says of a package."""
+    return [_named(item, _place / target[0]) for item in _found(target)]
+
+
+def _found(target: tuple[str, str]) -> list[Diagnostic]:
     from gazelle.doctor import Options, examine
 
     base, package = target
@@ -141,42 +148,97 @@ def _examined(target: tuple[str, str]) -> list[dict[str, Any]]:
     try:
         report = examine([f"{folder}/"], options=Options(environ=environ), cwd=place)
     except Exception as error:  # noqa: BLE001 - a crash is a result, too
-        return [{"code": f"CRASH {type(error).__name__}", "severity": 30, "message": str(error),
-                 "file": "", "line": 0, "fix": ""}]  # fmt: skip
-    return [
-        {
-            "code": item.code,
-            "severity": int(item.severity),
-            "message": item.message.replace(str(place), ""),
-            "file": item.span.file.replace(f"{place}/", "") if item.span else "",
-            "line": item.span.line if item.span else 0,
-            "fix": item.fix,
-        }
-        for item in report.findings
-    ]
+        return [Diagnostic(f"CRASH {type(error).__name__}", Severity.ERROR, str(error))]
+    return list(report.findings)
+
+
+def _named(item: Diagnostic, place: Path) -> dict[str, Any]:
+    return {
+        "code": item.code,
+        "severity": int(item.severity),
+        "message": item.message.replace(str(place), ""),
+        "file": item.span.file.replace(f"{place}/", "") if item.span else "",
+        "line": item.span.line if item.span else 0,
+        "fix": item.fix,
+    }
+
+
+class _Ward:
+    """A worker's workspace as the fixes see it: the mutated package may be changed."""
+
+    def __init__(self, case: Case) -> None:
+        self._target = case.base, case.package
+        self._place = _place / case.base
+
+    def read(self, file: str) -> SourceText | None:
+        """Return a file of the workspace."""
+        path = Path(file)
+        if not path.is_relative_to(self._place) or not path.is_file() or path.is_symlink():
+            return None
+        return SourceText(file, path.read_text("utf-8"))
+
+    def write(self, file: str, text: str) -> None:
+        """Change it."""
+        Path(file).write_text(text, "utf-8")
+
+    def examine(self) -> list[Diagnostic]:
+        """Return what is said now."""
+        return _found(self._target)
 
 
 def _tried(job: tuple[Case, list[dict[str, Any]]]) -> dict[str, Any]:
     case, before = job
-    file = _place / case.base / case.mutant.file
+    place = _place / case.base
+    file = place / case.mutant.file
     whole = file.read_text("utf-8")
     file.write_text(case.mutant.text, "utf-8")
+    texts = {file: whole}
     try:
-        after = _examined((case.base, case.package))
+        found = _found((case.base, case.package))
+        after = [_named(item, place) for item in found]
+        new = _new(before, after)
+        alarms = sorted((one for one in new if one["severity"] > 10), key=_severity_order)
+        alarms = alarms or new
+        mended = _mended(case, before, found, alarms, texts)
     finally:
-        file.write_text(whole, "utf-8")
-    new = _new(before, after)
-    alarms = sorted((one for one in new if one["severity"] > 10), key=_severity_order)
-    alarms = alarms or new
+        for path, text in texts.items():
+            path.write_text(text, "utf-8")
     first = alarms[0] if alarms else None
-    place = first is not None and first["file"] == str(case.mutant.file)
+    is_there = first is not None and first["file"] == str(case.mutant.file)
     return {
         "kind": case.mutant.mistake, "base": case.base, "file": str(case.mutant.file),
         "lines": sorted(case.mutant.lines),
         "wrote": case.mutant.text.splitlines()[min(case.mutant.lines) - 1 :][:2],
-        "told": bool(alarms), "placed": place and first["line"] in case.mutant.lines,
+        "told": bool(alarms), "placed": is_there and first["line"] in case.mutant.lines,
+        **mended,
         "findings": alarms, "notices": [one for one in new if one["severity"] <= 10],
     }  # fmt: skip
+
+
+def _mended(
+    case: Case,
+    before: list[dict[str, Any]],
+    found: list[Diagnostic],
+    alarms: list[dict[str, Any]],
+    texts: dict[Path, str],
+) -> dict[str, Any]:
+    """Apply the fixes of the new findings; nothing of them may be left, and nothing come."""
+    ward, place = _Ward(case), _place / case.base
+    for item in found:
+        for span in (item.span, *item.span.via) if item.span else ():
+            source = ward.read(span.file)
+            if source is not None:
+                texts.setdefault(Path(span.file), source.text)
+    done = mend(ward, found, wanted=lambda item: _named(item, place) in alarms) if alarms else []
+    left = [_named(item, place) for item in ward.examine()] if done else []
+    left = [one for one in _new(before, left) if one["severity"] > 10]
+    now = (place / case.mutant.file).read_text("utf-8")
+    return {
+        "mended": bool(done) and not left,
+        "same": now.split() == texts[place / case.mutant.file].split(),
+        "written": [edit.text for one in done for edit in one.candidate.edits],
+        "left": [f"{one['code']} {one['message'][:120]}" for one in left],
+    }
 
 
 def _severity_order(finding: dict[str, Any]) -> int:
@@ -204,12 +266,14 @@ def _print_kinds(results: Sequence[dict[str, Any]]) -> None:
     kinds: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for result in results:
         kinds[result["kind"]].append(result)
-    print(f"{'kind':34} mutants  told  placed  findings")
+    print(f"{'kind':34} mutants  told  placed  mended  as was  findings")
     for name, some in [*kinds.items(), ("all", list(results))]:
         told = sum(item["told"] for item in some)
         placed = sum(item["placed"] for item in some)
+        mended = sum(item["mended"] for item in some)
+        same = sum(item["same"] for item in some)
         number = statistics.median(len(item["findings"]) for item in some) if some else 0
-        print(f"{name:34} {len(some):7} {told:5} {placed:7} {number:9g}")
+        print(f"{name:34} {len(some):7} {told:5} {placed:7} {mended:7} {same:7} {number:9g}")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,127 @@
+"""Trying fixes: one is kept when its finding goes and nothing comes for it."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple, Protocol
+
+from gazelle.diagnostics import Diagnostic, Severity
+from gazelle.doctor.fixes.candidates import Candidate, candidates, unreadable
+from gazelle.doctor.fixes.edits import SourceText, edited
+
+__all__ = ["Mended", "Ward", "mend"]
+
+_NUMBER = re.compile(r"\d+")
+
+
+class Ward(Protocol):
+    """Files that may be changed, and what the doctor says of them."""
+
+    def read(self, file: str) -> SourceText | None:
+        """Return a file's text, None for one that is not the user's."""
+
+    def write(self, file: str, text: str) -> None:
+        """Change a file."""
+
+    def examine(self) -> Sequence[Diagnostic]:
+        """Return what is found now."""
+
+
+class Mended(NamedTuple):
+    """A finding and what was written for it.
+
+    Attributes:
+        finding: that is gone.
+        candidate: what made it go.
+    """
+
+    finding: Diagnostic
+    candidate: Candidate
+
+
+def mend(
+    ward: Ward,
+    findings: Sequence[Diagnostic],
+    *,
+    wanted: Callable[[Diagnostic], bool] = lambda item: item.severity > Severity.INFO,
+    say: Callable[[str], None] = lambda _text: None,
+) -> list[Mended]:
+    """Mend what can be mended, in the files of a ward.
+
+    Args:
+        ward: its files are changed.
+        findings: of them, as they are.
+        wanted: which of them.
+        say: told what is tried.
+    """
+    mended: list[Mended] = []
+    hopeless: set[tuple[str, str, str]] = set()
+    while True:
+        left = [item for item in findings if wanted(item) and _kind(item) not in hopeless]
+        if not left:
+            return mended
+        item = max(left, key=lambda one: one.severity)
+        say(item.message.partition("\n")[0])
+        found = _tried(ward, item, findings)
+        if found is None:
+            hopeless.add(_kind(item))
+            continue
+        candidate, findings = found
+        mended.append(Mended(item, candidate))
+
+
+def _tried(
+    ward: Ward, finding: Diagnostic, before: Sequence[Diagnostic]
+) -> tuple[Candidate, Sequence[Diagnostic]] | None:
+    """Keep the first candidate after which the finding is gone and none has come.
+
+    Mending what cannot be read brings out what else is wrong: there it is the one after which
+    the fewest come.
+    """
+    best: tuple[int, Candidate, Sequence[Diagnostic]] | None = None
+    for candidate in candidates(finding, ward.read):
+        source = ward.read(candidate.file)
+        if source is None:
+            continue
+        ward.write(candidate.file, edited(source.text, candidate.edits))
+        after = ward.examine()
+        ward.write(candidate.file, source.text)
+        known = Counter(map(_kind, before))
+        if Counter(map(_kind, after))[_kind(finding)] >= known[_kind(finding)]:
+            continue
+        come = _come(known, after)
+        if come and not unreadable(finding.code):
+            continue
+        if any(item.code == finding.code and item.span and finding.span
+               and item.span.file == finding.span.file for item in come):  # fmt: skip
+            continue
+        if best is None or len(come) < best[0]:
+            best = len(come), candidate, after
+        if not come:
+            break
+    if best is None:
+        return None
+    _, candidate, after = best
+    source = ward.read(candidate.file)
+    assert source is not None
+    ward.write(candidate.file, edited(source.text, candidate.edits))
+    return candidate, after
+
+
+def _come(known: Counter[tuple[str, str, str]], after: Iterable[Diagnostic]) -> list[Diagnostic]:
+    left = Counter(known)
+    come = []
+    for item in after:
+        if left[_kind(item)] > 0:
+            left[_kind(item)] -= 1
+        elif item.severity > Severity.INFO:
+            come.append(item)
+    return come
+
+
+def _kind(item: Diagnostic) -> tuple[str, str, str]:
+    """Name a finding: lines and numbers may move."""
+    message = _NUMBER.sub("0", item.message.partition("\n")[0])
+    return item.code, item.span.file if item.span else "", message
