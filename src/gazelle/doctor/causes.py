@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from gazelle.diagnostics import Diagnostic
@@ -25,12 +26,17 @@ class _Rule(NamedTuple):
     Attributes:
         consequence: a code.
         causes: codes, or beginnings of codes that end with a dot.
-        by_name: both name the same thing in quotes, a joint or a controller.
+        by_name: the consequence names what the cause has in quotes: a joint, a controller, a
+            package.
+        by_file: the cause names the file that the consequence is in.
+        is_milder: the cause may be less severe than what follows from it.
     """
 
     consequence: str
     causes: tuple[str, ...]
     by_name: bool = False
+    by_file: bool = False
+    is_milder: bool = False
 
 
 _RULES = (
@@ -41,6 +47,15 @@ _RULES = (
         (
             *_DESCRIPTION, "doctor.spawn-fails", "doctor.world-missing", "control.hardware-joint",
             "launch.param-command-failed",
+        ),
+    ),
+    # What reads like the name of a plug-in that there is was to be one.
+    _Rule("doctor.no-controller-manager", ("plugin.unknown",), is_milder=True),
+    _Rule(
+        "doctor.remap-unused",
+        (
+            *_DESCRIPTION, "doctor.spawn-fails", "doctor.world-missing",
+            "launch.param-command-failed", "xml.missing-attribute",
         ),
     ),
     _Rule(
@@ -67,6 +82,27 @@ _RULES = (
     _Rule("robot.wheel-axis", ("urdf.degrees",)),
     _Rule("inertia.box", ("robot.mesh-unit", "robot.size-mismatch"), by_name=True),
     _Rule("package.generations-mixed", ("package.build-type",)),
+    _Rule("urdf.child-missing", ("urdf.duplicate-link",), by_name=True),
+    _Rule("urdf.parent-missing", ("urdf.duplicate-link",), by_name=True),
+    _Rule("urdf.material-undefined", ("xacro.include-left-out",)),
+    _Rule("xacro.include-left-out", ("package.names",), by_name=True, is_milder=True),
+    *(
+        _Rule(code, ("package.names",), by_name=True, is_milder=True)
+        for code in (
+            "doctor.packages-elsewhere", "doctor.world-missing", "launch.include-missing",
+            "launch.package-missing", "launch_ros2.package-missing", "package.install-place",
+            "package.scripts-folder", "urdf.collision-mesh-missing", "urdf.mesh-missing",
+            "xacro.file-missing", "xacro.package-missing", "xml.unreadable",
+        )
+    ),
+    *(
+        _Rule(code, ("doctor.description-not-expanded",), by_file=True)
+        for code in ("inertia.", "load.", "robot.", "urdf.", "xacro.", "xml.")
+    ),
+    _Rule("doctor.spawn-fails", ("doctor.description-not-expanded",)),
+    _Rule("doctor.no-controller-manager", ("doctor.description-not-expanded",)),
+    _Rule("doctor.controller-fails", ("control.names-disagree",), by_name=True, is_milder=True),
+    _Rule("doctor.controller-fails", ("parameters.controller-type",), by_name=True, is_milder=True),
 )  # fmt: skip
 
 
@@ -75,7 +111,8 @@ def causes_first(
 ) -> tuple[tuple[Diagnostic, ...], tuple[Diagnostic, ...]]:
     """Part findings into those that stand for themselves and those that follow from them.
 
-    A consequence is never worse than its cause: the exit code is that of the causes.
+    Where a consequence is worse than its cause, the cause is told as severely: the exit code is
+    that of the causes.
 
     Args:
         findings: in the order found.
@@ -83,18 +120,36 @@ def causes_first(
     Returns:
         The causes and the consequences, each in the order found.
     """
-    follows = [any(_follows(item, other) for other in findings) for item in findings]
-    causes = tuple(item for item, late in zip(findings, follows, strict=True) if not late)
-    return causes, tuple(item for item, late in zip(findings, follows, strict=True) if late)
+    found = [
+        next((other for other in findings if _follows(item, other)), None) for item in findings
+    ]
+    causes = tuple(
+        _as_severe(item, findings, found)
+        for item, cause in zip(findings, found, strict=True)
+        if cause is None
+    )
+    late = (item for item, cause in zip(findings, found, strict=True) if cause is not None)
+    return causes, tuple(late)
+
+
+def _as_severe(
+    cause: Diagnostic, findings: Sequence[Diagnostic], found: Sequence[Diagnostic | None]
+) -> Diagnostic:
+    """Raise a cause to what follows from it."""
+    late = (item.severity for item, of in zip(findings, found, strict=True) if of is cause)
+    worst = max(late, default=cause.severity)
+    return replace(cause, severity=worst) if worst > cause.severity else cause
 
 
 def _follows(item: Diagnostic, cause: Diagnostic) -> bool:
-    if cause is item or cause.severity < item.severity:
+    if cause is item:
         return False
     return any(
-        rule.consequence == item.code
+        _is_of(item.code, rule.consequence)
         and any(_is_of(cause.code, code) for code in rule.causes)
-        and (not rule.by_name or bool(_names(item) & _names(cause)))
+        and (rule.is_milder or cause.severity >= item.severity)
+        and (not rule.by_name or _names_of(cause, item))
+        and (not rule.by_file or (item.span is not None and item.span.file in cause.message))
         for rule in _RULES
     )
 
@@ -103,5 +158,9 @@ def _is_of(code: str, wanted: str) -> bool:
     return code.startswith(wanted) if wanted.endswith(".") else code == wanted
 
 
-def _names(item: Diagnostic) -> set[str]:
-    return set(_QUOTED.findall(item.message))
+def _names_of(cause: Diagnostic, item: Diagnostic) -> bool:
+    """Tell whether a finding has a name that its cause has in quotes."""
+    return any(
+        re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", item.message)
+        for name in _QUOTED.findall(cause.message)
+    )

@@ -18,6 +18,7 @@ _MODEL = re.compile(
     r"'model://([^/'\n]+)[^'\n]*' not found: "
     r"(?:there is no model '|'[^'\n]*' is a model of Gazebo's|plain shapes stand in for Gazebo's)"
 )
+_ASKED = re.compile(r"did you mean '(?:model://)?([^/'\n]+)'")
 _MATERIAL = re.compile(r"material '([^'/\n]+)/[^'\n]*' is not known")
 _NODE = re.compile(r"node of type \[([^]]+)\] in package \[([^]]+)\]")
 _CLASS = re.compile(r"Could not load class '([^'\n]+)'")
@@ -150,15 +151,16 @@ def _node(item: Diagnostic) -> tuple[str, str]:
 def _models(findings: list[Diagnostic]) -> list[Diagnostic]:
     """Say of each model once that it is not here, whatever of it is wanted."""
     missing = {name for item in findings for name in [_model(item)] if name}
+    missing -= {name for item in findings for name in [_misspelt(item)] if name}
     owned = {_folded(name) for name in missing}
-    group = [item for item in findings if _model(item) or _material(item) in owned]
+    group = [item for item in findings if _model(item) in missing or _material(item) in owned]
     if len(group) < 2:
         return findings
     files = {PurePath(item.span.file).name: None for item in group if item.span}
     what = f"{len(missing)} models are" if len(missing) > 1 else "a model is"
     text = f"{what} not here, and nothing is downloaded: {_listed(sorted(missing))}; meshes and "
     text += f"materials of them are left out in {', '.join(_some(list(files)))}"
-    first = next(item for item in group if _model(item))
+    first = next(item for item in group if _model(item) in missing)
     fix = "put their folders into one that GAZEBO_MODEL_PATH names; Gazebo has them from "
     fix += "github.com/osrf/gazebo_models or Fuel"
     return _replaced(findings, [first, *(item for item in group if item is not first)],
@@ -168,6 +170,13 @@ def _models(findings: list[Diagnostic]) -> list[Diagnostic]:
 def _model(item: Diagnostic) -> str:
     found = _MODEL.search(item.message) if item.code in _MODEL_CODES else None
     return found[1] if found else ""
+
+
+def _misspelt(item: Diagnostic) -> str:
+    """Return a model's name that is a slip for one that is here."""
+    name = _model(item)
+    asked = _ASKED.search(item.message) if name else None
+    return name if asked and is_slip(name, asked[1]) else ""
 
 
 def _material(item: Diagnostic) -> str:

@@ -18,7 +18,7 @@ from gazelle.workspace import Package, Workspace
 from gazelle.workspace.building.cmake_lists import read_cmake_lists
 from gazelle.workspace.entry_points import console_scripts
 
-__all__ = ["Executable", "find_executable", "script_command"]
+__all__ = ["Executable", "executables_of", "find_executable", "script_command"]
 
 _COMPILED = (".cpp", ".cc", ".cxx", ".c", ".rs")
 
@@ -78,6 +78,16 @@ def find_executable(
         return Executable((str(native),), folder=native.parent)
     _report_missing(package, type_name, workspace, diagnostics, span, ros_version)
     return None
+
+
+def executables_of(package: str, workspace: Workspace) -> tuple[str, ...]:
+    """Return the names of what a package has to run, sorted: its own and those of Gazelle's."""
+    existing = set(builtin_executables(package))
+    try:
+        found = workspace.package(package)
+    except NotFoundError:
+        return tuple(sorted(existing))
+    return tuple(sorted({*existing, *_scripts(found), *console_scripts(found.path)}))
 
 
 def script_command(path: Path) -> tuple[str, ...]:
@@ -151,11 +161,11 @@ def _report_missing(
 ) -> None:
     from gazelle.node_specs.unavailable_packages import missing_node, missing_package
 
-    existing, found = set(builtin_executables(package)), None
+    found = None
     try:
         found = workspace.package(package)
     except NotFoundError as error:
-        if not existing:
+        if not builtin_executables(package):
             message, fix = missing_package(error, ros_version)
             diagnostics.report("launch.package-missing", message, span, fix=fix)
             return
@@ -167,8 +177,7 @@ def _report_missing(
         )
         diagnostics.report("launch.compiled-node", message, span)
         return
-    if found is not None:
-        existing |= {*_scripts(found), *console_scripts(found.path)}
+    existing = set(executables_of(package, workspace))
     known = (
         f"the package has: {', '.join(sorted(existing))}"
         if existing

@@ -108,6 +108,10 @@ class LocalParameters:
         """Tell whether a parameter or namespace is there."""
         return self._tree.has(_absolute(name))
 
+    def names(self) -> list[str]:
+        """Return the names of all parameters, absolute."""
+        return self._tree.names()
+
 
 class LocalNode:
     """A node without a graph."""

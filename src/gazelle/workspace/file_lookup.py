@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.diagnostics import nearest_names
-from gazelle.documents.files import exists
+from gazelle.documents.files import exists, is_folder
 
 __all__ = ["Resolved", "locate", "nearest_below", "nearest_packages"]
 
+# Of a package that is looked through for a file of some name.
+_MAX_FOLDERS = 300
 # Endings that half of all packages share say nothing about which one was meant.
 _COMMON_ENDINGS = (
     "_bringup",
@@ -94,8 +96,28 @@ def nearest_below(base: Path, relative: str) -> tuple[str, ...]:
             continue
         near = nearest_names(part, _names_in(folder))
         rest = parts[:index]
-        return tuple("/".join([*rest, name]) for name in near)
+        names = ["/".join([*rest, name]) for name in near]
+        behind = "/".join(parts[index + 1 :])
+        whole = [f"{name}/{behind}" for name in names if behind and exists(base / name / behind)]
+        if whole or not behind:
+            return tuple(whole or names)
+        elsewhere = _of_name_below(base, parts[-1])
+        return elsewhere or tuple(names)
     return ()
+
+
+def _of_name_below(base: Path, name: str) -> tuple[str, ...]:
+    """Return where files of a name lie in a package or model, the highest first."""
+    if not is_folder(base) or len(base.parts) <= 2:
+        return ()
+    found = []
+    for number, (folder, folders, files) in enumerate(os.walk(base)):
+        folders[:] = sorted(item for item in folders if not item.startswith("."))
+        if name in files:
+            found.append(os.path.relpath(os.path.join(folder, name), base))  # noqa: PTH118
+        if number >= _MAX_FOLDERS or len(found) >= 3:
+            break
+    return tuple(sorted(found, key=lambda item: (item.count("/"), item)))
 
 
 def nearest_packages(name: str, existing: Iterable[str]) -> tuple[str, ...]:

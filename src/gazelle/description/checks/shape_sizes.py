@@ -8,7 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description.checks.shape_volumes import Outline, Outlines
-from gazelle.description.model import Collision, Link, MeshShape, Model, Visual
+from gazelle.description.model import (
+    Collision,
+    Length,
+    Link,
+    MeshShape,
+    Model,
+    Solid,
+    Visual,
+)
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
 __all__ = ["check_sizes"]
@@ -44,10 +52,66 @@ def check_sizes(model: Model, outlines: Outlines, diagnostics: Diagnostics) -> N
         meshes = _mesh_places(link)
         if any(span in known for span in meshes):
             continue
+        if link.name in sizes and _check_solid_unit(link, sizes, diagnostics):
+            continue
         if link.name in sizes and _check_mesh_unit(link, meshes, sizes, diagnostics):
             continue
         if link.name in collisions and link.name in visuals:
             _compare(link, collisions[link.name], visuals[link.name], diagnostics)
+
+
+def _check_solid_unit(link: Link, sizes: dict[str, float], diagnostics: Diagnostics) -> bool:
+    """Report the length of a box, cylinder or sphere that is written in millimetres."""
+    parts: tuple[Collision | Visual, ...] = (*link.collisions, *link.visuals)
+    others = [value for name, value in sizes.items() if name != link.name]
+    typical = float(np.median(others)) if others else 0.5
+    for part in parts:
+        shape = part.shape
+        if not isinstance(shape, Solid):
+            continue
+        for row in shape.lengths():
+            value = getattr(shape, row.field)
+            length = max(value) if isinstance(value, tuple) else value
+            twins = _lengths_of_twins(part, parts, row.field)
+            is_long = length > _HUGE_M and length > _HUGE_RATIO * max(typical, 1e-3)
+            if any(900.0 < length / twin < 1100.0 for twin in twins if twin) or (
+                is_long and not twins
+            ):
+                _report_solid(link, part, row, value, diagnostics)
+                return True
+    return False
+
+
+def _lengths_of_twins(
+    part: Collision | Visual, parts: Sequence[Collision | Visual], field: str
+) -> list[float]:
+    """Return the same length of shapes of the same kind in a link."""
+    found = []
+    for other in parts:
+        if other is not part and type(other.shape) is type(part.shape):
+            value = getattr(other.shape, field)
+            found.append(max(value) if isinstance(value, tuple) else value)
+    return found
+
+
+def _report_solid(
+    link: Link,
+    part: Collision | Visual,
+    row: Length,
+    value: float | tuple[float, ...],
+    diagnostics: Diagnostics,
+) -> None:
+    values = value if isinstance(value, tuple) else (value,)
+    metres = " ".join(f"{one / 1000 if one > 1.0 else one:.6g}" for one in values)
+    what = "collision" if isinstance(part, Collision) else "visual"
+    kind = type(part.shape).__name__.lower()
+    text = f"the {row.word} of the {kind} in the {what} of link '{link.name}' is {max(values):.4g}"
+    text += " m: it is in millimetres, URDF and SDF take it as metres"
+    if part.shape_span is not None:
+        fix = f'write {row.word}="{metres}"'
+    else:
+        fix = f"write <{row.word}>{metres}</{row.word}>"
+    diagnostics.report("robot.size-unit", text, part.shape_span or part.span, fix=fix)
 
 
 def _check_mesh_unit(

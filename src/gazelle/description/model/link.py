@@ -79,7 +79,11 @@ class Surface:
 
 @dataclass(frozen=True, slots=True)
 class Collision:
-    """A shape that touches."""
+    """A shape that touches.
+
+    Attributes:
+        shape_span: where the shape's own element stands, where that is known.
+    """
 
     name: str
     shape: Shape
@@ -87,11 +91,16 @@ class Collision:
     surface: Surface = field(default_factory=Surface)
     laser_retro: float = 0.0
     span: SourceSpan | None = None
+    shape_span: SourceSpan | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Visual:
-    """A shape that is seen; `material` None means the mesh's own."""
+    """A shape that is seen; `material` None means the mesh's own.
+
+    Attributes:
+        shape_span: where the shape's own element stands, where that is known.
+    """
 
     name: str
     shape: Shape
@@ -102,6 +111,7 @@ class Visual:
     laser_retro: float = 0.0
     visibility_flags: int = 0xFFFFFFFF
     span: SourceSpan | None = None
+    shape_span: SourceSpan | None = None
 
 
 class LightType(Enum):

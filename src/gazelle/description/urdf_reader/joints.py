@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from gazelle.description.model import Joint, JointAxis, JointType, Mimic, SafetyController
@@ -39,6 +40,8 @@ _ONCE = (
     "parent",
     "safety_controller",
 )
+# Written as an example where no joint of the robot has a limit.
+_EXAMPLES = {"effort": "10", "velocity": "1"}
 _WITHOUT_AXIS = (JointType.FIXED, JointType.FLOATING)
 
 
@@ -59,7 +62,9 @@ class ReadJoint(NamedTuple):
     tag: Tag
 
 
-def read_limits(joint: Tag, name: str, kind: JointType, context: ReadContext) -> Limits:
+def read_limits(
+    joint: Tag, name: str, kind: JointType, context: ReadContext, others: Sequence[Tag] = ()
+) -> Limits:
     """Return a joint's limits; what is missing is reported as check_urdf does.
 
     Negative effort and velocity mean no limit, as in Gazebo.
@@ -69,19 +74,23 @@ def read_limits(joint: Tag, name: str, kind: JointType, context: ReadContext) ->
         name: its name.
         kind: its type; only revolute and prismatic joints have a range.
         context: where to report.
+        others: joints whose limits are examples of what is missing.
     """
     tag = joint.find("limit")
     if tag is None:
         if kind in _RANGED:
             message = f"joint '{name}' is {kind.value} but it does not specify limits"
-            context.diagnostics.report("urdf.limit-missing", message, joint.span)
+            context.diagnostics.report(
+                "urdf.limit-missing", message, joint.span, fix=_limits_to_add(kind, others)
+            )
         return Limits()
     known = ("lower", "upper", "effort", "velocity")
     check_vocabulary(tag, context.diagnostics, attributes=known)
     missing = [word for word in ("effort", "velocity") if word not in tag.attributes]
     if missing:
         message = f"<limit> of joint '{name}' lacks {' and '.join(missing)}"
-        context.diagnostics.report("urdf.limit-incomplete", message, tag.span)
+        fix = f"add {_bounds(missing, others)}, with the numbers of this joint"
+        context.diagnostics.report("urdf.limit-incomplete", message, tag.span, fix=fix)
     effort = _bound(tag, "effort", context)
     velocity = _bound(tag, "velocity", context)
     if kind is not JointType.FIXED:
@@ -93,13 +102,16 @@ def read_limits(joint: Tag, name: str, kind: JointType, context: ReadContext) ->
     return Limits(lower, upper, effort, velocity)
 
 
-def read_joint(tag: Tag, name: str, context: ReadContext) -> ReadJoint | None:
+def read_joint(
+    tag: Tag, name: str, context: ReadContext, others: Sequence[Tag] = ()
+) -> ReadJoint | None:
     """Return a joint; None (reported) when its type or an end is missing.
 
     Args:
         tag: the ``<joint>``.
         name: its name.
         context: where to report.
+        others: joints whose limits are examples of what is missing.
     """
     check_vocabulary(
         tag, context.diagnostics, attributes=("name", "type"), children=_ONCE, once=_ONCE
@@ -114,11 +126,12 @@ def read_joint(tag: Tag, name: str, context: ReadContext) -> ReadJoint | None:
         ends = ("parent", parent), ("child", child)
         written = [found for end, link in ends if not link and (found := tag.find(end))]
         span = written[0].span if written else tag.span
-        context.diagnostics.report("urdf.joint-ends", message, span)
+        fix = _end_to_write(written)
+        context.diagnostics.report("urdf.joint-ends", message, span, fix=fix)
     if kind is None:
         return None
     origin = origin_of(tag, context.diagnostics)
-    limits = read_limits(tag, name, kind, context)
+    limits = read_limits(tag, name, kind, context, others)
     calibration = tag.find("calibration")
     joint = Joint(
         name,
@@ -150,7 +163,9 @@ def _ordered(tag: Tag, name: str, context: ReadContext) -> tuple[float, float]:
     lower, upper = _read_range(tag, context)
     if lower > upper:
         message = f"<limit> of joint '{name}': lower {lower:g} is above upper {upper:g}; exchanged"
-        context.diagnostics.report("urdf.limit-order", message, tag.span)
+        fix = f'write lower="{tag.attributes["upper"]}" upper="{tag.attributes["lower"]}"'
+        both = "lower" in tag.attributes and "upper" in tag.attributes
+        context.diagnostics.report("urdf.limit-order", message, tag.span, fix=fix if both else "")
         return upper, lower
     if lower == upper:
         message = f"<limit> of joint '{name}' leaves no range ({lower:g} to {upper:g}): it is stuck"
@@ -171,7 +186,7 @@ def _read_type(tag: Tag, name: str, context: ReadContext) -> JointType | None:
     word = tag.attributes.get("type", "").strip()
     if not word:
         message = f"joint '{name}' has no type"
-        context.diagnostics.report("urdf.joint-no-type", message, tag.span)
+        context.diagnostics.report("urdf.joint-no-type", message, tag.span, fix=_type_to_write(tag))
         return None
     if word not in _TYPES:
         hint = did_you_mean(word, _TYPES) or f"use one of {', '.join(sorted(_TYPES))}"
@@ -179,6 +194,45 @@ def _read_type(tag: Tag, name: str, context: ReadContext) -> JointType | None:
         context.diagnostics.report("urdf.joint-type", message, tag.span, fix=hint)
         return None
     return _TYPES[word]
+
+
+def _type_to_write(tag: Tag) -> str:
+    """Guess a joint's type by what is written for it."""
+    limit, axis = tag.find("limit"), tag.find("axis")
+    if limit is not None and ("lower" in limit.attributes or "upper" in limit.attributes):
+        kind, why = "revolute", 'it has limits; "prismatic" where it slides'
+    elif axis is not None or limit is not None or tag.find("dynamics") is not None:
+        kind, why = "continuous", "it has an axis and no limits"
+    else:
+        kind, why = "fixed", "it has neither axis nor limits"
+    return f'write type="{kind}" ({why})'
+
+
+def _limits_to_add(kind: JointType, others: Sequence[Tag]) -> str:
+    lower, upper = ("-3.1416", "3.1416") if kind is JointType.REVOLUTE else ("0", "0.1")
+    bounds = _bounds(("effort", "velocity"), others)
+    fix = f'add <limit lower="{lower}" upper="{upper}" {bounds}/> with the numbers of this joint'
+    return fix + (", or make it continuous" if kind is JointType.REVOLUTE else "")
+
+
+def _bounds(words: Sequence[str], others: Sequence[Tag]) -> str:
+    """Write bounds as other joints of the robot have them, as an example."""
+    found = []
+    limits = [tag for joint in others if (tag := joint.find("limit")) is not None]
+    for word in words:
+        values = [tag.attributes[word] for tag in limits if tag.attributes.get(word)]
+        value = max(values, key=values.count) if values else _EXAMPLES[word]
+        found.append(f'{word}="{value}"')
+    return " ".join(found)
+
+
+def _end_to_write(written: Sequence[Tag]) -> str:
+    """Say how an end is written whose link stands in an attribute of another name."""
+    for tag in written:
+        if len(tag.attributes) == 1:
+            (value,) = tag.attributes.values()
+            return f'write <{tag.name} link="{value}"/>'
+    return ""
 
 
 def _end(tag: Tag, which: str) -> str:

@@ -41,7 +41,13 @@ def check_tree(
         start = "no root link found" if not roots else f"not all links hang on '{roots[0]}'"
         message = f"{start}: the joints of {names} form a loop"
         joint = next(item for item in joints if item.joint.child == unreachable[0])
-        context.diagnostics.report("urdf.loop", message, joint.tag.span)
+        own = [item for item in joints if item.joint.parent == item.joint.child]
+        fix = ""
+        if own and roots:
+            joint = own[0]
+            message += f"; '{joint.joint.child}' is its own parent"
+            fix = f'write <parent link="{roots[0]}"/>, or another link that it hangs on'
+        context.diagnostics.report("urdf.loop", message, joint.tag.span, fix=fix)
         return None
     return roots[0]
 

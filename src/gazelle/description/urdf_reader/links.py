@@ -8,6 +8,7 @@ from gazelle.description.urdf_reader.attributes import check_vocabulary, number_
 from gazelle.description.urdf_reader.materials import visual_material
 from gazelle.description.urdf_reader.shapes import read_geometry
 from gazelle.description.xml import Tag
+from gazelle.diagnostics import SourceSpan
 
 __all__ = ["read_link"]
 
@@ -94,7 +95,7 @@ def _read_collisions(tag: Tag, link: str, context: ReadContext) -> tuple[Collisi
         shape = read_geometry(child, link, context)
         if shape is not None:
             name = _shape_name(child, link, index, {item.name for item in found})
-            found.append(Collision(name, shape, pose, span=child.span))
+            found.append(Collision(name, shape, pose, span=child.span, shape_span=_place(child)))
     return tuple(found)
 
 
@@ -115,7 +116,9 @@ def _read_visuals(
         material = visual_material(child, link, materials, context)
         if shape is not None:
             name = _shape_name(child, link, index, {item.name for item in found})
-            found.append(Visual(name, shape, pose, material, span=child.span))
+            found.append(
+                Visual(name, shape, pose, material, span=child.span, shape_span=_place(child))
+            )
     return tuple(found)
 
 
@@ -126,3 +129,8 @@ def _shape_name(tag: Tag, link: str, index: int, taken: set[str]) -> str:
         return name
     base = name or f"{link}_{tag.name}"
     return base if index == 0 else f"{base}_{index}"
+
+
+def _place(owner: Tag) -> SourceSpan | None:
+    geometry = owner.find("geometry")
+    return geometry.children[0].span if geometry is not None and geometry.children else None

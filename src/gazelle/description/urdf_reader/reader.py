@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -128,7 +128,10 @@ def _read_links(robot: Tag, context: ReadContext) -> dict[str, Link]:
             context.diagnostics.report("urdf.link-no-name", "a <link> has no name", tag.span)
         elif name in links:
             message = f"link '{name}' is not unique; first defined at {links[name].span}"
-            context.diagnostics.report("urdf.duplicate-link", message, tag.span)
+            wanted = _wanted_link(robot, tags)
+            fix = f'write name="{wanted}"' if wanted else ""
+            message += f"; joints name '{wanted}', and no link has that name" if wanted else ""
+            context.diagnostics.report("urdf.duplicate-link", message, tag.span, fix=fix)
         else:
             links[name] = read_link(tag, name, materials, context)
     if not tags:
@@ -137,10 +140,19 @@ def _read_links(robot: Tag, context: ReadContext) -> dict[str, Link]:
     return links
 
 
+def _wanted_link(robot: Tag, links: Sequence[Tag]) -> str:
+    """Return the one name that joints have for a link and no link has, empty when it is not one."""
+    ends = (end for joint in robot.find_all("joint") for end in joint.children)
+    named = {end.attributes.get("link", "") for end in ends if end.name in {"parent", "child"}}
+    wanted = named - {tag.attributes.get("name", "") for tag in links} - {""}
+    return wanted.pop() if len(wanted) == 1 else ""
+
+
 def _read_joints(robot: Tag, context: ReadContext) -> dict[str, ReadJoint]:
     joints: dict[str, ReadJoint] = {}
     seen: dict[str, Tag] = {}
-    for tag in robot.find_all("joint"):
+    tags = robot.find_all("joint")
+    for tag in tags:
         name = tag.attributes.get("name", "").strip()
         if not name:
             context.diagnostics.report("urdf.joint-no-name", "a <joint> has no name", tag.span)
@@ -149,7 +161,7 @@ def _read_joints(robot: Tag, context: ReadContext) -> dict[str, ReadJoint]:
             context.diagnostics.report("urdf.duplicate-joint", message, tag.span)
         else:
             seen[name] = tag
-            joint = read_joint(tag, name, context)
+            joint = read_joint(tag, name, context, tags)
             if joint is not None:
                 joints[name] = joint
     return joints

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import chain, islice
 
 from gazelle.description.model import (
@@ -20,7 +21,7 @@ from gazelle.description.urdf_reader.attributes import (
     vector_attribute,
 )
 from gazelle.description.xml import Tag
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import did_you_mean, nearest_names
 
 __all__ = ["read_geometry"]
 
@@ -131,4 +132,7 @@ def _usable(
 
 def _incomplete(tag: Tag, owner: Tag, link: str, needs: str, context: ReadContext) -> None:
     message = f"{needs}: the <{owner.name}> of link '{link}' is left out"
-    context.diagnostics.report("urdf.geometry-incomplete", message, tag.span)
+    wanted = [word for word in re.findall(r"(\w+)=", needs) if word not in tag.attributes]
+    near = [(word, nearest_names(word, tag.attributes, count=1)) for word in wanted]
+    slips = [f"did you mean '{word}' for '{found[0]}'?" for word, found in near if found]
+    context.diagnostics.report("urdf.geometry-incomplete", message, tag.span, fix=" ".join(slips))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Sequence
 
 from gazelle.description.xml.spans import attribute_span
 from gazelle.description.xml.tag import Tag
@@ -10,6 +12,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 
 __all__ = ["bool_from", "float_from", "floats_from", "int_from"]
 
+_ZEROS = frozenset({(6, "<pose>"), (3, "<origin xyz>"), (3, "<origin rpy>")})
 _TRUE = frozenset({"1", "true", "yes", "on"})
 _FALSE = frozenset({"0", "false", "no", "off"})
 
@@ -53,8 +56,28 @@ def floats_from(
     else:
         message = f"{what} needs {count} number{'s' * (count != 1)}, found {len(values)}: '{text}'"
     span = attribute_span(span, attribute, bad[0] if bad else "") if attribute else span
-    diagnostics.report("xml.bad-number", message, span)
+    diagnostics.report("xml.bad-number", message, span, fix=_instead(text, bad, count, what))
     return default
+
+
+def _instead(text: str, bad: Sequence[str], count: int, what: str) -> str:
+    """Say what to write for numbers that are nearly right, nothing where nobody can know."""
+    if not bad:
+        # A pose of three numbers turns nothing; what lies flat has no third place.
+        if count > len(text.split()) and (count, what) in _ZEROS:
+            return f"write {' '.join([*text.split(), *['0'] * (count - len(text.split()))])}"
+        return ""
+    with_dots, with_spaces = text.replace(",", "."), text.replace(",", " ")
+    for written in (with_spaces, with_dots):
+        values = [_number(token) for token in written.split()]
+        if "," in text and len(values) == count and None not in values:
+            return f"write {' '.join(written.split())}"
+    if len(bad) == 1 and re.fullmatch(r"-?\d*\.\d*\.\d+", bad[0]):
+        first, second = bad[0].index("."), bad[0].rindex(".")
+        one = bad[0][:second] + bad[0][second + 1 :]
+        other = bad[0][:first] + bad[0][second:]
+        return f"write {one} or {other}: a number has one decimal point"
+    return ""
 
 
 def float_from(tag: Tag | None, default: float, diagnostics: Diagnostics) -> float:

@@ -189,6 +189,14 @@ _CHECKS = (
         "robot cannot pass through doors it seems to fit",
     ),
     Entry(
+        "robot.size-unit",
+        "warning",
+        "A length of a shape is in millimetres",
+        "A part of a robot is longer than a house: URDF and SDF take lengths as metres.",
+        "write the length in metres",
+        "robot explodes or is nowhere to be seen",
+    ),
+    Entry(
         "robot.soft-contact",
         "warning",
         "A contact is too soft for the weight on it",

@@ -115,8 +115,10 @@ def _brought_up(
 ) -> DryStart:
     _bring_in(plan, server)
     spawned, unpaused_by = _spawn_all(plan, node, server)
+    models = server.engine.world.models
+    robots = [model for model in models if model.name in spawned.values()]
     for start in plan.controllers:
-        start_controllers(start, server.controls.managers, server.diagnostics)
+        start_controllers(start, server.controls.managers, robots, server.diagnostics)
     diagnostics.extend(server.diagnostics)
     managers = managers_of(server.controls.managers)
     world = server.engine.world

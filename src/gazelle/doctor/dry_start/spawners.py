@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -12,6 +14,7 @@ from gazelle.control.checks import configured_controllers
 from gazelle.control.controller_manager import ControllerManager
 from gazelle.control.errors import ControllerError
 from gazelle.control.parameter_sources.ros2_controller_parameters import FileSource
+from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.dry_start.plan import ControllerStart, Manager, Program
 from gazelle.errors import GazelleError
@@ -23,6 +26,9 @@ from gazelle.simulator.spawn_model import spawn_model
 __all__ = ["Spawning", "managers_of", "start_controllers"]
 
 _BOND_FLAGS = frozenset({"-b", "-bond", "--bond"})
+
+
+_ASKED_PARAMETER = re.compile(r"the parameter is '/?([^']+)'")
 
 
 class Spawning:
@@ -104,23 +110,38 @@ class Spawning:
         if is_explained:
             reason = "SpawnModel: Failure - its description has errors, which are listed too"
         text = f"'{self._node.full_name}' cannot bring its model into the world: {reason}"
-        diagnostics.report("doctor.spawn-fails", text, self._program.span)
+        asked = _ASKED_PARAMETER.search(reason)
+        near = asked and did_you_mean(asked[1], self._descriptions())
+        diagnostics.report("doctor.spawn-fails", text, self._program.span, fix=near or "")
+
+    def _descriptions(self) -> list[str]:
+        """Return the names of parameters that hold a robot."""
+        values = self._world_node.parameters
+        return [
+            name.removeprefix("/")
+            for name in values.names()
+            if str(values.get(name, "")).lstrip().startswith("<")
+        ]
 
 
 def start_controllers(
-    start: ControllerStart, managers: Mapping[str, ControllerManager], diagnostics: Diagnostics
+    start: ControllerStart,
+    managers: Mapping[str, ControllerManager],
+    robots: Sequence[Model],
+    diagnostics: Diagnostics,
 ) -> None:
     """Load and start what a spawner names; report what a run would fail at.
 
     Args:
         start: the spawner's wishes.
         managers: by namespace, absolute.
+        robots: that spawners have brought into the world.
         diagnostics: receives the findings.
     """
     namespace = start.manager.rpartition("/")[0] or "/"
     manager = managers.get(namespace)
     if manager is None:
-        _report_no_manager(start, managers, diagnostics)
+        _report_no_manager(start, managers, robots, diagnostics)
         return
     loaded = [name for name in start.names if _load(name, start, manager, diagnostics)]
     if not start.starts or not loaded:
@@ -178,7 +199,10 @@ def _type_in(start: ControllerStart, name: str) -> str:
 
 
 def _report_no_manager(
-    start: ControllerStart, managers: Mapping[str, ControllerManager], diagnostics: Diagnostics
+    start: ControllerStart,
+    managers: Mapping[str, ControllerManager],
+    robots: Sequence[Model],
+    diagnostics: Diagnostics,
 ) -> None:
     names = [resolve("controller_manager", namespace) for namespace in managers]
     known = f"there is {', '.join(names)}" if names else "no robot of this launch has one"
@@ -186,9 +210,18 @@ def _report_no_manager(
     if names:
         wanted = (names[0].rpartition("/")[0] or "/").rstrip("/") or "/"
         fix = f'start it with ns="{wanted}", or set <robotNamespace> of the plug-in to match'
-    else:
-        fix = "add a <plugin> libgazebo_ros_control.so to the robot, or spawn it before"
-    diagnostics.report("doctor.no-controller-manager", text, start.by.span, fix=fix)
+        diagnostics.report("doctor.no-controller-manager", text, start.by.span, fix=fix)
+        return
+    # What has to change is the robot, where it is plain which one.
+    robot = robots[0].span if len(robots) == 1 else None
+    by = start.by.span
+    span = by if robot is None or by is None else replace(robot, via=(by, *by.via))
+    namespace = start.manager.rpartition("/")[0]
+    inner = f"<robotNamespace>{namespace}</robotNamespace>" if namespace else ""
+    plugin = '<plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"'
+    plugin += f">{inner}</plugin>" if inner else "/>"
+    fix = f"add <gazebo>{plugin}</gazebo> to the robot, or spawn the robot that has it before"
+    diagnostics.report("doctor.no-controller-manager", text, span, fix=fix)
 
 
 def _full_name(start: ControllerStart) -> str:

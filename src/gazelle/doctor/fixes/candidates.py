@@ -6,6 +6,12 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from gazelle.diagnostics import Diagnostic, SourceSpan
+from gazelle.doctor.fixes.by_code import (
+    install_rule,
+    number_written,
+    xacro_closed,
+    xacro_command,
+)
 from gazelle.doctor.fixes.edits import Edit, SourceText
 from gazelle.doctor.fixes.malformed import python_closed, xml_closed, xml_escaped, yaml_closed
 from gazelle.doctor.fixes.misspelt import with_names_replaced
@@ -26,7 +32,20 @@ _UNREADABLE: dict[str, _Maker] = {
     "xml.malformed": xml_closed,
     "yaml.malformed": yaml_closed,
 }
-_STOPS = ("launch.", "launch_ros2.", "xacro.", "load.", "doctor.spawn-fails", "doctor.world-missing")
+_OF_CODE: dict[str, _Maker] = {
+    "doctor.description-not-expanded": xacro_command,
+    "package.not-installed": install_rule,
+    "xacro.bad-expression": xacro_closed,
+    "xml.bad-number": number_written,
+}
+_STOPS = (
+    "launch.",
+    "launch_ros2.",
+    "xacro.",
+    "load.",
+    "doctor.spawn-fails",
+    "doctor.world-missing",
+)
 
 
 class Candidate(NamedTuple):
@@ -62,7 +81,13 @@ def candidates(
         if source is None:
             continue
         at = source.offset(span)
-        makers = (_UNREADABLE.get(finding.code), with_names_replaced, as_written, pasted)
+        makers = (
+            _UNREADABLE.get(finding.code),
+            _OF_CODE.get(finding.code),
+            with_names_replaced,
+            as_written,
+            pasted,
+        )
         for maker in makers:
             for edits in maker(finding, source, at) if maker else ():
                 one = Candidate(span.file, edits)

@@ -115,9 +115,9 @@ def _untabbed(source: SourceText, begin: int, line: str) -> Iterator[tuple[Edit,
     if "\t" not in white:
         return
     above = source.indentation(max(begin - 1, 0)).replace("\t", "")
-    below = next(
-        (source.indentation(at) for at in source.lines_after(begin)), above
-    ).replace("\t", "")
+    below = next((source.indentation(at) for at in source.lines_after(begin)), above).replace(
+        "\t", ""
+    )
     seen = dict.fromkeys((below, above, f"{above}  ", white.replace("\t", "  "), above[:-2]))
     for spaces in seen:
         yield (Edit(begin, begin + len(white), spaces),)

@@ -13,13 +13,13 @@ __all__ = ["as_written", "pasted"]
 
 _ATTRIBUTE = re.compile(r"([\w:]+)=\"([^\"…]*)\"")
 _WRITE_ATTRIBUTES = re.compile(r"\b(?:write|add) ((?:[\w:]+=\"[^\"…]*\"(?:, | and | )?)+)")
-_WRITE_ELEMENT = re.compile(r"\b(?:write|add) (<([\w:]+)[^<>…]*(?:/>|>[^<>…]*</\2>))")
+_WRITE_ELEMENT = re.compile(
+    r"\b(write|add|such as) ((?:<([\w:]+)(?:\s[^<>…]*)?(?:/>|>[^…\n]*?</\3>))+)"
+)
 _PASTE = re.compile(r"paste into <([\w:]+)[^<>]*>\n")
 
 
-def as_written(
-    finding: Diagnostic, source: SourceText, at: int
-) -> Iterator[tuple[Edit, ...]]:
+def as_written(finding: Diagnostic, source: SourceText, at: int) -> Iterator[tuple[Edit, ...]]:
     """Return the ways to write what a finding says to write or to add."""
     tag = tag_at(source.text, at)
     if tag is None:
@@ -31,7 +31,10 @@ def as_written(
         for child in around:
             yield tuple(_with_attribute(source.text, child, *pair) for pair in values)
     for found in _WRITE_ELEMENT.finditer(finding.fix):
-        yield from _with_element(source, tag, found[2], found[1])
+        if found[1] == "add":
+            yield (_inserted(source, tag, found[2].replace("><exec_depend>", ">\n<exec_depend>")),)
+        else:
+            yield from _with_element(source, tag, found[3], found[2])
 
 
 def pasted(finding: Diagnostic, source: SourceText, at: int) -> Iterator[tuple[Edit, ...]]:
@@ -108,6 +111,12 @@ def _inserted(source: SourceText, tag: Tag, element: str) -> Edit:
     """Put an element at the end of another."""
     text = source.text
     outer = source.indentation(tag.begin)
+    kind = re.match(r"\s*<\w*?_?(depend)>", element)
+    alike = [item for item in children(text, tag) if kind and item.name.endswith(kind[1])]
+    if alike:
+        # A dependency stands with the others.
+        end = element_end(text, alike[-1])
+        return Edit(end, end, "\n" + _indented(element, source.indentation(alike[-1].begin)))
     first = next(children(text, tag), None)
     inner = f"{outer}  " if first is None else source.indentation(first.begin)
     lines = _indented(element, inner if inner != outer else f"{outer}  ")

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.launch_ros1.topics import NodeTopics
+from gazelle.documents import read_text_limited
 from gazelle.graph.names import resolve
 
 __all__ = ["check_descriptions", "check_remaps", "check_topics"]
@@ -76,11 +78,24 @@ def check_descriptions(launched: Launched, diagnostics: Diagnostics) -> None:
             _report_no_description(node, launched, diagnostics)
     for name, value in launched.config.params.items():
         if isinstance(value, str) and _is_unexpanded(value):
-            text = f"parameter '{name}' holds xacro that nobody has expanded: its "
-            text += "${…} and <xacro:…> mean nothing to a URDF reader"
+            file = _file_with(value, launched.config.text_files)
+            text = f"parameter '{name}' holds xacro that nobody has expanded"
+            text += f", the text of '{file}'" if file else ""
+            text += ": its ${…} and <xacro:…> mean nothing to a URDF reader"
             span = launched.spans.get(name)
             fix = 'write command="$(find xacro)/xacro FILE" in place of textfile='
             diagnostics.report("doctor.description-not-expanded", text, span, fix=fix)
+
+
+def _file_with(text: str, files: Sequence[str]) -> str:
+    """Return which of the files a parameter's text was read from, empty when none is."""
+    for file in files:
+        try:
+            if read_text_limited(Path(file)) == text:
+                return file
+        except (OSError, UnicodeDecodeError):
+            continue
+    return ""
 
 
 def _is_unexpanded(text: str) -> bool:

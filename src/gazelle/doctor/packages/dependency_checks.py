@@ -117,7 +117,7 @@ def _report_undeclared(
     text = f"the package uses and does not declare {', '.join(rows)}: rosdep installs what is "
     text += "declared, and builds go by it"
     tag = "exec_depend" if source.package.format >= 2 else "run_depend"
-    fix = "".join(f"<{tag}>{name}</{tag}>" for name in sorted(missing))
+    fix = "add " + "".join(f"<{tag}>{name}</{tag}>" for name in sorted(missing))
     diagnostics.report("package.undeclared", text, source.manifest_span, fix=fix)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from gazelle.description.xml import Tag
-from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.diagnostics import Diagnostics, Severity, did_you_mean
 from gazelle.doctor.packages.source import SourcePackage
 
 __all__ = ["check_manifest"]
@@ -87,7 +87,13 @@ def _check_build_type(source: SourcePackage, root: Tag, diagnostics: Diagnostics
     written = tag.text if tag is not None else ""
     span = tag.span if tag is not None else root.span
     wanted = source.build_type
-    if written and written not in _BUILD_TYPES:
+    tool = root.find("buildtool_depend")
+    other = {"catkin": "ament_cmake", "ament_cmake": "catkin"}.get(wanted)
+    if tool is not None and tool.text == other:
+        text = f"<buildtool_depend> is {tool.text}, and {source.build_file.name} is for {wanted}: "
+        text += f"it is built without {wanted}"
+        diagnostics.report("package.build-type", text, tool.span, fix=f"did you mean '{wanted}'?")
+    elif written and written not in _BUILD_TYPES:
         text = f"the build type '{written}' is not known to colcon; it would leave the package out"
         hint = did_you_mean(written, _BUILD_TYPES)
         diagnostics.report("package.build-type", text, span, fix=hint)
@@ -96,7 +102,7 @@ def _check_build_type(source: SourcePackage, root: Tag, diagnostics: Diagnostics
         text = f"{file} is for {wanted}, "
         text += f"the build type is {written}" if written else "the manifest has no <build_type>"
         text += "" if written else ", so colcon takes the package for catkin's"
-        fix = f"<export><build_type>{wanted}</build_type></export>"
+        fix = f"add <export><build_type>{wanted}</build_type></export>"
         diagnostics.report("package.build-type", text, span, fix=fix)
     elif not source.build_file.is_file():
         _report_no_build_file(source, root, diagnostics)
@@ -113,6 +119,13 @@ def _report_no_build_file(source: SourcePackage, root: Tag, diagnostics: Diagnos
 
 def _check_names(source: SourcePackage, root: Tag, diagnostics: Diagnostics) -> None:
     name, lists, setup = source.package.name, source.lists, source.setup
+    tag = root.find("name")
+    built = lists.project if lists is not None else setup.name if setup is not None else ""
+    if tag is not None and built and built == source.folder.name != name:
+        file = source.build_file.name
+        text = f"the manifest's <name> '{name}' is not that of its folder and of {file}, '{built}'"
+        hint = f"did you mean '{built}'?"
+        diagnostics.report("package.names", text, tag.span, fix=hint, severity=Severity.ERROR)
     if lists is not None and lists.project and lists.project != name and _is_ros(source):
         tool = "ament_package_xml()" if source.is_ros2 else "catkin_package()"
         text = f"project({lists.project}) and the manifest's <name>{name}</name> differ ({tool} "

@@ -49,6 +49,8 @@ class SourcePackage:
         """The kind of its build files; what the manifest says when they do not tell."""
         if self.lists is not None and self.lists.called("ament_package", "ament_auto_package"):
             return "ament_cmake"
+        if self.lists is not None and self.lists.called("catkin_package"):
+            return "catkin"
         written = self.package.build_type
         if self.lists is None and self.setup is not None and self.setup.is_for_ament:
             return "ament_python"

@@ -93,18 +93,37 @@ def check_controllers(found: Iterable[FoundController], diagnostics: Diagnostics
 def check_untyped(document: Document, layout: Layout, diagnostics: Diagnostics) -> None:
     """Report controllers of a manager whose ``type`` is spelt otherwise."""
     if layout is not Layout.ROS2:
+        for name, mapping in _mappings(document.root):
+            _check_untyped(name, mapping, diagnostics, of_class=True)
         return
-    for name, section in _sections(document.root, ""):
-        rows = section.pairs if name.endswith(_MANAGER) else ()
+    for place, section in _sections(document.root, ""):
+        rows = section.pairs if place.endswith(_MANAGER) else ()
         for key, value in rows:
-            names = [one.text for one, _ in value.pairs] if isinstance(value, YamlMapping) else []
-            near = nearest_names("type", names, count=1) if "type" not in names else ()
-            if near and isinstance(value, YamlMapping):
-                place = next(one.span for one, _ in value.pairs if one.text == near[0])
-                text = f"controller '{key.text}' has no 'type' and has '{near[0]}' (The 'type' "
-                text += f"param was not defined for '{key.text}')"
-                fix = f"did you mean 'type' for '{near[0]}'?"
-                diagnostics.report("parameters.controller-type", text, place, fix=fix)
+            if isinstance(value, YamlMapping):
+                _check_untyped(key, value, diagnostics)
+
+
+def _check_untyped(
+    key: YamlNode, value: YamlMapping, diagnostics: Diagnostics, *, of_class: bool = False
+) -> None:
+    names = [one.text for one, _ in value.pairs]
+    near = nearest_names("type", names, count=1) if "type" not in names else ()
+    if not near:
+        return
+    place, found = next((one.span, two) for one, two in value.pairs if one.text == near[0])
+    if of_class and not (isinstance(found, YamlScalar) and is_controller_type(found.text)):
+        return
+    text = f"controller '{key.text}' has no 'type' and has '{near[0]}' (The 'type' "
+    text += f"param was not defined for '{key.text}')"
+    fix = f"did you mean 'type' for '{near[0]}'?"
+    diagnostics.report("parameters.controller-type", text, place, fix=fix)
+
+
+def _mappings(node: YamlMapping) -> Iterator[tuple[YamlNode, YamlMapping]]:
+    for key, value in node.pairs:
+        if isinstance(value, YamlMapping):
+            yield key, value
+            yield from _mappings(value)
 
 
 def _check_kind(item: FoundController, diagnostics: Diagnostics) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from gazelle.description.xml import Tag
-from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
 from gazelle.documents import scaled
 from gazelle.documents.files import is_folder
 from gazelle.documents.yaml import ROSPARAM, load_yaml
@@ -207,7 +207,9 @@ class Reading:
         value = self.text(tag, name, scope)
         if not value:
             message = f"<{tag.name}> tag is missing required attribute '{name}'"
-            raise TagError("xml.missing-attribute", message, tag.span)
+            near = nearest_names(name, tag.attributes, count=1)
+            fix = f"did you mean '{name}' for '{near[0]}'?" if near and name != near[0] else ""
+            raise TagError("xml.missing-attribute", message, tag.span, fix)
         return value
 
     def flag(self, tag: Tag, name: str, scope: Scope, default: bool = False) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Callable
+from difflib import SequenceMatcher
 from pathlib import Path
 from typing import Any, Literal, cast
 
@@ -305,9 +306,10 @@ def _node_spec(tag: Tag, scope: Scope, reading: Reading, name: str) -> NodeTag:
     reading.clear_params(tag, inner.child(name))
     _private_params(inner, name, reading)
     _node_children(tag, inner, name, reading)
+    package = reading.required(tag, "pkg", scope)
     return NodeTag(
-        package=reading.required(tag, "pkg", scope),
-        type=reading.required(tag, "type", scope),
+        package=package,
+        type=_node_type(tag, package, name, scope, reading),
         name=name,
         namespace=inner.namespace,
         args=reading.text(tag, "args", scope),
@@ -322,6 +324,22 @@ def _node_spec(tag: Tag, scope: Scope, reading: Reading, name: str) -> NodeTag:
         machine=reading.text(tag, "machine", scope),
         span=reading.located(tag.span, scope),
     )
+
+
+def _node_type(tag: Tag, package: str, name: str, scope: Scope, reading: Reading) -> str:
+    """Return a node's type; where there is none, say which the package has."""
+    try:
+        return reading.required(tag, "type", scope)
+    except TagError as error:
+        from gazelle.launch.node_commands import executables_of
+
+        types = executables_of(package, reading.workspace)
+        if error.fix or not types:
+            raise
+        near = max(types, key=lambda item: SequenceMatcher(None, item, name).ratio())
+        fix = f'add type="{near}"'
+        fix += f"; the package has: {', '.join(types)}" if len(types) > 1 else ""
+        raise TagError(error.code, str(error), error.span, fix) from error
 
 
 def _check_node_name(name: str) -> None:

@@ -9,7 +9,7 @@ from functools import cache
 from importlib import import_module
 
 from gazelle.description.model import PluginTag
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import nearest_names
 from gazelle.simulator.plugins.context import PluginContext
 from gazelle.simulator.plugins.plugin_parameters import PluginTable
 
@@ -17,6 +17,7 @@ __all__ = ["all_tables", "known_names", "load_plugin", "looked_up", "plain_name"
 
 Load = Callable[[PluginContext], None]
 
+_SLIP = 0.92
 _COMMON_BEGIN = "gazebo_ros_"
 _MIN_LIKENESS = 0.8
 # sdformat's word for a missing file name; Gazebo passes over such a plug-in.
@@ -143,6 +144,7 @@ def load_plugin(context: PluginContext) -> bool:
         if found is not None:
             found[1](context)
             return True
+    from gazelle.simulator.plugins.user.finder import python_plugin_names
     from gazelle.simulator.plugins.user.loader import load_user_plugin, report_compiled
 
     if load_user_plugin(context):
@@ -152,7 +154,11 @@ def load_plugin(context: PluginContext) -> bool:
     name = plain_name(plugin.filename)
     text = f"plug-in '{plugin.filename}' (name '{plugin.name}') of {context.owner} is "
     text += "compiled code that Gazelle does not have: what it does in Gazebo does not happen here"
-    context.report("plugin.unknown", text, fix=did_you_mean(name, _alike(name)))
+    own = python_plugin_names(context.host.workspace)
+    near = nearest_names(name, [*own, *_alike(name)])
+    as_written = plugin.filename.replace(name, "{}", 1) if name else "{}"
+    slips = " or ".join(f"'{as_written.format(one)}'" for one in near)
+    context.report("plugin.unknown", text, fix=f"did you mean {slips}?" if slips else "")
     return False
 
 
@@ -166,5 +172,9 @@ def _alike(name: str) -> list[str]:
 
 
 def _likeness(name: str, known: str) -> float:
+    # A slip in the common beginning is one, too.
+    whole = SequenceMatcher(None, name, known).ratio()
+    if whole >= _SLIP:
+        return 1.0
     bare = [text.removeprefix(_COMMON_BEGIN) for text in (name, known)]
     return SequenceMatcher(None, bare[0], bare[1]).ratio()

@@ -53,6 +53,8 @@ def explain_expression(failure: Failure) -> Explanation | None:
     what = failure.part or expression
     inner = "" if expression == what else f" in '{expression}'"
     message = f"cannot evaluate '{what}'{inner}: {_reason(cause)}"
+    if "${" in failure.expression:
+        return Explanation("xacro.bad-expression", message, failure.span, "add '}'")
     values = _values(failure)
     if values:
         shown = ", ".join(

@@ -21,6 +21,7 @@ __all__ = [
     "compiled_plugin",
     "installed_plugin",
     "python_plugin",
+    "python_plugin_names",
     "stems",
 ]
 
@@ -28,6 +29,7 @@ _VARIABLES = ("GAZEBO_PLUGIN_PATH", "GZ_SIM_SYSTEM_PLUGIN_PATH", "IGN_GAZEBO_SYS
 _LIBRARY_ENDINGS = (".so", ".dylib", ".dll")
 _SKIPPED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__"})
 _SOURCE_ENDINGS = (".cpp", ".cc", ".cxx", ".c")
+_PLUGIN_IMPORT = "gazelle.simulator.plugins.user"
 _PROJECT = re.compile(r"\bproject\s*\(\s*([\w-]+)")
 
 
@@ -97,6 +99,20 @@ def python_plugin(
             if path.name in names:
                 return PythonPlugin(path, package.path)
     return None
+
+
+def python_plugin_names(workspace: Workspace | None) -> tuple[str, ...]:
+    """Return the names of the Python files in a workspace that hold a plug-in."""
+    found = []
+    for package in _own_packages(workspace):
+        for path in _files(package.path, (".py",)):
+            try:
+                text = path.read_text(encoding="utf-8", errors="replace")
+            except OSError:
+                continue
+            if _PLUGIN_IMPORT in text:
+                found.append(path.stem)
+    return tuple(found)
 
 
 def installed_plugin(filename: str) -> EntryPoint | None:
