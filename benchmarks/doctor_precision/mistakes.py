@@ -50,6 +50,7 @@ class Mistake(NamedTuple):
         wrong: pattern of what is changed.
         change: gives what is written instead.
         parent: the finding may name the element around as well: something is left out.
+        around: pattern of lines that it may name, too, where there are no elements.
         needs: pattern that the file holds, where the mistake is none without it.
         lacks: pattern that the file does not hold.
     """
@@ -59,6 +60,7 @@ class Mistake(NamedTuple):
     wrong: str
     change: _Change
     parent: bool = False
+    around: str = ""
     needs: str = ""
     lacks: str = ""
 
@@ -93,6 +95,10 @@ class Mistake(NamedTuple):
                 lines.add(text.count("\n", 0, opened) + 1)
         if self.parent:
             lines |= _parents(text, at)
+        if self.around:
+            lines |= {
+                text.count("\n", 0, found.start()) + 1 for found in re.finditer(self.around, text)
+            }
         return frozenset(lines)
 
 
@@ -237,7 +243,7 @@ MISTAKES = (
     Mistake("xacro.include-misspelt", _ROBOT,
             r'<xacro:include\s+filename="[^"]*?(?P<w>\w+)\.(?:urdf\.)?\w+"', _misspelt),
     Mistake("xacro.namespace-missing", _ROBOT, r'<robot[^>]*(?P<w>\s+xmlns:xacro="[^"]*")',
-            _to(""), parent=True),
+            _to(""), parent=True, needs=r"<xacro:"),
     Mistake("urdf.material-misspelt", _ROBOT, r'<material\s+name="(?P<w>\w+)"\s*/>', _misspelt),
     # Files.
     Mistake("mesh.file-misspelt", _ROBOT, r'filename="package://[^"]*?(?P<w>\w+)\.(?:dae|stl|STL)"',
@@ -353,7 +359,8 @@ MISTAKES = (
     Mistake("install.folder-missing", r"CMakeLists\.txt$",
             r"install\(DIRECTORY[^)]*?(?P<w>\b(?:launch|urdf|config|worlds)\b)", _to("")),
     Mistake("install.data-files-missing", r"setup\.py$",
-            r"^(?P<w>\s*\([^\n]*(?:launch|urdf|config|worlds)[^\n]*glob[^\n]*)", _to("")),
+            r"^(?P<w>\s*\([^\n]*(?:launch|urdf|config|worlds)[^\n]*glob[^\n]*)", _to(""),
+            around=r"data_files"),
     Mistake("setup.entry-point-misspelt", r"setup\.py$", r"=\s*\w+\.(?P<w>\w+):main", _misspelt),
     # Nodes in Python.
     Mistake("node.message-misspelt", _NODE, r"from \w+\.msg import (?P<w>\w+)", _misspelt),

@@ -18,7 +18,8 @@ _MODEL = re.compile(
     r"'model://([^/'\n]+)[^'\n]*' not found: "
     r"(?:there is no model '|'[^'\n]*' is a model of Gazebo's|plain shapes stand in for Gazebo's)"
 )
-_ASKED = re.compile(r"did you mean '(?:model://)?([^/'\n]+)'")
+_ASKED = re.compile(r"did you mean ([^?\n]+)\?")
+_QUOTED = re.compile(r"'([^'\n]+)'")
 _MATERIAL = re.compile(r"material '([^'/\n]+)/[^'\n]*' is not known")
 _NODE = re.compile(r"node of type \[([^]]+)\] in package \[([^]]+)\]")
 _CLASS = re.compile(r"Could not load class '([^'\n]+)'")
@@ -27,6 +28,8 @@ _MODEL_CODES = frozenset({"material.script-missing", "sdf.missing-file", "sdf.mi
 _PLUGIN_CODES = ("plugin.compiled", "plugin.unknown")
 # The table of plug-ins says it.
 _IN_TABLES = frozenset({"plugin.built-in"})
+_DISAGREE = "control.names-disagree"
+_YAML = (".yaml", ".yml")
 _PLACES_SHOWN = 3
 _NAMES_SHOWN = 12
 
@@ -52,6 +55,7 @@ def condensed(findings: Sequence[Diagnostic], packages: Iterable[str] = ()) -> l
     kept = _of_one_code(kept, "launch.compiled-node", _compiled_nodes)
     kept = _by_name(kept, "doctor.controller-fails", _CLASS, "the same class")
     kept = _models(kept)
+    kept = _disagreements(kept)
     for code in _PLUGIN_CODES:
         kept = _by_name(kept, code, _LIBRARY, "the same library")
     return [_with_few_places(item) for item in kept]
@@ -167,6 +171,26 @@ def _models(findings: list[Diagnostic]) -> list[Diagnostic]:
                      replace(first, code="sdf.missing-model", message=text, fix=fix))  # fmt: skip
 
 
+def _disagreements(findings: list[Diagnostic]) -> list[Diagnostic]:
+    """Say what robot and parameters disagree on where the parameters are, as severely as anywhere.
+
+    A launch is told of it at the robot's plug-in, for it knows no files.
+    """
+    group = [item for item in findings if item.code == _DISAGREE]
+    of_files = [item for item in group if item.span and item.span.file.endswith(_YAML)]
+    for item in of_files:
+        rows = _joints_of(item)
+        late = [one for one in group if one not in of_files and _joints_of(one) <= rows]
+        worst = max([item, *late], key=lambda one: one.severity).severity
+        if late:
+            findings = _replaced(findings, [item, *late], replace(item, severity=worst))
+    return findings
+
+
+def _joints_of(item: Diagnostic) -> set[str]:
+    return {line.split()[0] for line in item.message.split("\n")[2:] if line.split()}
+
+
 def _model(item: Diagnostic) -> str:
     found = _MODEL.search(item.message) if item.code in _MODEL_CODES else None
     return found[1] if found else ""
@@ -176,7 +200,8 @@ def _misspelt(item: Diagnostic) -> str:
     """Return a model's name that is a slip for one that is here."""
     name = _model(item)
     asked = _ASKED.search(item.message) if name else None
-    return name if asked and is_slip(name, asked[1]) else ""
+    near = _QUOTED.findall(asked[1]) if asked else []
+    return name if any(is_slip(name, one.removeprefix("model://")) for one in near) else ""
 
 
 def _material(item: Diagnostic) -> str:

@@ -23,6 +23,12 @@ _MARKUP = re.compile(
 )
 
 
+# A value that goes on to the quote that begins the next one.
+_SWALLOWED = re.compile(
+    r"(?P<name>[\w:.-]+)\s*=\s*(?P<quote>[\"'])(?P<value>[^\"'<>=\s]*)\s[^\"'<>]*=\s*(?P=quote)"
+)
+
+
 class MalformedXml(NamedTuple):
     """What is wrong with a document.
 
@@ -116,6 +122,12 @@ def _of_end(text: str, plain: MalformedXml) -> MalformedXml:
 def _of_quote(text: str, stop: int, plain: MalformedXml) -> MalformedXml:
     """Look for a quote that is open where the parser stopped, at a tag in a value."""
     begin = text.rfind("<", 0, stop)
+    swallowed = begin >= 0 and _SWALLOWED.search(text, begin, stop + 1)
+    if swallowed and swallowed.end() >= stop:
+        quote, name = swallowed["quote"], swallowed["name"]
+        message = f"{plain.message}: the value of {name} begins with {quote} and has no end"
+        at = swallowed.start("quote")
+        return _at(text, at, message, f"write {quote}{swallowed['value']}{quote}")
     if begin < 0 or text[stop : stop + 1] != "<" or text.startswith("<!--", begin):
         return plain
     opened, quote = -1, ""

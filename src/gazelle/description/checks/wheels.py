@@ -155,8 +155,9 @@ def _check_shape(joint: Joint, link: Link, diagnostics: Diagnostics) -> None:
                 f"wheel '{link.name}' is a cylinder about {_shown(shape_axis)}, {tilt:.0f}° off: "
                 "it wobbles like a coin instead of rolling"
             )
+            place = joint.axis.span if joint.axis is not None else None
             diagnostics.report(
-                "robot.wheel-axis", text, joint.span, fix=_axis_fix(joint, shape_axis)
+                "robot.wheel-axis", text, place or joint.span, fix=_axis_fix(joint, shape_axis)
             )
             return
         arm = centre - np.asarray(joint.T_model_joint.position_m)

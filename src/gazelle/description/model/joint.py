@@ -46,6 +46,7 @@ class JointAxis:
         damping: N·m·s/rad or N·s/m.
         friction: Coulomb friction, N·m or N.
         position: initial position.
+        span: where it is written.
     """
 
     xyz: tuple[float, float, float] = (0.0, 0.0, 1.0)
@@ -58,6 +59,7 @@ class JointAxis:
     spring_stiffness: float = 0.0
     spring_reference: float = 0.0
     position: float = 0.0
+    span: SourceSpan | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -264,6 +264,7 @@ def _read_axis(
         velocity=limits.velocity,
         damping=damping,
         friction=friction,
+        span=axis.span if axis is not None else None,
     )
 
 

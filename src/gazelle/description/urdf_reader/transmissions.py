@@ -2,16 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
+from difflib import SequenceMatcher
 
 from gazelle.description.model import ActuatorTag, TransmissionJoint, TransmissionTag
 from gazelle.description.read_context import ReadContext
 from gazelle.description.urdf_reader.attributes import check_vocabulary
 from gazelle.description.xml import Tag, float_from
-from gazelle.diagnostics import did_you_mean
+from gazelle.diagnostics import did_you_mean, nearest_names
 
 __all__ = ["read_transmission"]
 
+# Classes of hardware_interface and transmission_interface, and the PR2's.
+_INTERFACES = (
+    "ActuatorStateInterface",
+    "EffortActuatorInterface",
+    "EffortJointInterface",
+    "ForceTorqueSensorInterface",
+    "ImuSensorInterface",
+    "JointStateInterface",
+    "PosVelAccJointInterface",
+    "PosVelJointInterface",
+    "PositionActuatorInterface",
+    "PositionJointInterface",
+    "VelocityActuatorInterface",
+    "VelocityJointInterface",
+)
+_TYPES = (
+    "DifferentialTransmission",
+    "FourBarLinkageTransmission",
+    "GripperTransmission",
+    "PR2GripperTransmission",
+    "SimpleTransmission",
+    "WristTransmission",
+)
+_SLIP = 0.85
 _CHILDREN = ("type", "joint", "actuator", "mechanicalReduction", "motorTorqueConstant")
 # Wrist and gripper transmissions of the PR2 have members of their own; control looks at them.
 _PR2_MEMBERS = (
@@ -61,6 +86,8 @@ def read_transmission(
     actuators = tuple(
         _read_actuator(child, reduction, context) for child in tag.find_all("actuator")
     )
+    for place in tag.find_all("type"):
+        _check_word(place, place.text, _TYPES, f"transmission '{name}'", context)
     type_span = next((child.span for child in tag.find_all("type")), tag.span)
     return TransmissionTag(name, kind, members, actuators, tag.span, type_span)
 
@@ -81,7 +108,7 @@ def _read_joint(
         context.diagnostics.report("urdf.transmission-joint", message, tag.span, fix=hint)
     return TransmissionJoint(
         name,
-        _interfaces(tag),
+        _interfaces(tag, f"joint '{name}' of transmission '{transmission}'", context),
         tag.text_of("role"),
         float_from(tag.find("mechanicalReduction"), 1.0, context.diagnostics),
         float_from(tag.find("offset"), 0.0, context.diagnostics),
@@ -92,13 +119,29 @@ def _read_joint(
 def _read_actuator(tag: Tag, reduction: float, context: ReadContext) -> ActuatorTag:
     known = ("hardwareInterface", "role", "mechanicalReduction", "motorTorqueConstant")
     check_vocabulary(tag, context.diagnostics, attributes=("name",), children=known)
+    name = tag.attributes.get("name", "").strip()
     return ActuatorTag(
-        tag.attributes.get("name", "").strip(),
+        name,
         float_from(tag.find("mechanicalReduction"), reduction, context.diagnostics),
-        _interfaces(tag),
+        _interfaces(tag, f"actuator '{name}'", context),
         tag.text_of("role"),
     )
 
 
-def _interfaces(tag: Tag) -> tuple[str, ...]:
-    return tuple(child.text for child in tag.find_all("hardwareInterface") if child.text)
+def _interfaces(tag: Tag, owner: str, context: ReadContext) -> tuple[str, ...]:
+    found = [child for child in tag.find_all("hardwareInterface") if child.text]
+    for child in found:
+        _check_word(child, child.text, _INTERFACES, owner, context)
+    return tuple(child.text for child in found)
+
+
+def _check_word(
+    tag: Tag, text: str, known: Sequence[str], owner: str, context: ReadContext
+) -> None:
+    """Report the name of a class that is a slip for one of ROS's; others may be a package's own."""
+    word = text.replace("::", "/").rpartition("/")[2]
+    near = nearest_names(word, known, count=1) if word not in known else ()
+    if near and SequenceMatcher(None, word, near[0]).ratio() >= _SLIP:
+        message = f"<{tag.name}> of {owner} is '{text}', which is not known"
+        fix = f"did you mean '{near[0]}'?"
+        context.diagnostics.report("urdf.transmission-class", message, tag.span, fix=fix)

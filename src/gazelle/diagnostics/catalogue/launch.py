@@ -375,6 +375,14 @@ _ROS2_STATIC = (
         "TypeError: __init__() got an unexpected keyword argument",
     ),
     Entry(
+        "launch_ros2.not-installed",
+        "warning",
+        "A launch file names a file that its package does not install",
+        "It is found in the source folder; the share folder of an installed package lacks it.",
+        "install it in the package's build file",
+        "file was not found in the share directory of package",
+    ),
+    Entry(
         "launch_ros2.package-missing",
         "error",
         "A launch file names a package that is not there",

@@ -117,6 +117,13 @@ _FILES = (
         "Could not load class; The 'type' param was not defined",
     ),
     Entry(
+        "parameters.gains-joint",
+        "warning",
+        "Gains or constraints of a controller name a joint that it does not move",
+        "They are listed by joint, and this name is nearly that of one of the controller's.",
+        "correct the joint's name",
+    ),
+    Entry(
         "parameters.interface-claim",
         "warning",
         "A controller needs an interface that its joint does not have",

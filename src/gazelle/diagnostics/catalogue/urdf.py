@@ -481,6 +481,14 @@ _GAZEBO = (
         "No type tag found in transmission",
     ),
     Entry(
+        "urdf.transmission-class",
+        "warning",
+        "A transmission names a class that nobody has",
+        "Its name is nearly that of a class of hardware_interface or transmission_interface.",
+        "correct the class's name",
+        "No matching hardware interface found",
+    ),
+    Entry(
         "urdf.transmission-joint",
         "warning",
         "A transmission names a joint that does not exist",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,8 @@ from gazelle.workspace import Workspace
 __all__ = ["FirstMoments", "dry_start"]
 
 _SECONDS = 0.25
+# What lies beside the missing file is nearer than worlds of that name anywhere.
+_ASKED = re.compile(r"; did you mean '[^?\n]*\?")
 _MAX_STEPS = 500
 
 
@@ -154,8 +157,9 @@ def _server(
             settings=ServerSettings(ros_version=ros_version_of(options, plan.started_by)),
         )
     except NotFoundError as error:
-        text = f"the simulator '{node.full_name}' cannot start: {error}"
         near = _nearest_file(Path(options.world))
+        said = _ASKED.sub("", str(error)) if near else str(error)
+        text = f"the simulator '{node.full_name}' cannot start: {said}"
         diagnostics.report("doctor.world-missing", text, plan.server.span, fix=near)
         return None
     except UserFileError:

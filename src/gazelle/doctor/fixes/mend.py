@@ -80,7 +80,8 @@ def _tried(
     Mending what cannot be read brings out what else is wrong: there it is the one after which
     the fewest come.
     """
-    best: tuple[int, Candidate, Sequence[Diagnostic]] | None = None
+    best: tuple[tuple[int, int], Candidate, Sequence[Diagnostic]] | None = None
+    known = Counter(map(_kind, before))
     for candidate in candidates(finding, ward.read):
         source = ward.read(candidate.file)
         if source is None:
@@ -88,17 +89,17 @@ def _tried(
         ward.write(candidate.file, edited(source.text, candidate.edits))
         after = ward.examine()
         ward.write(candidate.file, source.text)
-        known = Counter(map(_kind, before))
         if Counter(map(_kind, after))[_kind(finding)] >= known[_kind(finding)]:
             continue
         come = _come(known, after)
-        if come and not unreadable(finding.code):
+        errors = sum(item.severity is Severity.ERROR for item in come)
+        if come and not _hides(finding, errors):
             continue
-        if any(item.code == finding.code and item.span and finding.span
-               and item.span.file == finding.span.file for item in come):  # fmt: skip
+        if any(_is_alike(item, finding) for item in come):
             continue
-        if best is None or len(come) < best[0]:
-            best = len(come), candidate, after
+        order = errors, len(come)
+        if best is None or order < best[0]:
+            best = order, candidate, after
         if not come:
             break
     if best is None:
@@ -108,6 +109,16 @@ def _tried(
     assert source is not None
     ward.write(candidate.file, edited(source.text, candidate.edits))
     return candidate, after
+
+
+def _hides(finding: Diagnostic, errors: int) -> bool:
+    """Tell whether what has come may have been there, unseen: an error keeps a robot away."""
+    return unreadable(finding.code) or (finding.severity is Severity.ERROR and not errors)
+
+
+def _is_alike(item: Diagnostic, finding: Diagnostic) -> bool:
+    same_file = item.span and finding.span and item.span.file == finding.span.file
+    return bool(same_file) and item.code == finding.code
 
 
 def _come(known: Counter[tuple[str, str, str]], after: Iterable[Diagnostic]) -> list[Diagnostic]:

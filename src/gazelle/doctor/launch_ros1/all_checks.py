@@ -13,6 +13,7 @@ from gazelle.doctor.launch_ros1.frames import check_frames, frames_of, frames_se
 from gazelle.doctor.launch_ros1.launched_nodes import (
     Launched,
     Role,
+    at_argument,
     launched_from,
     start_plan,
     with_parameter_span,
@@ -140,7 +141,10 @@ def _starts(launched: Launched, examination: Examination) -> dict[str, DryStart]
         heard = Diagnostics()
         plan = start_plan(launched, server, heard)
         start = dry_start(plan, workspace=examination.workspace, diagnostics=heard)
-        told = tuple(with_parameter_span(item, launched.spans) for item in heard)
+        told = tuple(
+            at_argument(with_parameter_span(item, launched.spans), launched.config.files)
+            for item in heard
+        )
         for item in told:
             examination.diagnostics.add(item)
         if start is not None:

@@ -11,6 +11,7 @@ from functools import reduce
 from pathlib import Path
 from typing import Any
 
+from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan
 from gazelle.doctor.dry_start import ControllerStart, Program, StartPlan
 from gazelle.documents.yaml import entries, read_yaml_file
@@ -27,6 +28,7 @@ __all__ = [
     "Launched",
     "LaunchedNode",
     "Role",
+    "at_argument",
     "controller_start",
     "launched_from",
     "parameter_spans",
@@ -34,6 +36,7 @@ __all__ = [
     "with_parameter_span",
 ]
 
+_MISSING_WORLD = re.compile(r"world '([^'\n]+)' not found")
 _NAME = re.compile(r"'(/[^'\s]+)'")
 
 
@@ -154,6 +157,27 @@ def with_parameter_span(item: Diagnostic, spans: Mapping[str, SourceSpan]) -> Di
         return item
     named = (spans[name] for name in _NAME.findall(item.message) if name in spans)
     return replace(item, span=next(named, None))
+
+
+def at_argument(item: Diagnostic, files: Sequence[str | Path]) -> Diagnostic:
+    """Return a missing world where its name is written, not where a node gets it.
+
+    Args:
+        item: a finding.
+        files: launch files of the launch, those that are included too.
+    """
+    missing = _MISSING_WORLD.search(item.message) if item.code == "doctor.world-missing" else None
+    if missing is None or item.span is None:
+        return item
+    name = Path(missing[1]).name
+    for file in files:
+        root = read_xml(Path(file), Diagnostics())
+        for tag in root.walk() if root is not None else ():
+            written = [tag.attributes.get(key, "") for key in ("value", "default", "args")]
+            if any(name in re.split(r"[\s/]", value) for value in written):
+                via = () if tag.span.file == item.span.file else (item.span,)
+                return replace(item, span=replace(tag.span, via=via))
+    return item
 
 
 def launched_from(

@@ -64,7 +64,7 @@ def check_launch(
     check_node_keywords(files, diagnostics)
     check_executables(files, workspace, diagnostics)
     parameter_files = _named(files, (".yaml", ".yml"))
-    check_spawners(files, parameter_files, diagnostics)
+    check_spawners(files, parameter_files, workspace, diagnostics)
     check_clocks(files, diagnostics)
     check_commands(files, workspace, diagnostics)
     return LaunchReading(

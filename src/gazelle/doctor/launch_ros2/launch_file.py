@@ -200,4 +200,6 @@ class LaunchFile:
             return True
         if any(item.default == path for item in self.arguments):
             return True
+        if any(path in item.arguments.values() for item in self.includes):
+            return True
         return any(path in node.parameters.files or path in node.arguments for node in self.nodes)

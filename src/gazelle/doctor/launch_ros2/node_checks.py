@@ -8,6 +8,7 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostics, did_you_mean, nearest_names
 from gazelle.doctor.launch_ros2.launch_file import LaunchedNode
 from gazelle.doctor.launch_ros2.launch_tree import Followed, located
+from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.controllers import controllers_in
 from gazelle.doctor.parameters.parameter_file import layout_of, read_document
@@ -36,6 +37,7 @@ _TIMED = frozenset(
 _SIMULATOR_PACKAGES = frozenset({"gazebo_ros", "ros_gz_sim", "ros_ign_gazebo"})
 _SIMULATOR_WORDS = ("gazebo", "gzserver", "gz sim", "ign gazebo")
 _CLOCK = "use_sim_time"
+_MAX_PARAMETER_FILES = 20
 
 
 def check_executables(
@@ -60,12 +62,30 @@ def check_node_keywords(files: Sequence[Followed], diagnostics: Diagnostics) -> 
             diagnostics.report("launch_ros2.keyword", text, one.span, fix=one.hint)
 
 
+def _configured(workspace: Workspace) -> tuple[str, ...]:
+    """Return the controllers that parameter files of the user's packages configure."""
+    names: dict[str, None] = {}
+    for package in workspace.user_packages:
+        files = sorted((package.path / "config").glob("*.yaml"))
+        for path in files[:_MAX_PARAMETER_FILES]:
+            document = read_document(path, Diagnostics())
+            if document is not None:
+                found = controllers_in(document, layout_of(document))
+                names.update(dict.fromkeys(item.name for item in found))
+    return tuple(names)
+
+
 def check_spawners(
     files: Sequence[Followed],
     parameter_files: Sequence[Path],
+    workspace: Workspace,
     diagnostics: Diagnostics,
 ) -> None:
-    """Report controllers that are spawned and configured nowhere."""
+    """Report controllers that are spawned and configured nowhere.
+
+    Robots name files of parameters, too. Where the launch has none, those of the workspace are
+    looked at: a name that is a slip for one of them was to be that.
+    """
     managers = [node for node in _nodes(files) if node.executable == "ros2_control_node"]
     if not all(node.parameters.is_complete for node in managers):
         return
@@ -74,19 +94,26 @@ def check_spawners(
         document = read_document(path, Diagnostics())
         if document is not None:
             known += [item.name for item in controllers_in(document, layout_of(document))]
-    for node in _nodes(files):
-        for name in _spawned(node):
-            last = name.rpartition("/")[2]
-            if known and last not in known:
-                text = (
-                    f"the spawner asks for controller '{name}', which none of the parameter files "
-                )
-                text += f"of this launch configures: they have {', '.join(dict.fromkeys(known))} "
-                text += f"(The 'type' param was not defined for '{name}')"
-                hint = did_you_mean(name, known)
-                diagnostics.report(
-                    "launch_ros2.controller-missing", text, node.place_of(name), fix=hint
-                )
+    spawned = [(node, name) for node in _nodes(files) for name in _spawned(node)]
+    everywhere = _configured(workspace) if spawned and not known else ()
+    for node, name in spawned:
+        last = name.rpartition("/")[2]
+        slip = next((one for one in everywhere if is_slip(last, one)), "")
+        if slip and last not in everywhere:
+            text = f"the spawner asks for controller '{name}', which no parameter file of the "
+            text += f"workspace configures (The 'type' param was not defined for '{name}')"
+            hint = f"did you mean '{slip}'?"
+            diagnostics.report(
+                "launch_ros2.controller-missing", text, node.place_of(name), fix=hint
+            )
+        if known and last not in known:
+            text = f"the spawner asks for controller '{name}', which none of the parameter files "
+            text += f"of this launch configures: they have {', '.join(dict.fromkeys(known))} "
+            text += f"(The 'type' param was not defined for '{name}')"
+            hint = did_you_mean(name, known)
+            diagnostics.report(
+                "launch_ros2.controller-missing", text, node.place_of(name), fix=hint
+            )
 
 
 def check_clocks(files: Sequence[Followed], diagnostics: Diagnostics) -> None:

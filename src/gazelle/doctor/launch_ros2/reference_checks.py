@@ -99,7 +99,7 @@ def check_paths(files: Sequence[Followed], workspace: Workspace, diagnostics: Di
         )
         text += "files (file was not found in the share directory of package)"
         fix = f"install {'it' if len(items) == 1 else 'them'} in the build file of '{name}'"
-        diagnostics.report("package.not-installed", text, first[name], fix=fix)
+        diagnostics.report("launch_ros2.not-installed", text, first[name], fix=fix)
 
 
 def paths_of(files: Sequence[Followed]) -> Iterator[Use]:

@@ -8,6 +8,7 @@ from pathlib import Path, PurePosixPath
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan, did_you_mean, nearest_names
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.documents.files import exists, is_folder
+from gazelle.workspace.building.cmake_lists import Step
 from gazelle.workspace.building.install_rules import InstallRule
 
 __all__ = ["check_install", "is_needed"]
@@ -108,7 +109,8 @@ def _rule_to_write(
 ) -> tuple[SourceSpan, str]:
     top = PurePosixPath(folder).parts[0]
     if source.build_type == "ament_python":
-        span = source.setup.span if source.setup is not None else None
+        setup = source.setup
+        span = (setup.data_files_span or setup.span) if setup is not None else None
         endings = sorted({_ending(name) for name in names})
         pattern = f"{folder}/*{endings[0]}" if len(endings) == 1 else f"{folder}/*.*"
         row = f"(os.path.join('share', package_name, '{folder}'), glob('{pattern}')),"
@@ -116,9 +118,14 @@ def _rule_to_write(
     rules = source.rules.rules if source.rules is not None else ()
     near = next((rule for rule in rules if rule.is_folder and rule.source != "."), None)
     of_folder = next((rule for rule in rules if rule.source.startswith(top)), near)
-    span = of_folder.span if of_folder is not None else source.span("CMakeLists.txt")
+    calls = source.lists.called("install") if source.lists is not None else ()
+    span = of_folder.span if of_folder is not None else _place_of(source, calls)
     place = "share/${PROJECT_NAME}" if source.is_ros2 else "${CATKIN_PACKAGE_SHARE_DESTINATION}"
     return span, f"install(DIRECTORY {top} DESTINATION {place})"
+
+
+def _place_of(source: SourcePackage, calls: Sequence[Step]) -> SourceSpan:
+    return calls[-1].span if calls else source.span("CMakeLists.txt")
 
 
 def _check_source(source: SourcePackage, rule: InstallRule, diagnostics: Diagnostics) -> None:

@@ -6,6 +6,7 @@ import re
 
 from gazelle.description.xml import Tag
 from gazelle.diagnostics import Diagnostics, Severity, did_you_mean
+from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.packages.source import SourcePackage
 
 __all__ = ["check_manifest"]
@@ -26,6 +27,12 @@ _KNOWN = frozenset(
     {
         *_REQUIRED, *_ONLY_FORMAT_1, *_NOT_FORMAT_1, "url", "author", "buildtool_depend", "export",
         "build_depend", "conflict", "replace", "test_depend", "group_depend", "member_of_group",
+    }
+)  # fmt: skip
+_ONLY_ROS1 = frozenset(
+    {
+        "amcl", "dynamic_reconfigure", "gmapping", "message_generation", "message_runtime",
+        "move_base", "nodelet", "roscpp", "roslaunch", "rospy", "rostest",
     }
 )  # fmt: skip
 _BUILD_TYPES = ("ament_cmake", "ament_python", "catkin", "cmake")
@@ -89,10 +96,17 @@ def _check_build_type(source: SourcePackage, root: Tag, diagnostics: Diagnostics
     wanted = source.build_type
     tool = root.find("buildtool_depend")
     other = {"catkin": "ament_cmake", "ament_cmake": "catkin"}.get(wanted)
+    is_old = _ONLY_ROS1 & {child.text for child in root.children if child.name.endswith("depend")}
     if tool is not None and tool.text == other:
         text = f"<buildtool_depend> is {tool.text}, and {source.build_file.name} is for {wanted}: "
         text += f"it is built without {wanted}"
-        diagnostics.report("package.build-type", text, tool.span, fix=f"did you mean '{wanted}'?")
+        fix = f"write <buildtool_depend>{wanted}</buildtool_depend>"
+        diagnostics.report("package.build-type", text, tool.span, fix=fix)
+    elif tool is not None and not written and wanted == "ament_cmake" and is_old:
+        text = f"<buildtool_depend> is {tool.text}, which is ROS 2's, and the package depends on "
+        text += f"{', '.join(sorted(is_old))} of ROS 1"
+        fix = "write <buildtool_depend>catkin</buildtool_depend>"
+        diagnostics.report("package.build-type", text, tool.span, fix=fix)
     elif written and written not in _BUILD_TYPES:
         text = f"the build type '{written}' is not known to colcon; it would leave the package out"
         hint = did_you_mean(written, _BUILD_TYPES)
@@ -120,10 +134,15 @@ def _report_no_build_file(source: SourcePackage, root: Tag, diagnostics: Diagnos
 def _check_names(source: SourcePackage, root: Tag, diagnostics: Diagnostics) -> None:
     name, lists, setup = source.package.name, source.lists, source.setup
     tag = root.find("name")
-    built = lists.project if lists is not None else setup.name if setup is not None else ""
-    if tag is not None and built and built == source.folder.name != name:
-        file = source.build_file.name
-        text = f"the manifest's <name> '{name}' is not that of its folder and of {file}, '{built}'"
+    folder = source.folder.name
+    built = lists.project if lists is not None else setup.name if setup is not None else folder
+    if (
+        tag is not None
+        and built == folder != name
+        and (source.has_build_file or is_slip(name, folder))
+    ):
+        and_file = f" and of {source.build_file.name}" if source.has_build_file else ""
+        text = f"the manifest's <name> '{name}' is not that of its folder{and_file}, '{built}'"
         hint = f"did you mean '{built}'?"
         diagnostics.report("package.names", text, tag.span, fix=hint, severity=Severity.ERROR)
     if lists is not None and lists.project and lists.project != name and _is_ros(source):

@@ -102,6 +102,11 @@ class SourcePackage:
         name = "setup.py" if self.build_type == "ament_python" else "CMakeLists.txt"
         return self.folder / name
 
+    @property
+    def has_build_file(self) -> bool:
+        """Tell whether ``CMakeLists.txt`` or ``setup.py`` is there and says a name."""
+        return self.lists is not None or self.setup is not None
+
     def is_test(self, relative: str) -> bool:
         """Tell whether a file is in a folder of tests."""
         return bool(_TEST_FOLDERS & set(PurePosixPath(relative).parts))

@@ -21,6 +21,7 @@ from gazelle.description.model import Model
 from gazelle.description.srdf import link_names
 from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.parameters.controllers import (
     FoundController,
     FoundControllers,
@@ -34,6 +35,7 @@ from gazelle.doctor.parameters.parameter_file import (
     read_document,
 )
 from gazelle.doctor.report import Section
+from gazelle.documents.yaml import YamlMapping
 from gazelle.parameters.trees import nested
 
 __all__ = [
@@ -67,6 +69,7 @@ _BY_TYPE = {
     "velocity_controllers": "velocity",
 }
 _WHEEL_KEYS = ("left_wheel", "right_wheel", "left_wheel_names", "right_wheel_names")
+_MOVEIT_MANAGER = "moveit_simple_controller_manager"
 _COLUMNS = ("name", "URDF", "hardware", "controllers", "MoveIt")
 
 
@@ -182,6 +185,8 @@ def check_claims(
 ) -> None:
     """Report controllers that need an interface which their joint does not have."""
     for item in controllers:
+        _check_states(item, hardware, diagnostics)
+        _check_gains(item, hardware, diagnostics)
         # One word that is wrong is wrong for every joint of the list.
         lacking: dict[tuple[str, str], list[JointResource]] = {}
         for joint, interface, key in _claims(item):
@@ -295,6 +300,47 @@ def _claims(item: FoundController) -> Iterator[tuple[str, str, str]]:
         yield from ((joint, _BY_TYPE[package], "") for joint in joints)
 
 
+def _check_states(
+    item: FoundController, hardware: Mapping[str, JointResource], diagnostics: Diagnostics
+) -> None:
+    """Report state interfaces in the list of a ROS 2 controller that no joint of it has."""
+    tree = nested(item.tree)
+    if item.ros_version != 2 or not isinstance(tree.get("state_interfaces"), list):
+        return
+    joints = [hardware[name] for name in _texts(tree.get("joints")) if name in hardware]
+    for interface in _texts(tree.get("state_interfaces")):
+        lacking = [one for one in joints if interface not in one.state_interfaces]
+        if not lacking or not lacking[0].state_interfaces:
+            continue
+        has = ", ".join(lacking[0].state_interfaces)
+        text = f"controller '{item.name}' ({item.type}) needs the state interface '{interface}' of "
+        text += f"joint '{lacking[0].name}', which has {has} (State interface with "
+        text += f"'{lacking[0].name}/{interface}' does not exist)"
+        hint = did_you_mean(interface, lacking[0].state_interfaces)
+        fix = hint or f'add <state_interface name="{interface}"/> to the joint in <ros2_control>'
+        place = item.place_of("state_interfaces", interface)
+        diagnostics.report("parameters.interface-claim", text, place, fix=fix)
+
+
+def _check_gains(item: FoundController, joints: Collection[str], diagnostics: Diagnostics) -> None:
+    """Report gains and constraints for joints that are slips for those of the controller."""
+    tree = nested(item.tree)
+    own = [*_texts(tree.get("joints")), *_texts(tree.get("joint"))]
+    for key in ("gains", "constraints"):
+        branch = tree.get(key)
+        for name, value in branch.items() if isinstance(branch, Mapping) else ():
+            if not isinstance(value, Mapping) or name in own or name in joints:
+                continue
+            slip = next((one for one in own if is_slip(name, one)), "")
+            if slip:
+                text = f"controller '{item.name}' has {key} of joint '{name}', which is none of "
+                text += f"its joints: {', '.join(own)}; they have no effect"
+                found = (place for at, (_, place) in item.nodes.items() if f".{name}." in f".{at}.")
+                span = next(found, item.span)
+                hint = f"did you mean '{slip}'?"
+                diagnostics.report("parameters.gains-joint", text, span, fix=hint)
+
+
 def _words(item: FoundController, joint: str, interface: str) -> str:
     if item.ros_version == 2:
         return f"Command interface with '{joint}/{interface}' does not exist"
@@ -347,6 +393,7 @@ def _check_moveit(
                 span = document.key(node, name).span
                 hint = did_you_mean(name, joints)
                 diagnostics.report("parameters.moveit-name", text, span, fix=hint)
+    _check_moveit_controllers(document, diagnostics)
     groups = [name for root in srdfs for name in group_names(root)]
     for place, value in document.root.pairs:
         name = place.text
@@ -356,6 +403,22 @@ def _check_moveit(
             text += f"kinematics solver instantiated for group '{name}')"
             hint = did_you_mean(name, groups)
             diagnostics.report("parameters.moveit-name", text, place.span, fix=hint)
+
+
+def _check_moveit_controllers(document: Document, diagnostics: Diagnostics) -> None:
+    """Report controllers whose ``joints`` are spelt otherwise: MoveIt takes them for none."""
+    branch = document.find(_MOVEIT_MANAGER) or document.root
+    for key, value in branch.pairs if isinstance(branch, YamlMapping) else ():
+        words = [one.text for one, _ in value.pairs] if isinstance(value, YamlMapping) else []
+        if "type" not in words or "joints" in words or not isinstance(value, YamlMapping):
+            continue
+        slip = next((word for word in words if is_slip(word, "joints")), "")
+        if slip:
+            place = next(one.span for one, _ in value.pairs if one.text == slip)
+            text = f"MoveIt's controller '{key.text}' has no 'joints' and has '{slip}' (No joints "
+            text += f"specified for controller {key.text})"
+            fix = f"did you mean 'joints' for '{slip}'?"
+            diagnostics.report("parameters.moveit-name", text, place, fix=fix)
 
 
 def _rows(

@@ -113,6 +113,7 @@ class SetupFile:
         modules: of ``packages``; None when unknown.
         folders: ``package_dir``.
         span: of the call.
+        data_files_span: of ``data_files``, None where they are not written in the call.
         scripts_folder: where ``setup.cfg`` puts executables, empty when it says nothing.
         version: of the distribution, empty when it says nothing.
         py_modules: single modules.
@@ -132,6 +133,7 @@ class SetupFile:
     modules: tuple[str, ...] | None = None
     folders: dict[str, str] = field(default_factory=dict)
     span: SourceSpan | None = None
+    data_files_span: SourceSpan | None = None
     scripts_folder: str = ""
     version: str = ""
     py_modules: tuple[str, ...] = ()
@@ -268,6 +270,10 @@ def _lines(value: str) -> list[str]:
 
 def _fill(found: SetupFile, call: Call) -> None:
     found.span = SourceSpan(str(found.file), call.node.lineno, call.node.col_offset + 1)
+    rows_node = next((item for item in call.node.keywords if item.arg == "data_files"), None)
+    if rows_node is not None:
+        place = SourceSpan(str(found.file), rows_node.lineno, rows_node.col_offset + 1)
+        found.data_files_span = place
     name = call.get("name")
     found.name = name if isinstance(name, str) else None
     modules = call.get("packages", default=[])

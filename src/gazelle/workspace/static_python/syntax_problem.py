@@ -45,7 +45,36 @@ def syntax_problem(text: str, error: Exception) -> SyntaxProblem:
         if found:
             width = len(text.split("\n")[found - 1].rstrip())
             return SyntaxProblem(message, found, width, f"write a comma at the end of line {found}")
+    if message == "unexpected indent" and line > 1:
+        # The block has the depth of its other lines: the one above may be the odd one.
+        odd = _odd_line(text.split("\n"), line)
+        if odd:
+            depth = len(text.split("\n")[odd - 1]) - len(text.split("\n")[odd - 1].lstrip())
+            return SyntaxProblem(message, odd, depth + 1)
     return SyntaxProblem(message, line, column)
+
+
+def _odd_line(lines: list[str], line: int) -> int:
+    """Return the first line of the lines above that would not be a surprise as deep as this one."""
+    depth = len(lines[line - 1]) - len(lines[line - 1].lstrip())
+    for number in range(line - 1, 0, -1):
+        above = lines[number - 1]
+        if not above.strip():
+            continue
+        tried = [*lines[: number - 1], " " * depth + above.lstrip(), *lines[number:]]
+        is_near = 0 < abs(depth - (len(above) - len(above.lstrip()))) < 4
+        return number if is_near and _goes_further(tried, line) else 0
+    return 0
+
+
+def _goes_further(lines: list[str], line: int) -> bool:
+    try:
+        ast.parse("\n".join(lines))
+    except SyntaxError as error:
+        return (error.lineno or 0) > line
+    except (ValueError, MemoryError, RecursionError):
+        return False
+    return True
 
 
 def _line_without_comma(text: str, first: int, last: int) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 from gazelle.description.xacro.failure import (
@@ -23,6 +24,7 @@ __all__ = ["explain_expression", "explain_name"]
 
 _NAME_ERROR = re.compile(r"name '(.+?)' is not defined")
 _KEY_ERROR = re.compile(r"The yaml dictionary has no key '(.+?)'")
+_LIKE_A_NUMBER = re.compile(r"\s*-?\d*\.\d*\.\d+\s*")
 _COMMA_VALUE = re.compile(r"\s*[-+]?\d+,\d+\s*")
 _COMMA = re.compile(r"(?<![\w.,\[])\d+,\d+(?![\w.,\]])")
 _WITH_UNIT = re.compile(r"\s*([-+]?\d*\.?\d+)\s*([a-zA-Z°]+)\s*")
@@ -68,7 +70,19 @@ def explain_expression(failure: Failure) -> Explanation | None:
             "xacro.decimal-comma", message, failure.span, fix, _text_in(values, cause)
         )
     fix = _remedy(failure, cause, values)
-    return Explanation("xacro.bad-expression", message, failure.span, fix, _text_in(values, cause))
+    text = _text_in(values, cause)
+    span, written = failure.library_run.properties.get(text), str(dict(values).get(text, ""))
+    if span is not None and _LIKE_A_NUMBER.fullmatch(written):
+        # The value has to change, not what is done with it.
+        place = replace(span, via=(failure.span, *failure.via))
+        fix = f"write {' or '.join(_with_one_point(written))}: a number has one decimal point"
+        return Explanation("xacro.bad-expression", message, place, fix, text)
+    return Explanation("xacro.bad-expression", message, failure.span, fix, text)
+
+
+def _with_one_point(text: str) -> tuple[str, str]:
+    first, second = text.index("."), text.rindex(".")
+    return text[:second] + text[second + 1 :], text[:first] + text[second:]
 
 
 def _undefined(name: str, failure: Failure) -> Explanation:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from dataclasses import replace
 from pathlib import Path
 from xml.parsers.expat import ErrorString, ExpatError, errors
@@ -22,6 +23,8 @@ __all__ = ["NAMESPACE", "explain_document", "explain_file", "explain_limit"]
 NAMESPACE = "http://www.ros.org/wiki/xacro"
 _UNBOUND = errors.codes[errors.XML_ERROR_UNBOUND_PREFIX]
 _MAX_LENGTH = 80
+# Behind comments and what stands in <? ?> and <! >.
+_FIRST_TAG = re.compile(r"\A(?:<!--.*?-->|<[?!][^>]*>|[^<])*(<)(?=\w)", re.DOTALL)
 
 
 def explain_document(failure: Failure) -> Explanation | None:
@@ -81,10 +84,24 @@ def _unbound(span: SourceSpan) -> Explanation:
     if prefix in {"", "xacro"}:
         message = "<xacro:…> is used here, and no element around it declares xmlns:xacro"
         fix = f'write xmlns:xacro="{NAMESPACE}" into the outermost element'
-        return Explanation("xacro.no-namespace", message, span, fix)
+        return Explanation("xacro.no-namespace", message, _outermost(span), fix)
     message = f"not well-formed XML: unbound prefix '{prefix}:'"
     fix = f'declare it in the outermost element: xmlns:{prefix}="…"'
     return Explanation("xml.malformed", message, span, fix)
+
+
+def _outermost(span: SourceSpan) -> SourceSpan:
+    """Return the place of the outermost element of the file that a place is in."""
+    try:
+        text = read_limited(span.file, TEXT_BYTES).decode("utf-8", errors="replace")
+    except (OSError, LimitError):
+        return span
+    found = _FIRST_TAG.search(text)
+    if found is None:
+        return span
+    begin = found.start(1)
+    line = text.count("\n", 0, begin) + 1
+    return replace(span, line=line, column=begin - text.rfind("\n", 0, begin), length=0)
 
 
 def _prefix_at(span: SourceSpan) -> str:
