@@ -32,7 +32,6 @@ from gazelle.diagnostics import Diagnostic, Severity
 from gazelle.doctor.fixes import SourceText, mend
 
 _REPOSITORY = Path(__file__).parents[2]
-_SEED = 7
 _NUMBER = re.compile(r"\d+")
 _TEXTS = {
     ".xacro", ".urdf", ".xml", ".launch", ".world", ".sdf", ".yaml", ".srdf", ".py", ".txt",
@@ -52,6 +51,7 @@ def main() -> None:
     """Measure, print the kinds, and the mutants that fell short."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=1000, help="of mutants")
+    parser.add_argument("--seed", type=int, default=7, help="of the choice of places")
     parser.add_argument("--kind", default="", help="only kinds whose name begins so")
     parser.add_argument("--workspaces", type=Path, help="a folder of more workspaces")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
@@ -60,7 +60,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
         _lay_out(place / "bases", options.workspaces)
-        cases = _chosen(list(_cases(place / "bases")), options.count, options.kind)
+        cases = _chosen(list(_cases(place / "bases")), options.count, options.kind, options.seed)
         packages = sorted({(case.base, case.package) for case in cases})
         with multiprocessing.get_context("spawn").Pool(
             options.jobs, _begin, (place / "bases",), maxtasksperchild=60
@@ -105,14 +105,14 @@ def _cases(bases: Path) -> Iterator[Case]:
                     yield Case(base.name, package.name, mutant)
 
 
-def _chosen(cases: Sequence[Case], count: int, kind: str) -> list[Case]:
+def _chosen(cases: Sequence[Case], count: int, kind: str, seed: int) -> list[Case]:
     """Take of each kind in turn, in a shuffled order that is the same each time."""
     by_kind: dict[str, list[Case]] = defaultdict(list)
     for case in cases:
         if case.mutant.mistake.startswith(kind):
             by_kind[case.mutant.mistake].append(case)
     for name, some in by_kind.items():
-        random.Random(f"{_SEED}{name}").shuffle(some)
+        random.Random(f"{seed}{name}").shuffle(some)
     chosen: list[Case] = []
     while len(chosen) < count and any(by_kind.values()):
         for some in by_kind.values():

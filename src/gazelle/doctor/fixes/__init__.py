@@ -5,6 +5,19 @@ from __future__ import annotations
 from gazelle.doctor.fixes.candidates import candidates
 from gazelle.doctor.fixes.edits import Edit, SourceText, difference, edited
 from gazelle.doctor.fixes.mend import Mended, mend
+from gazelle.doctor.fixes.plan import FixPlan, plan_fixes, write_fixes
 from gazelle.doctor.fixes.trial import Trial
 
-__all__ = ["Edit", "Mended", "SourceText", "Trial", "candidates", "difference", "edited", "mend"]
+__all__ = [
+    "Edit",
+    "FixPlan",
+    "Mended",
+    "SourceText",
+    "Trial",
+    "candidates",
+    "difference",
+    "edited",
+    "mend",
+    "plan_fixes",
+    "write_fixes",
+]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
@@ -14,7 +15,7 @@ from gazelle.doctor.fixes.by_code import (
 )
 from gazelle.doctor.fixes.edits import Edit, SourceText
 from gazelle.doctor.fixes.malformed import python_closed, xml_closed, xml_escaped, yaml_closed
-from gazelle.doctor.fixes.misspelt import with_names_replaced
+from gazelle.doctor.fixes.misspelt import suggestions, with_names_replaced
 from gazelle.doctor.fixes.xml_fixes import as_written, pasted
 
 __all__ = ["Candidate", "candidates", "unreadable"]
@@ -38,6 +39,10 @@ _OF_CODE: dict[str, _Maker] = {
     "xacro.bad-expression": xacro_closed,
     "xml.bad-number": number_written,
 }
+# Words of fixes that leave something to choose.
+_OF_SEVERAL = re.compile(
+    r"\bor\b|such as|with the numbers|where it ends|unindent|\bit (?:has|is)\b"
+)
 _STOPS = (
     "launch.",
     "launch_ros2.",
@@ -54,10 +59,12 @@ class Candidate(NamedTuple):
     Attributes:
         file: that changes.
         edits: of its text.
+        is_certain: it is what was meant, not one of several ways or an estimate.
     """
 
     file: str
     edits: tuple[Edit, ...]
+    is_certain: bool = True
 
 
 def unreadable(code: str) -> bool:
@@ -90,14 +97,21 @@ def candidates(
         )
         for maker in makers:
             for edits in maker(finding, source, at) if maker else ():
-                one = Candidate(span.file, edits)
-                if one in seen:
+                if (span.file, edits) in seen:
                     continue
-                seen.add(one)
-                yield one
+                seen.add((span.file, edits))
+                yield Candidate(span.file, edits, _is_certain(finding, maker, edits))
                 count += 1
                 if count >= _MAX_CANDIDATES:
                     return
+
+
+def _is_certain(finding: Diagnostic, maker: _Maker | None, edits: tuple[Edit, ...]) -> bool:
+    if maker is with_names_replaced:
+        return all(edit.text == suggestions(finding)[0] for edit in edits)
+    if maker in {pasted, xacro_closed} or _OF_SEVERAL.search(finding.fix):
+        return False
+    return all(edit.text not in {"]", "}"} for edit in edits)
 
 
 def _places(finding: Diagnostic) -> Iterator[SourceSpan]:

@@ -46,6 +46,7 @@ def mend(
     findings: Sequence[Diagnostic],
     *,
     wanted: Callable[[Diagnostic], bool] = lambda item: item.severity > Severity.INFO,
+    only_certain: bool = False,
     say: Callable[[str], None] = lambda _text: None,
 ) -> list[Mended]:
     """Mend what can be mended, in the files of a ward.
@@ -54,6 +55,7 @@ def mend(
         ward: its files are changed.
         findings: of them, as they are.
         wanted: which of them.
+        only_certain: leave out what is one of several ways, or an estimate.
         say: told what is tried.
     """
     mended: list[Mended] = []
@@ -64,7 +66,7 @@ def mend(
             return mended
         item = max(left, key=lambda one: one.severity)
         say(item.message.partition("\n")[0])
-        found = _tried(ward, item, findings)
+        found = _tried(ward, item, findings, only_certain=only_certain)
         if found is None:
             hopeless.add(_kind(item))
             continue
@@ -73,7 +75,7 @@ def mend(
 
 
 def _tried(
-    ward: Ward, finding: Diagnostic, before: Sequence[Diagnostic]
+    ward: Ward, finding: Diagnostic, before: Sequence[Diagnostic], *, only_certain: bool
 ) -> tuple[Candidate, Sequence[Diagnostic]] | None:
     """Keep the first candidate after which the finding is gone and none has come.
 
@@ -84,7 +86,7 @@ def _tried(
     known = Counter(map(_kind, before))
     for candidate in candidates(finding, ward.read):
         source = ward.read(candidate.file)
-        if source is None:
+        if source is None or (only_certain and not candidate.is_certain):
             continue
         ward.write(candidate.file, edited(source.text, candidate.edits))
         after = ward.examine()

@@ -12,10 +12,12 @@ from tempfile import TemporaryDirectory
 
 from gazelle.diagnostics import Diagnostic, SourceSpan
 from gazelle.doctor.fixes.edits import SourceText, difference
+from gazelle.errors import GazelleError
 
 __all__ = ["Trial"]
 
 _LEFT_OUT = frozenset({".git", "__pycache__", "build", "log", "node_modules"})
+_MAX_FILES = 50_000
 # What is not edited is linked to: meshes, bags, maps.
 _EDITED_BYTES = 1 << 20
 _SUFFIXES = frozenset({
@@ -46,7 +48,7 @@ class Trial:
         """Copy a folder; the copy is gone afterwards."""
         with TemporaryDirectory(prefix="gazelle-doctor-") as place:
             copy = Path(place).resolve() / folder.name
-            _copy(folder.resolve(), copy)
+            _copy(folder.resolve(), copy, [_MAX_FILES])
             yield cls(folder.resolve(), copy, look)
 
     def read(self, file: str) -> SourceText | None:
@@ -108,15 +110,22 @@ def _renamed(span: SourceSpan, copy: str, folder: str) -> SourceSpan:
     return replace(span, file=span.file.replace(copy, folder), via=via)
 
 
-def _copy(folder: Path, copy: Path) -> None:
-    """Copy the texts of a folder; link to what else is in it."""
+def _copy(folder: Path, copy: Path, room: list[int]) -> None:
+    """Copy the texts of a folder; link to what else is in it.
+
+    Raises:
+        GazelleError: it holds more files than a workspace has.
+    """
     copy.mkdir(parents=True)
     for entry in sorted(os.scandir(folder), key=lambda item: item.name):
         place = copy / entry.name
+        room[0] -= 1
+        if room[0] < 0:
+            raise GazelleError(f"'{folder}' holds more than {_MAX_FILES} files; name one package")
         if entry.name in _LEFT_OUT:
             continue
         if entry.is_dir(follow_symlinks=False):
-            _copy(Path(entry.path), place)
+            _copy(Path(entry.path), place, room)
         elif entry.is_file() and _is_edited(entry):
             shutil.copy(entry.path, place)
         else:
