@@ -75,3 +75,25 @@ def test_lines_after_the_first_stay_with_the_finding() -> None:
     words = [(f"'{name}' not found\n  looked in:\n    /{name}", 1) for name in "abc"]
     (only,) = grouped(_found(*words))
     assert only.message.startswith("'a' not found\n  looked in:\n    /a\n  the same 2 more times")
+
+
+def test_files_of_one_name_are_told_apart_by_their_folders() -> None:
+    diagnostics = _found(("no build file", 2), file="/ws/a/package.xml")
+    for folder in "bc":
+        diagnostics.extend(_found(("no build file", 2), file=f"/ws/{folder}/package.xml"))
+    (only,) = grouped(diagnostics)
+    assert only.message.endswith("the same 2 more times: b/package.xml:2, c/package.xml:2")
+
+
+def test_files_are_named_where_no_line_is_known() -> None:
+    diagnostics = _found(("no rules", 0), file="/ws/a/CMakeLists.txt")
+    for folder in "bc":
+        diagnostics.extend(_found(("no rules", 0), file=f"/ws/{folder}/CMakeLists.txt"))
+    (only,) = grouped(diagnostics)
+    assert only.message.endswith("more times: b/CMakeLists.txt, c/CMakeLists.txt")
+
+
+def test_more_places_are_listed_where_more_are_asked_for() -> None:
+    words = [(f"link 'l{index}' is bare", index + 1) for index in range(20)]
+    (only,) = grouped(_found(*words), most=100)
+    assert only.message.count("(line") == 19

@@ -2,7 +2,15 @@ from __future__ import annotations
 
 import io
 
-from gazelle.diagnostics import Diagnostic, Severity, SourceSpan, render, render_text
+from gazelle.diagnostics import (
+    Diagnostic,
+    Severity,
+    SourceLines,
+    SourceSpan,
+    render,
+    render_text,
+    styled,
+)
 
 
 def finding(span: SourceSpan | None = None, fix: str = "", phrase: str = "") -> Diagnostic:
@@ -82,3 +90,22 @@ def test_of_an_endless_message_the_ends_are_shown() -> None:
 def test_a_file_does_not_steer_the_terminal() -> None:
     sources = {"<text>": "a\x1b[2Jb"}
     assert "a·[2Jb" in render_text(finding(SourceSpan("<text>", 1, 1, 1)), sources)
+
+
+def test_a_file_is_read_once_for_all_of_its_findings(tmp_path) -> None:
+    file = tmp_path / "a.urdf"
+    file.write_text("one\ntwo\n")
+    lines = SourceLines()
+    assert lines.line(SourceSpan(str(file), 1)) == "one"
+    file.unlink()
+    assert lines.line(SourceSpan(str(file), 2)) == "two"
+    assert lines.line(SourceSpan(str(file), 3)) is None
+
+
+def test_words_of_ros_can_be_left_out() -> None:
+    text = styled(finding(phrase="nothing"), SourceLines(), with_phrase=False).plain
+    assert text == "warning: no such tag [xml.unknown-tag]"
+
+
+def test_a_remedy_that_points_at_the_message_is_left_out() -> None:
+    assert render_text(finding(fix="see the message")) == "warning: no such tag [xml.unknown-tag]"

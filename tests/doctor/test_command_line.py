@@ -97,3 +97,15 @@ def test_world_alone_is_brought_up(examined: Examine) -> None:
     folder = FIXTURES / "pain_03_uris" / "clean" / "pain_03_uris"
     report = examined(folder, "worlds/field.world")
     assert (report.kind, report.exit_code) == ("world", 0)
+
+
+def test_a_line_of_gazelles_own_files_is_told_as_the_users_include(
+    examined: Examine, written: Write
+) -> None:
+    text = '<launch>\n<include file="$(find gazebo_ros)/launch/empty_world.launch">\n'
+    text += '<arg name="paused" value="true"/></include></launch>'
+    path = written(**{"go.launch": text}) / "go.launch"
+    report = examined(path.parent, "go.launch")
+    (finding,) = [item for item in report.findings if item.code == "doctor.paused"]
+    assert finding.span is not None
+    assert (finding.span.file, finding.span.line, finding.span.via) == (str(path), 2, ())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import PurePath
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from gazelle.diagnostics.diagnostic import Diagnostic, Severity, SourceSpan
 from gazelle.diagnostics.share_links import as_written
 from gazelle.errors import UserFileError
 
-__all__ = ["Brief", "Diagnostics", "brief", "grouped"]
+__all__ = ["Brief", "Diagnostics", "brief", "grouped", "groups"]
 
 # What differs between two findings of one kind: quoted names, elements, numbers.
 _COUNT = re.compile(r" \(and \d+ more in this file\)")
@@ -144,7 +144,7 @@ def brief(findings: Iterable[Diagnostic], kept: str = "") -> Brief:
     return Brief(tuple(shown), (*summed, *quiet))
 
 
-def grouped(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+def grouped(findings: Iterable[Diagnostic], *, most: int = _SHOWN) -> tuple[Diagnostic, ...]:
     """Merge three or more findings that differ only in names, numbers and places.
 
     The first one stays and lists what the others are about. Errors are merged only when they
@@ -152,17 +152,25 @@ def grouped(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
 
     Args:
         findings: in the order they were made.
+        most: how many of the others are named, and places of each.
 
     Returns:
         The findings in the order of the first of each group.
     """
-    groups: dict[tuple[str, Severity, str], list[Diagnostic]] = {}
+    return tuple(
+        group[0] if len(group) == 1 else _merged(group, most) for group in groups(findings)
+    )
+
+
+def groups(findings: Iterable[Diagnostic]) -> tuple[tuple[Diagnostic, ...], ...]:
+    """Return findings in the groups that `grouped` makes one of, most of them alone."""
+    alike: dict[tuple[str, Severity, str], list[Diagnostic]] = {}
     for item in findings:
-        groups.setdefault((item.code, item.severity, _kind(item)), []).append(item)
-    merged: list[Diagnostic] = []
-    for group in groups.values():
-        merged += group if len(group) < _MIN_COUNT else [_merged(group)]
-    return tuple(merged)
+        alike.setdefault((item.code, item.severity, _kind(item)), []).append(item)
+    found: list[tuple[Diagnostic, ...]] = []
+    for group in alike.values():
+        found += [(item,) for item in group] if len(group) < _MIN_COUNT else [tuple(group)]
+    return tuple(found)
 
 
 def _is_quiet(item: Diagnostic) -> bool:
@@ -182,23 +190,24 @@ def _kind(item: Diagnostic) -> str:
     return line if item.severity is Severity.ERROR else _VARYING.sub("*", _COUNT.sub("", line))
 
 
-def _merged(group: Sequence[Diagnostic]) -> Diagnostic:
+def _merged(group: Sequence[Diagnostic], most: int) -> Diagnostic:
     first, others = group[0], group[1:]
     column = _varying_column(group)
+    names = _told_apart({item.span.file for item in group if item.span is not None})
     places: dict[str, list[str]] = {}
     for item in others:
         label = _pieces(item)[column] if column is not None else ""
-        places.setdefault(label, []).append(_place(item, first))
-    shown = [_described(label, lines) for label, lines in list(places.items())[:_SHOWN]]
+        places.setdefault(label, []).append(_place(item, first, names))
+    shown = [_described(label, lines, most) for label, lines in list(places.items())[:most]]
     rest = len(places) - len(shown)
     tail = f" and {rest} more" if rest else ""
     text = f"{first.message}\n  the same {len(others)} more times: {', '.join(shown)}{tail}"
     return replace(first, message=text)
 
 
-def _described(label: str, lines: Sequence[str]) -> str:
+def _described(label: str, lines: Sequence[str], most: int) -> str:
     where = list(dict.fromkeys(line for line in lines if line))
-    text = f"{', '.join(where[:_SHOWN])}{' …' if len(where) > _SHOWN else ''}"
+    text = f"{', '.join(where[:most])}{' …' if len(where) > most else ''}"
     if not label:
         return text or "at the same place"
     return f"{label} ({text})" if text else label
@@ -216,12 +225,32 @@ def _varying_column(group: Sequence[Diagnostic]) -> int | None:
     return None
 
 
-def _place(item: Diagnostic, first: Diagnostic) -> str:
-    if item.span is None or not item.span.line or item.span == first.span:
+def _place(item: Diagnostic, first: Diagnostic, names: Mapping[str, str]) -> str:
+    if item.span is None or item.span == first.span:
         return ""
+    name = names[item.span.file]
     if first.span is not None and item.span.file == first.span.file:
-        return "" if item.span.line == first.span.line else f"line {item.span.line}"
-    return f"{PurePath(item.span.file).name}:{item.span.line}"
+        return "" if item.span.line in (0, first.span.line) else f"line {item.span.line}"
+    return f"{name}:{item.span.line}" if item.span.line else name
+
+
+def _told_apart(files: Iterable[str]) -> dict[str, str]:
+    """Return the shortest end of each path that no other path has, its name at least."""
+    paths = {file: PurePath(file) for file in files}
+    alike: dict[str, set[PurePath]] = {}
+    for path in paths.values():
+        alike.setdefault(path.name, set()).add(path)
+    depths = {name: _depth(same) for name, same in alike.items()}
+    return {file: str(PurePath(*path.parts[-depths[path.name] :])) for file, path in paths.items()}
+
+
+def _depth(paths: Collection[PurePath]) -> int:
+    """Return how many parts at the end of paths tell all of them apart."""
+    most = max(len(path.parts) for path in paths)
+    return next(
+        count for count in range(1, most + 2)
+        if len({path.parts[-count:] for path in paths}) == len(paths)
+    )  # fmt: skip
 
 
 def _of_users_files(item: Diagnostic) -> Diagnostic:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import sys
 
 from gazelle.diagnostics.catalogue import Entry, all_entries
 
-__all__ = ["catalogue_markdown"]
+__all__ = ["anchor", "catalogue_markdown"]
 
 _HEAD = """# Diagnostics
 
@@ -27,8 +28,18 @@ def catalogue_markdown() -> str:
     return "\n".join(lines)
 
 
+def anchor(entry: Entry) -> str:
+    """Return the name by which links reach an entry of the page."""
+    kept = re.sub(r"[^\w\s-]", "", _headline(entry).replace("`", "")).strip().lower()
+    return re.sub(r"[\s-]+", "-", kept)
+
+
+def _headline(entry: Entry) -> str:
+    return f"`{entry.code}` ({entry.severity})"
+
+
 def _entry_markdown(entry: Entry) -> str:
-    head = f"### `{entry.code}` ({entry.severity})\n\n**{entry.title}.** {entry.why}\n"
+    head = f"### {_headline(entry)}\n\n**{entry.title}.** {entry.why}\n"
     text = f"{head}\nFix: {entry.fix}.\n"
     return f"{text}\nROS/Gazebo says: `{entry.phrase}`\n" if entry.phrase else text
 

@@ -15,13 +15,47 @@ if TYPE_CHECKING:
 
     from gazelle.diagnostics.diagnostic import SourceSpan
 
-__all__ = ["render", "render_text"]
+__all__ = ["SourceLines", "render", "render_text", "styled"]
 
 _COLOURS = {Severity.INFO: "cyan", Severity.WARNING: "yellow", Severity.ERROR: "red"}
 _MAX_WIDTH = 160
 _BEFORE = 80
 _MAX_LENGTH = 2000
 _MORE = "…"
+# A remedy that only points at the message has said nothing.
+_NO_FIX = "see the message"
+
+
+class SourceLines:
+    """The lines of the files that findings are about; each file is read once."""
+
+    def __init__(self, texts: Mapping[str, str] | None = None) -> None:
+        """Prepare.
+
+        Args:
+            texts: texts of spans that are no files, by `SourceSpan.file`.
+        """
+        self._texts = texts or {}
+        self._lines: dict[str, list[str]] = {}
+
+    def line(self, span: SourceSpan) -> str | None:
+        """Return the line that a span is in; None where that cannot be read."""
+        if not span.line:
+            return None
+        if span.file not in self._lines:
+            self._lines[span.file] = (self._text(span.file) or "").splitlines()
+        lines = self._lines[span.file]
+        return lines[span.line - 1] if span.line <= len(lines) else None
+
+    def _text(self, file: str) -> str | None:
+        if file in self._texts:
+            return self._texts[file]
+        try:
+            # A pipe has been read, and a device has no lines.
+            is_file = Path(file).is_file()
+            return Path(file).read_text(encoding="utf-8", errors="replace") if is_file else None
+        except (OSError, ValueError):
+            return None
 
 
 def render(
@@ -46,16 +80,24 @@ def render(
     from rich.console import Console
 
     console = Console(file=stream or sys.stderr, soft_wrap=True, highlight=False)
+    lines = SourceLines(sources)
     for item in found:
-        console.print(_rich_text(item, sources or {}))
+        console.print(styled(item, lines))
 
 
 def render_text(diagnostic: Diagnostic, sources: Mapping[str, str] | None = None) -> str:
     """Return one finding as plain text: message, source line with caret, way there, fix."""
-    return _rich_text(diagnostic, sources or {}).plain
+    return styled(diagnostic, SourceLines(sources)).plain
 
 
-def _rich_text(item: Diagnostic, sources: Mapping[str, str]) -> Text:
+def styled(item: Diagnostic, lines: SourceLines, *, with_phrase: bool = True) -> Text:
+    """Return one finding with its source line, in colours.
+
+    Args:
+        item: the finding.
+        lines: where source lines come from.
+        with_phrase: say what ROS or Gazebo prints in this case, too.
+    """
     from rich.text import Text
 
     colour = _COLOURS[item.severity]
@@ -66,19 +108,19 @@ def _rich_text(item: Diagnostic, sources: Mapping[str, str]) -> Text:
     text.append(f": {_short(item.message)} ")
     text.append(f"[{item.code}]", style="dim")
     if item.span:
-        _append_source(text, item.span, sources, colour)
+        _append_source(text, item.span, lines, colour)
         for place in item.span.via:
             text.append(f"\n  from {place}", style="dim")
-    if item.fix:
+    if item.fix and item.fix != _NO_FIX:
         text.append("\n  fix: ", style="green")
         text.append(_short(item.fix))
-    if item.phrase:
+    if item.phrase and with_phrase:
         text.append(f"\n  ROS/Gazebo says: {item.phrase}", style="dim")
     return text
 
 
-def _append_source(text: Text, span: SourceSpan, sources: Mapping[str, str], colour: str) -> None:
-    line = _source_line(span, sources)
+def _append_source(text: Text, span: SourceSpan, lines: SourceLines, colour: str) -> None:
+    line = lines.line(span)
     if line is None:
         return
     shown, column = _window(line.replace("\t", " "), span.column)
@@ -106,19 +148,3 @@ def _short(text: str) -> str:
         return text
     half = _MAX_LENGTH // 2
     return f"{text[:half]} {_MORE} ({len(text)} characters) {_MORE} {text[-half:]}"
-
-
-def _source_line(span: SourceSpan, sources: Mapping[str, str]) -> str | None:
-    if not span.line:
-        return None
-    try:
-        source = sources.get(span.file)
-        if source is None and not Path(span.file).is_file():
-            # A pipe has been read, and a device has no lines.
-            return None
-        if source is None:
-            source = Path(span.file).read_text(encoding="utf-8", errors="replace")
-    except (OSError, ValueError):
-        return None
-    lines = source.splitlines()
-    return lines[span.line - 1] if span.line <= len(lines) else None

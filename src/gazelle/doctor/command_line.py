@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import os
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,8 +19,11 @@ from gazelle.doctor.report import Examination, Options, Report
 from gazelle.doctor.robots_and_worlds import without_superseded
 from gazelle.doctor.target import Target, find_target, package_at
 from gazelle.workspace import Workspace
+from gazelle.workspace.environment_paths import BUILTIN
 
 __all__ = ["examine"]
+
+_OWN_FILES = f"{BUILTIN}{os.sep}"
 
 
 def examine(
@@ -70,11 +74,20 @@ def _findings(examination: Examination) -> list[Diagnostic]:
     packages = examination.workspace.packages
     own = examination.workspace.user_packages
     known = {*packages, *(name for item in own for name in item.depends)}
-    found = _once(without_superseded(tuple(strict(examination.diagnostics))))
+    found = _once(map(_at_users_line, without_superseded(tuple(strict(examination.diagnostics)))))
     return condensed(found, known)
 
 
-def _once(findings: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+def _at_users_line(item: Diagnostic) -> Diagnostic:
+    """Name the user's line that includes a file of Gazelle, in place of a line of that file."""
+    span = item.span
+    if span is None or not span.file.startswith(_OWN_FILES):
+        return item
+    outer = [place for place in span.via if not place.file.startswith(_OWN_FILES)]
+    return replace(item, span=replace(outer[0], via=tuple(outer[1:]))) if outer else item
+
+
+def _once(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
     """Keep one of findings that differ only in the includes that led to them."""
     kept: dict[Diagnostic, Diagnostic] = {}
     for item in findings:

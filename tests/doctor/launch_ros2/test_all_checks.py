@@ -127,6 +127,13 @@ def test_every_mistake_has_place_and_fix(code: str, place: str, words: str, fix:
     assert fix in item.fix
 
 
+def test_arguments_of_gazelles_own_launch_files_are_not_told_as_idle(check: Check) -> None:
+    text = '<launch><include file="$(find-pkg-share gazebo_ros)/launch/gazebo.launch.py"/></launch>'
+    found, reading = check("go.launch.xml", text)
+    assert len(reading.launch_files) > 1
+    assert found.by_code("launch_ros2.argument-idle") == ()
+
+
 def test_clean_twin_says_only_that_it_was_read() -> None:
     found, reading = fixture("clean")
     (item,) = found

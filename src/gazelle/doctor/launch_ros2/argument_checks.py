@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from gazelle.diagnostics import Diagnostics, Severity, did_you_mean, nearest_names
 from gazelle.doctor.launch_ros2.launch_tree import Followed
+from gazelle.workspace.environment_paths import BUILTIN
 
 __all__ = ["check_arguments"]
 
@@ -73,6 +74,9 @@ def _check_idle(items: Sequence[Followed], diagnostics: Diagnostics) -> None:
     if not all(item.has_all for item in items):
         return
     for item in items:
+        if item.file.path.is_relative_to(BUILTIN):
+            # It declares what the original does, whoever reads it.
+            continue
         below = item.walk()
         used = {use.name for inner in below for use in inner.file.uses}
         for argument in item.file.arguments:
