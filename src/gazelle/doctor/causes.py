@@ -30,6 +30,8 @@ class _Rule(NamedTuple):
             package.
         by_file: the cause names the file that the consequence is in.
         is_milder: the cause may be less severe than what follows from it.
+        by_fix: the consequence lacks what the cause's fix asks for: ``no 'joint' given``.
+        asks: the cause's fix asks for this.
     """
 
     consequence: str
@@ -37,6 +39,8 @@ class _Rule(NamedTuple):
     by_name: bool = False
     by_file: bool = False
     is_milder: bool = False
+    by_fix: bool = False
+    asks: str = ""
 
 
 _RULES = (
@@ -86,6 +90,28 @@ _RULES = (
         by_name=True,
     ),
     _Rule("launch_ros2.not-installed", ("package.not-installed",)),
+    _Rule("inertia.density", ("robot.size-unit",), by_name=True),
+    _Rule("inertia.units", ("robot.size-unit",), by_name=True),
+    _Rule("launch.arg-undeclared", ("xml.unknown-tag",), is_milder=True, asks="arg"),
+    _Rule("launch.arg-missing", ("launch.arg-unused",), is_milder=True, by_fix=True),
+    _Rule("launch.bad-attribute", ("xml.lenient",), is_milder=True),
+    _Rule("launch.arg-undeclared", ("launch.bad-attribute",)),
+    _Rule(
+        "doctor.no-controller-manager",
+        ("parameter.unknown",),
+        is_milder=True,
+        asks="robotNamespace",
+    ),
+    _Rule("doctor.controller-fails", ("parameter.unknown",), is_milder=True, by_fix=True),
+    _Rule(
+        "doctor.controller-fails", ("urdf.transmission-class",), is_milder=True, by_name=True
+    ),
+    _Rule(
+        "control.hardware-interface-unknown",
+        ("urdf.transmission-class",),
+        is_milder=True,
+        by_name=True,
+    ),
     _Rule("control.transmission-type", ("urdf.transmission-class",), by_name=True),
     _Rule("package.generations-mixed", ("package.build-type",)),
     _Rule("urdf.child-missing", ("urdf.duplicate-link",), by_name=True),
@@ -154,7 +180,9 @@ def _follows(item: Diagnostic, cause: Diagnostic) -> bool:
         _is_of(item.code, rule.consequence)
         and any(_is_of(cause.code, code) for code in rule.causes)
         and (rule.is_milder or cause.severity >= item.severity)
-        and (not rule.by_name or _names_of(cause, item))
+        and (not rule.by_name or _names_of(cause.message, item))
+        and (not rule.by_fix or _names_of(cause.fix, item))
+        and (not rule.asks or f"'{rule.asks}'" in cause.fix)
         and (not rule.by_file or (item.span is not None and item.span.file in cause.message))
         for rule in _RULES
     )
@@ -164,9 +192,9 @@ def _is_of(code: str, wanted: str) -> bool:
     return code.startswith(wanted) if wanted.endswith(".") else code == wanted
 
 
-def _names_of(cause: Diagnostic, item: Diagnostic) -> bool:
-    """Tell whether a finding has a name that its cause has in quotes."""
+def _names_of(text: str, item: Diagnostic) -> bool:
+    """Tell whether a finding has a name that stands in quotes in its cause's words."""
     return any(
         re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", item.message)
-        for name in _QUOTED.findall(cause.message)
+        for name in _QUOTED.findall(text)
     )

@@ -58,7 +58,10 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
     if not kinds and needs_files:
         text = f"'{folder}' holds no launch file, robot, world, model or parameter file"
         examination.diagnostics.report("doctor.nothing", text, SourceSpan(str(folder)))
-    pieces = _included_names(path for path, kind in kinds if kind is Kind.ROBOT)
+    # A file that is no XML includes its pieces all the same.
+    pieces = _included_names(
+        path for path, kind in files if kind is Kind.ROBOT or (kind is None and _is_robot(path))
+    )
     included = _included_names(path for path, kind in kinds if kind is Kind.LAUNCH)
     # Files that others include are examined as those include them, with their arguments.
     kinds.sort(key=lambda item: item[0].name in included)
@@ -80,6 +83,10 @@ def _examine_robot(path: Path, examination: Examination) -> None:
         return
     examination.diagnostics.extend(alone.diagnostics)
     examination.add(*alone.sections)
+
+
+def _is_robot(path: Path) -> bool:
+    return path.suffix in {".xacro", ".urdf"}
 
 
 def _included_names(paths: Iterable[Path]) -> frozenset[str]:

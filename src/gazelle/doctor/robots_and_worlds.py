@@ -8,12 +8,23 @@ from contextlib import contextmanager
 
 from gazelle.description.checks import SUPERSEDED_CODES, check_description
 from gazelle.description.loader import load_models
-from gazelle.description.model import World
+from gazelle.description.model import Model, PluginTag, World
 from gazelle.description.robot_description import TEXT_FILES_VARIABLE
-from gazelle.diagnostics import Diagnostic
+from gazelle.description.xml import Tag
+from gazelle.diagnostics import Diagnostic, Diagnostics
+from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.report import Examination
 
-__all__ = ["examine_models", "examine_text", "texts_known", "without_superseded"]
+__all__ = [
+    "examine_models",
+    "examine_text",
+    "frame_slip",
+    "frame_tag",
+    "texts_known",
+    "without_superseded",
+]
+
+_FRAME_KEYS = ("frameName", "frame_name", "frameId", "frame_id")
 
 
 @contextmanager
@@ -35,6 +46,33 @@ def examine_models(world: World, examination: Examination) -> None:
     for model in world.models:
         if not model.static:
             check_description(model, diagnostics=examination.diagnostics)
+            _check_frame_names(model, examination.diagnostics)
+
+
+def frame_tag(plugin: PluginTag) -> Tag | None:
+    """Return where a plug-in names the frame that it stamps with, None when it does not."""
+    found = (plugin.parameters.find(key) for key in _FRAME_KEYS)
+    return next((tag for tag in found if tag is not None), None)
+
+
+def frame_slip(name: str, model: Model) -> str:
+    """Return the link of a robot that a frame's name is a slip for, empty when there is none."""
+    links = [link.name for link in model.links]
+    return "" if name in links else next((one for one in links if is_slip(name, one)), "")
+
+
+def _check_frame_names(model: Model, diagnostics: Diagnostics) -> None:
+    """Report frames of plug-ins that are nearly links; others may come from other nodes."""
+    of_sensors = [item for link in model.links for one in link.sensors for item in one.plugins]
+    for plugin in (*model.plugins, *of_sensors):
+        tag = frame_tag(plugin)
+        name = tag.text.strip().lstrip("/") if tag is not None else ""
+        slip = frame_slip(name, model) if name else ""
+        if tag is not None and slip:
+            text = f"plug-in '{plugin.name}' stamps its data with frame '{name}', which is no link "
+            text += "of the robot"
+            hint = f"did you mean '{slip}'?"
+            diagnostics.report("doctor.sensor-frame", text, tag.span, fix=hint)
 
 
 def examine_text(text: str, files: Sequence[str], examination: Examination) -> None:

@@ -8,12 +8,14 @@ the next tag.
 from __future__ import annotations
 
 import re
+from difflib import SequenceMatcher
 from typing import NamedTuple
 from xml.parsers.expat import ErrorString, ExpatError, errors
 
 __all__ = ["MalformedXml", "malformed_xml"]
 
 _MISMATCH = errors.codes[errors.XML_ERROR_TAG_MISMATCH]
+_SLIP = 0.8
 _NO_END = errors.codes[errors.XML_ERROR_NO_ELEMENTS]
 _TOKEN = errors.codes[errors.XML_ERROR_INVALID_TOKEN]
 _MARKUP = re.compile(
@@ -103,11 +105,24 @@ def _of_mismatch(text: str, stop: int, plain: MalformedXml) -> MalformedXml:
     name, inner = end[1], open_tags[-1]
     if all(one.name != name for one in open_tags):
         line = text.count("\n", 0, inner.at) + 1
+        if _is_slip(inner.name, name) and _count(text, inner.name) < _count(text, name):
+            # The name that is rarer in the file is the one that is written wrongly.
+            end_line = text.count("\n", 0, begin) + 1
+            message = f"{plain.message}: <{inner.name}> is ended by </{name}> of line {end_line}"
+            return _at(text, inner.at, message, f"did you mean '{name}'?")
         message = f"{plain.message}: </{name}> ends nothing, <{inner.name}> of line {line} is open"
         return _at(text, begin, message, f"write </{inner.name}>")
     line = text.count("\n", 0, begin) + 1
     message = f"{plain.message}: <{inner.name}> has no end before </{name}> of line {line}"
     return _at(text, inner.at, message, _end_of(text, inner))
+
+
+def _is_slip(name: str, other: str) -> bool:
+    return SequenceMatcher(None, name, other).ratio() >= _SLIP
+
+
+def _count(text: str, name: str) -> int:
+    return len(re.findall(rf"(?<![\w-]){re.escape(name.rpartition(':')[2])}(?![\w-])", text))
 
 
 def _of_end(text: str, plain: MalformedXml) -> MalformedXml:

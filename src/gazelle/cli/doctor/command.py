@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from gazelle.doctor import Report
 
-__all__ = ["main"]
+__all__ = ["main", "progress"]
 
 _NOTHING_EXAMINED = 2
 _EPILOG = """what TARGET may be:
@@ -42,8 +42,15 @@ def main(argv: list[str]) -> int:
 
     chosen = Options(arguments=arguments, probe=options.probe, world=options.world)
     start_s = time.perf_counter()
+    if (options.fix or options.fix_all) and (options.json or options.sarif):
+        parser.error("--fix prints a diff: it does not go with --json or --sarif")
     try:
-        with _progress() as say:
+        if options.fix or options.fix_all:
+            from gazelle.cli.doctor.fixing import fix
+
+            only_certain = not options.fix_all
+            return fix(options.target, chosen, only_certain=only_certain, is_agreed=options.yes)
+        with progress() as say:
             report = examine(options.target, options=chosen, progress=say)
     except GazelleError as error:
         print(f"gazelle doctor: {error}", file=sys.stderr)
@@ -91,6 +98,9 @@ def _parser() -> argparse.ArgumentParser:
     form.add_argument(
         "--sarif", action="store_true", help="print SARIF 2.1.0 for code scanning and editors"
     )
+    add("--fix", action="store_true", help="mend what is certain: shows a diff, then asks")
+    add("--fix-all", action="store_true", help="what is one of several ways or an estimate, too")
+    add("--yes", action="store_true", help="with --fix: write without asking")
     add("--probe", action="store_true", help="run short simulations too: drift, wheels, contacts")
     add("--world", default="empty", metavar="W", help="world for a robot on its own (empty)")
     add(
@@ -106,7 +116,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 @contextmanager
-def _progress() -> Iterator[Callable[[str], None] | None]:
+def progress() -> Iterator[Callable[[str], None] | None]:
     """Show on the terminal what is being looked at; programs that read are left in peace."""
     if not sys.stderr.isatty():
         yield None

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from gazelle.description.model import Joint, JointType, Model, PluginTag
-from gazelle.description.xml import Tag
+from gazelle.description.model import Joint, JointType, Model
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.launch_ros1.topics import NodeTopics, read_script
 from gazelle.doctor.report import Section
+from gazelle.doctor.robots_and_worlds import frame_slip, frame_tag
 from gazelle.errors import LaunchError
 from gazelle.nodes.link_tree import read_description
 from gazelle.nodes.static_transform_publisher import parse_arguments
@@ -19,7 +19,6 @@ from gazelle.nodes.static_transform_publisher import parse_arguments
 __all__ = ["Edge", "Frames", "StatePublisher", "check_frames", "frames_of", "frames_section"]
 
 _MOVING = frozenset(set(JointType) - {JointType.FIXED})
-_FRAME_KEYS = ("frameName", "frame_name", "frameId", "frame_id")
 _MAX_TABLE = 60
 _RATE_OF_2011 = "/pr2_controller_manager/joint_state_publish_rate"
 
@@ -390,17 +389,14 @@ def _check_sensor_frames(model: Model, frames: Frames, diagnostics: Diagnostics)
     for link in model.links:
         for sensor in link.sensors:
             for plugin in sensor.plugins:
-                tag = _frame_tag(plugin)
+                tag = frame_tag(plugin)
                 name = tag.text.strip().lstrip("/") if tag is not None else ""
                 prefixed = {f"{item.prefix}{name}" for item in mine}
                 if tag is None or not name or name in known or prefixed & known:
                     continue
+                if frame_slip(name, model):
+                    continue  # that is told of the robot as such
                 text = f"sensor '{sensor.name}' on link '{link.name}' stamps its data with frame "
                 text += f"'{name}', which no tf leads to"
                 fix = f"write <{tag.name}>{link.name}</{tag.name}>"
                 diagnostics.report("doctor.sensor-frame", text, tag.span, fix=fix)
-
-
-def _frame_tag(plugin: PluginTag) -> Tag | None:
-    found = (plugin.parameters.find(key) for key in _FRAME_KEYS)
-    return next((tag for tag in found if tag is not None), None)

@@ -140,13 +140,26 @@ class _Reader:
         length = (node.end_col_offset or 0) - node.col_offset if same else 0
         return SourceSpan(str(self.file.path), node.lineno, node.col_offset + 1, length)
 
+    def _span_of_file(self, call: Call) -> SourceSpan:
+        """Return where the last text of a path stands: its file."""
+        texts = [
+            node
+            for node in ast.walk(call.node)
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and "." in node.value
+        ]
+        if not texts:
+            return self._span(call)
+        last = max(texts, key=lambda node: (node.lineno, node.col_offset))
+        length = (last.end_col_offset or 0) - last.col_offset
+        return SourceSpan(str(self.file.path), last.lineno, last.col_offset + 1, length)
+
     def _take_computed(self, call: Call, outcome: Any) -> None:
         if call.name in _FOLDER_CALLS and call.arguments and isinstance(call.arguments[0], str):
             self.file.packages.append(Use(call.arguments[0], self._span(call)))
         elif call.name in _JOINS and isinstance(outcome, str) and PurePath(outcome).suffix:
             if outcome in self._tested:
                 return
-            self.file.paths.append(Use(outcome, self._span(call)))
+            self.file.paths.append(Use(outcome, self._span_of_file(call)))
 
     def _take(self, call: Call) -> None:
         takers: dict[str, Callable[[Call], None]] = {
@@ -200,7 +213,7 @@ class _Reader:
     def _join(self, call: Call) -> None:
         path = self._values.text(call)
         if path is not None and PurePath(path).suffix:
-            self.file.paths.append(Use(path, self._span(call)))
+            self.file.paths.append(Use(path, self._span_of_file(call)))
 
     def _set_parameter(self, call: Call) -> None:
         name = self._values.text(call.get("name", 0))

@@ -80,9 +80,12 @@ def check_paths(files: Sequence[Followed], workspace: Workspace, diagnostics: Di
     seen: set[str] = set()
     for use in paths_of(files):
         package = package_of(Path(use.name), workspace)
-        if package is None or package.is_builtin or use.name in seen:
+        if package is None or use.name in seen:
             continue
         seen.add(use.name)
+        if package.is_builtin:
+            _check_builtin(package, Path(use.name), use, diagnostics)
+            continue
         inside = Path(use.name).relative_to(package.path).as_posix()
         if located(use.name) is None:
             is_made = is_file(Path(f"{use.name}.in"))  # by configure_file() of its CMakeLists.txt
@@ -162,6 +165,15 @@ def _package_uses(files: Sequence[Followed]) -> Iterator[Use]:
         for node in item.file.nodes:
             if node.package:
                 yield Use(node.package, node.place_of(node.package))
+
+
+def _check_builtin(package: Package, path: Path, use: Use, diagnostics: Diagnostics) -> None:
+    """Report a file whose name is a slip for one of ours; the real package may have others."""
+    if is_file(path) or not is_folder(path.parent):
+        return
+    names = [item.name for item in path.parent.iterdir()]
+    if any(is_slip(path.name, name) for name in names):
+        _report_missing(package, path.relative_to(package.path).as_posix(), use, diagnostics)
 
 
 def _report_missing(package: Package, inside: str, use: Use, diagnostics: Diagnostics) -> None:

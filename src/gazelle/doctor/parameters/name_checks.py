@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from gazelle.control.resource_manager import JointResource
 from gazelle.description.model import Model
 from gazelle.description.srdf import link_names
 from gazelle.description.xml import Tag, read_xml
-from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.diagnostics import Diagnostic, Diagnostics, did_you_mean
 from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.parameters.controllers import (
     FoundController,
@@ -33,6 +33,7 @@ from gazelle.doctor.parameters.parameter_file import (
     layout_of,
     plain,
     read_document,
+    scalars,
 )
 from gazelle.doctor.report import Section
 from gazelle.documents.yaml import YamlMapping
@@ -251,7 +252,10 @@ def check_names(model: Model, files: Sequence[Path], *, diagnostics: Diagnostics
         # Without any controller here, MoveIt's own list is all there is to compare.
         source = FoundControllers(found.controllers or _as_controllers(found.moveit, model))
         known = hardware or {name: JointResource(name, ("position",), ()) for name in joints}
-        check_control(joints, known, source, diagnostics, moveit=found.moveit, span=model.span)
+        told = Diagnostics()
+        check_control(joints, known, source, told, moveit=found.moveit, span=model.span)
+        for item in told:
+            diagnostics.add(_where_named(item, found, joints))
         check_claims(found.controllers, hardware, diagnostics)
     for root in found.srdfs:
         check_srdf(root, link_names(model), joints, diagnostics)
@@ -261,6 +265,26 @@ def check_names(model: Model, files: Sequence[Path], *, diagnostics: Diagnostics
     return (
         Section("names", f"{model.name}: who names which joint", _COLUMNS, rows) if rows else None
     )
+
+
+def _where_named(item: Diagnostic, found: NameFiles, joints: Collection[str]) -> Diagnostic:
+    """Return a disagreement at the name that the robot does not have, where that is written."""
+    if item.code != "control.names-disagree":
+        return item
+    rows = [line.split()[0] for line in item.message.split("\n")[2:] if line.split()]
+    for name in rows:
+        if name in joints:
+            continue
+        for controller in found.controllers:
+            for key, (node, _) in controller.nodes.items():
+                if name in _texts(plain(node)):
+                    return replace(item, span=controller.place_of(key, name))
+        for document in found.documents:
+            places = (one.span for _, one, _ in scalars(document.root) if one.text == name)
+            span = next(places, None)
+            if span is not None:
+                return replace(item, span=span)
+    return item
 
 
 def _check(tag: Tag, key: str, kind: str, known: Collection[str], diagnostics: Diagnostics) -> None:
@@ -406,19 +430,20 @@ def _check_moveit(
 
 
 def _check_moveit_controllers(document: Document, diagnostics: Diagnostics) -> None:
-    """Report controllers whose ``joints`` are spelt otherwise: MoveIt takes them for none."""
+    """Report controllers whose ``type`` or ``joints`` are spelt otherwise."""
     branch = document.find(_MOVEIT_MANAGER) or document.root
     for key, value in branch.pairs if isinstance(branch, YamlMapping) else ():
         words = [one.text for one, _ in value.pairs] if isinstance(value, YamlMapping) else []
-        if "type" not in words or "joints" in words or not isinstance(value, YamlMapping):
+        if not isinstance(value, YamlMapping) or not {"type", "joints"} & set(words):
             continue
-        slip = next((word for word in words if is_slip(word, "joints")), "")
-        if slip:
-            place = next(one.span for one, _ in value.pairs if one.text == slip)
-            text = f"MoveIt's controller '{key.text}' has no 'joints' and has '{slip}' (No joints "
-            text += f"specified for controller {key.text})"
-            fix = f"did you mean 'joints' for '{slip}'?"
-            diagnostics.report("parameters.moveit-name", text, place, fix=fix)
+        for wanted in {"type", "joints"} - set(words):
+            slip = next((word for word in words if is_slip(word, wanted)), "")
+            if slip:
+                place = next(one.span for one, _ in value.pairs if one.text == slip)
+                text = f"MoveIt's controller '{key.text}' has no '{wanted}' and has '{slip}' (No "
+                text += f"{wanted} specified for controller {key.text})"
+                fix = f"did you mean '{wanted}' for '{slip}'?"
+                diagnostics.report("parameters.moveit-name", text, place, fix=fix)
 
 
 def _rows(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from enum import Enum, auto
 
@@ -24,6 +25,8 @@ class ProblemKind(Enum):
     TAB_INDENT = auto()
     TAB = auto()
     MAPPING_VALUE = auto()
+    NO_COLON = auto()
+    NO_SPACE = auto()
     SYNTAX = auto()
     TOO_LONG = auto()
     TOO_DEEP = auto()
@@ -34,6 +37,8 @@ class ProblemKind(Enum):
 _FIXES = {
     ProblemKind.TAB_INDENT: "indent with spaces",
     ProblemKind.TAB: "indent with spaces",
+    ProblemKind.NO_COLON: "write a colon behind the name",
+    ProblemKind.NO_SPACE: "write a space behind the colon",
     ProblemKind.MAPPING_VALUE: "put the value in quotes, or correct the indentation",
 }
 
@@ -47,6 +52,8 @@ _KINDS: tuple[tuple[type[Exception], ProblemKind], ...] = (
 )
 
 
+_BARE_NAME = re.compile(r"\s*(?:- )?([\w/~]+)\s*(?:#.*)?$")
+_NO_SPACE = re.compile(r"\s*(?:- )?([\w/~]+:)[^\s:/]")
 _LEFT_OPEN = (
     "while parsing a flow", "while scanning a simple key", "while scanning a quoted scalar",
 )  # fmt: skip
@@ -122,8 +129,14 @@ def problem_of(error: Exception, file: str) -> YamlProblem:
     if begin is not None and (error.context or "").startswith(_LEFT_OPEN):
         # What was left open is the mistake; it shows lines behind.
         mark, begin = begin, mark
+    kind = _kind(error)
+    above = _line_above(mark) if kind is ProblemKind.MAPPING_VALUE else None
+    if above is not None:
+        kind, line, column = above
+        span = SourceSpan(file, line, column)
+        return YamlProblem(kind, error.problem or "", span, error.context or "", text=str(error))
     return YamlProblem(
-        _kind(error),
+        kind,
         error.problem or str(error),
         _span(mark, file) if mark else SourceSpan(file),
         error.context or "",
@@ -144,6 +157,23 @@ def _kind(error: yaml.MarkedYAMLError) -> ProblemKind:
     if "mapping values are not allowed" in problem:
         return ProblemKind.MAPPING_VALUE
     return ProblemKind.SYNTAX
+
+
+def _line_above(mark: yaml.Mark | None) -> tuple[ProblemKind, int, int] | None:
+    """Return what the line above lacks that makes a mapping a surprise, and where that is."""
+    text = getattr(mark, "buffer", None)
+    if mark is None or text is None:
+        return None
+    lines = str(text[: mark.pointer]).split("\n")[:-1]
+    while lines and not lines[-1].strip():
+        lines.pop()
+    if not lines:
+        return None
+    bare = _BARE_NAME.match(lines[-1])
+    if bare:
+        return ProblemKind.NO_COLON, len(lines), bare.end(1)
+    tight = _NO_SPACE.match(lines[-1])
+    return None if tight is None else (ProblemKind.NO_SPACE, len(lines), tight.end(1))
 
 
 def _indentation(mark: yaml.Mark | None) -> str:

@@ -162,6 +162,11 @@ def _run_xacro(argv: list[str], name: str, reading: Reading) -> str:
         command = parse_xacro_arguments(argv)
     except ValueError as error:
         raise TagError("launch.param-command-failed", f"[{name}]: {error}") from error
+    if not exists(command.file):
+        message = f"Cannot load command parameter [{name}]: xacro: No such file or directory: "
+        message += f"'{command.file}'"
+        fix = _nearest_file(Path(command.file))
+        raise TagError("launch.param-command-failed", message, fix=fix)
     errors_before = len(reading.diagnostics.errors)
     expanded = expand_xacro(
         command.file,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from dataclasses import replace
 from typing import Any
@@ -18,6 +19,7 @@ from gazelle.description.xacro.failure import (
 )
 from gazelle.description.xacro.macro_definitions import definitions_in, files_beside
 from gazelle.diagnostics import SourceSpan, did_you_mean
+from gazelle.documents import TEXT_BYTES, LimitError, read_limited
 
 __all__ = ["explain_call"]
 
@@ -51,7 +53,7 @@ def _unfit(text: str, macro: Any, failure: Failure) -> Explanation:
         missing = text.partition("[")[2].rstrip("]").split(",")
         given = listed(failure.locals["handle_macro_call"]["node"].attributes.keys(), "nothing")
         message = f"{text}: macro '{name}' needs {listed(missing)}; given: {given}"
-        fix = "add " + " ".join(f'{item}="…"' for item in missing)
+        fix = "add " + " ".join(_as_elsewhere(name, item, failure) for item in missing)
         if any(macro.params.count(item) > 1 for item in missing):
             fix = "name each parameter once in params"
         return Explanation("xacro.bad-call", f"{message}; {_signature(macro)}", span, fix, name)
@@ -64,6 +66,19 @@ def _unfit(text: str, macro: Any, failure: Failure) -> Explanation:
         if block in macro.params:
             fix = f"'{block}' is a value in params; write *{block} there for a block"
     return Explanation("xacro.bad-call", f"{message}; {_signature(macro)}", span, fix, name)
+
+
+def _as_elsewhere(macro: str, parameter: str, failure: Failure) -> str:
+    """Write a parameter as another call of the macro has it, as an example."""
+    call = re.compile(rf'<xacro:{re.escape(macro)}\s[^<>]*?\b{re.escape(parameter)}="([^"]*)"')
+    for file in failure.library_run.tracker.files:
+        try:
+            found = call.findall(read_limited(file, TEXT_BYTES).decode("utf-8", errors="replace"))
+        except (OSError, LimitError):
+            continue
+        if found:
+            return f'{parameter}="{found[-1]}", as another call has it, or its own value'
+    return f'{parameter}="…"'
 
 
 def _invalid_parameter(name: str, macro: Any, failure: Failure) -> Explanation:
