@@ -183,7 +183,7 @@ MISTAKES = (
             r"[^<>]*(?<!/)>(?:(?!<\2\b).)*?(?P<w></\2>)", _to("")),
     Mistake("xml.end-misspelt", _XML, r"</(?P<w>visual|collision|geometry|link|node|model)>",
             _misspelt),
-    Mistake("xml.ampersand", _LAUNCH1, r'value="(?P<w>[a-z_]+)"', _to("a & b")),
+    Mistake("xml.ampersand", _LAUNCH1, r'value="(?!true|false)(?P<w>[a-z_]+)"', _to("a & b")),
     Mistake("urdf.tag-misspelt", _ROBOT,
             r"<(?P<w>visual|collision|inertial|geometry)>.*?</(?P=w)>", _both_misspelt),
     Mistake("urdf.attribute-misspelt", _ROBOT,

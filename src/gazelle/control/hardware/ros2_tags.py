@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from gazelle.description.model import Model, Ros2ControlTag
 from gazelle.description.urdf_reader.attributes import check_vocabulary
@@ -75,7 +75,40 @@ class HardwareTag:
 
 def read_hardware_tags(model: Model, diagnostics: Diagnostics) -> tuple[HardwareTag, ...]:
     """Return the blocks of a model, in the order of the file; what is wrong is reported."""
-    return tuple(_read_block(tag, diagnostics) for tag in model.ros2_controls)
+    taken: set[tuple[str, str, str]] = set()
+    return tuple(
+        _each_once(_read_block(tag, diagnostics), taken, diagnostics) for tag in model.ros2_controls
+    )
+
+
+def _each_once(
+    block: HardwareTag, taken: set[tuple[str, str, str]], diagnostics: Diagnostics
+) -> HardwareTag:
+    """Leave out interfaces that another element has: the resource manager throws at them."""
+    parts = []
+    for part in block.parts:
+        commands = _new("command", part, part.commands, taken)
+        states = _new("state", part, part.states, taken)
+        late = [*(set(part.commands) - set(commands)), *(set(part.states) - set(states))]
+        if late:
+            names = ", ".join(sorted({f"'{part.name}/{item.name}'" for item in late}))
+            text = f"<{part.kind}> '{part.name}' of hardware '{block.name}' has {names}, which "
+            text += "another element has already; it is left out (real ROS 2: already exists)"
+            diagnostics.report("control.ros2-control-twice", text, part.span)
+        parts.append(replace(part, commands=commands, states=states))
+    return replace(block, parts=tuple(parts))
+
+
+def _new(
+    role: str, part: PartTag, items: tuple[InterfaceTag, ...], taken: set[tuple[str, str, str]]
+) -> tuple[InterfaceTag, ...]:
+    found = []
+    for item in items:
+        key = role, part.name, item.name
+        if key not in taken:
+            taken.add(key)
+            found.append(item)
+    return tuple(found)
 
 
 def _read_block(block: Ros2ControlTag, diagnostics: Diagnostics) -> HardwareTag:

@@ -24,6 +24,7 @@ __all__ = ["check_sizes"]
 _MAX_RATIO = 8.0
 _HUGE_RATIO = 100.0
 _HUGE_M = 10.0
+_LONG_M = 2.0
 _TINY_M = 0.002
 _APART_M = 0.02
 # Smaller shapes are placeholders of frames.
@@ -73,13 +74,22 @@ def _check_solid_unit(link: Link, sizes: dict[str, float], diagnostics: Diagnost
             value = getattr(shape, row.field)
             length = max(value) if isinstance(value, tuple) else value
             twins = _lengths_of_twins(part, parts, row.field)
-            is_long = length > _HUGE_M and length > _HUGE_RATIO * max(typical, 1e-3)
+            is_long = length > _HUGE_RATIO * max(typical, 1e-3) and (
+                length > _HUGE_M or (length > _LONG_M and _is_thin(shape, length))
+            )
             if any(900.0 < length / twin < 1100.0 for twin in twins if twin) or (
                 is_long and not twins
             ):
                 _report_solid(link, part, row, value, diagnostics)
                 return True
     return False
+
+
+def _is_thin(shape: Solid, length: float) -> bool:
+    """Tell whether a shape is a wire: all its other lengths are as nothing."""
+    values = [getattr(shape, row.field) for row in shape.lengths()]
+    flat = sorted(one for item in values for one in (item if isinstance(item, tuple) else (item,)))
+    return len(flat) > 1 and length > _HUGE_RATIO * flat[-2]
 
 
 def _lengths_of_twins(

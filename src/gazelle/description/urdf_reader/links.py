@@ -8,7 +8,7 @@ from gazelle.description.urdf_reader.attributes import check_vocabulary, number_
 from gazelle.description.urdf_reader.materials import visual_material
 from gazelle.description.urdf_reader.shapes import read_geometry
 from gazelle.description.xml import Tag
-from gazelle.diagnostics import SourceSpan
+from gazelle.diagnostics import SourceSpan, nearest_names
 
 __all__ = ["read_link"]
 
@@ -47,7 +47,9 @@ def _read_inertial(tag: Tag, link: str, context: ReadContext) -> Inertial | None
     T_link_com = origin_of(tag, context.diagnostics)
     mass, inertia = tag.find("mass"), tag.find("inertia")
     if mass is None or "value" not in mass.attributes:
-        _incomplete(mass or tag, link, '<mass> must have value="…"', context)
+        near = nearest_names("value", mass.attributes, count=1) if mass is not None else ()
+        fix = f"did you mean 'value' for '{near[0]}'?" if near else ""
+        _incomplete(mass or tag, link, '<mass> must have value="…"', context, fix)
         mass_kg = None
     else:
         check_vocabulary(mass, context.diagnostics, attributes=("value",))
@@ -67,7 +69,9 @@ def _read_tensor(
     check_vocabulary(tag, context.diagnostics, attributes=_TENSOR)
     missing = [name for name in _TENSOR if name not in tag.attributes]
     if missing:
-        _incomplete(tag, link, f"<inertia> lacks {', '.join(missing)}", context)
+        near = nearest_names(missing[0], tag.attributes.keys() - set(_TENSOR), count=1)
+        fix = f"did you mean '{missing[0]}' for '{near[0]}'?" if near else ""
+        _incomplete(tag, link, f"<inertia> lacks {', '.join(missing)}", context, fix)
         return None
     values = [number_attribute(tag, name, context.diagnostics) for name in _TENSOR]
     good = [value for value in values if value is not None]
@@ -76,9 +80,9 @@ def _read_tensor(
     return (good[0], good[1], good[2], good[3], good[4], good[5])
 
 
-def _incomplete(tag: Tag, link: str, what: str, context: ReadContext) -> None:
+def _incomplete(tag: Tag, link: str, what: str, context: ReadContext, fix: str = "") -> None:
     message = f"the <inertial> of link '{link}' cannot be used: {what}"
-    context.diagnostics.report("urdf.inertial-incomplete", message, tag.span)
+    context.diagnostics.report("urdf.inertial-incomplete", message, tag.span, fix=fix)
 
 
 def _read_collisions(tag: Tag, link: str, context: ReadContext) -> tuple[Collision, ...]:

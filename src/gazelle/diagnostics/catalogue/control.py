@@ -421,6 +421,14 @@ _ROS2 = (
         "which is not in the gazebo model.",
     ),
     Entry(
+        "control.ros2-control-twice",
+        "error",
+        "A joint's interface stands twice in <ros2_control>",
+        "Each interface of a joint belongs to one element of one block.",
+        "give one of the two elements the name that it was to have",
+        "already exists",
+    ),
+    Entry(
         "control.ros2-control-value",
         "warning",
         "A number of a <ros2_control> block cannot be read",

@@ -42,6 +42,9 @@ def xacro_closed(finding: Diagnostic, source: SourceText, at: int) -> Iterator[t
         # Most stand for one number; what is left of it behind the brace is numbers, too.
         for end in sorted(words, reverse=source.text[found.end()] != "$"):
             yield (Edit(found.start() + end, found.start() + end, "}"),)
+        # A name that goes on as text: ${side}_wheel.
+        for part in re.finditer(r"_", found[0]):
+            yield (Edit(found.start() + part.start(), found.start() + part.start(), "}"),)
 
 
 def xacro_command(_finding: Diagnostic, source: SourceText, at: int) -> Iterator[tuple[Edit, ...]]:

@@ -47,6 +47,7 @@ _STOPS = (
     "launch.",
     "launch_ros2.",
     "xacro.",
+    "xml.",
     "load.",
     "doctor.spawn-fails",
     "doctor.world-missing",

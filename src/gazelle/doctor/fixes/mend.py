@@ -13,6 +13,9 @@ from gazelle.doctor.fixes.edits import SourceText, edited
 
 __all__ = ["Mended", "Ward", "mend"]
 
+# Codes of readers: what a robot is kept away by.
+_READING = ("launch.", "urdf.", "xacro.", "xml.")
+_CLAUSE = re.compile(r"[:;] ")
 _NUMBER = re.compile(r"\d+")
 
 
@@ -94,11 +97,11 @@ def _tried(
         if Counter(map(_kind, after))[_kind(finding)] >= known[_kind(finding)]:
             continue
         come = _come(known, after)
-        errors = sum(item.severity is Severity.ERROR for item in come)
-        if come and not _hides(finding, errors):
+        if come and not _may_come(come, finding, candidate):
             continue
         if any(_is_alike(item, finding) for item in come):
             continue
+        errors = sum(item.severity is Severity.ERROR for item in come)
         order = errors, len(come)
         if best is None or order < best[0]:
             best = order, candidate, after
@@ -113,9 +116,13 @@ def _tried(
     return candidate, after
 
 
-def _hides(finding: Diagnostic, errors: int) -> bool:
+def _may_come(come: Sequence[Diagnostic], finding: Diagnostic, candidate: Candidate) -> bool:
     """Tell whether what has come may have been there, unseen: an error keeps a robot away."""
-    return unreadable(finding.code) or (finding.severity is Severity.ERROR and not errors)
+    if not unreadable(finding.code) and finding.severity is not Severity.ERROR:
+        return False
+    errors = [item for item in come if item.severity is Severity.ERROR]
+    is_read = not any(item.code.startswith(_READING) for item in errors)
+    return is_read or (unreadable(finding.code) and candidate.is_certain)
 
 
 def _is_alike(item: Diagnostic, finding: Diagnostic) -> bool:
@@ -135,6 +142,9 @@ def _come(known: Counter[tuple[str, str, str]], after: Iterable[Diagnostic]) -> 
 
 
 def _kind(item: Diagnostic) -> tuple[str, str, str]:
-    """Name a finding: lines and numbers may move."""
-    message = _NUMBER.sub("0", item.message.partition("\n")[0])
+    """Name a finding: lines and numbers may move, and what is said of it further on."""
+    first = item.message.partition("\n")[0]
+    if not unreadable(item.code):
+        first = _CLAUSE.split(first)[0]
+    message = _NUMBER.sub("0", first)
     return item.code, item.span.file if item.span else "", message
