@@ -70,13 +70,13 @@ def plan_fixes(
     def look(copy: Path) -> tuple[Diagnostic, ...]:
         moved = _Moved(folder, copy)
         environ = {key: moved.text(value) for key, value in options.environ.items()}
-        place = moved.path(here) or (moved.path(folder.parent) if here == folder.parent else copy)
+        place = moved.path(here) or (copy.parent if here == folder.parent else copy)
         found = Workspace.discover(environ=environ, cwd=place, extra=[copy])
         report = examine(
             [moved.word(word, here) for word in argv],
             workspace=found,
             options=replace(options, environ=environ),
-            cwd=place or copy,
+            cwd=place,
         )
         return report.findings
 
