@@ -11,12 +11,10 @@ from gazelle.doctor import Report
 BROKEN = [
     ("03_uris", "robot", "urdf.mesh-missing", "warning", "robot.urdf:106",
      "did you mean 'package://pain_03_uris/meshes/flag.stl'?", ""),
-    ("03_uris", "world", "doctor.world-missing", "error", "empty_world.launch:39",
+    ("03_uris", "world", "doctor.world-missing", "error", "world.launch:4",
      "yard.world' not found", "did you mean 'field.world'?"),
     ("07_xacro", "robot", "doctor.description-not-expanded", "error", "robot.launch:5",
      "holds xacro that nobody has expanded", "(find xacro)/xacro FILE"),
-    ("07_xacro", "robot", "xml.bad-number", "error", "robot.urdf.xacro:13",
-     "<box size>: '${size}' is not a finite number", ""),
     ("12_clock", "robot", "doctor.sim-time-off", "warning", "robot.launch:5",
      "/use_sim_time is not set while '/gazebo' publishes /clock", 'value="true"'),
     ("12_clock", "robot", "doctor.sim-time-name", "warning", "robot.launch:3",

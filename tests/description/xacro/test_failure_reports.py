@@ -399,7 +399,7 @@ def test_missing_file_is_one_error(tmp_path: Path) -> None:
 
 def test_prefix_that_nobody_declares_is_not_called_malformed(fail: Fail) -> None:
     error = fail('  <xacro:property name="a" value="1"/>', head='<robot name="r">\n')
-    assert (error.code, str(error.span)) == ("xacro.no-namespace", "one.xacro:2:3")
+    assert (error.code, str(error.span)) == ("xacro.no-namespace", "one.xacro:1:1")
     assert 'xmlns:xacro="http://www.ros.org/wiki/xacro"' in error.fix
     other = fail("<sensor:x/>", head='<robot name="r">\n')
     assert (other.code, other.fix[:36]) == ("xml.malformed", "declare it in the outermost element:")

@@ -65,7 +65,7 @@ def check(tmp_path: Path) -> Check:
         ),
         (
             "launch_ros2.file-missing",
-            "bot.launch.py:24:26",
+            "bot.launch.py:24:89",
             "package 'bot_bringup' has no 'rviz/bot.rviz'",
             "correct the path",
         ),
@@ -203,7 +203,7 @@ def test_parameter_file_that_is_not_installed(check: Check) -> None:
     node += "'params', 'a.yaml')])"
     files = {"params/a.yaml": "rviz2:\n  ros__parameters: {}\n"}
     found, reading = check("a.launch.py", text + PYTHON.format(node), files)
-    (item,) = found.by_code("package.not-installed")
+    (item,) = found.by_code("launch_ros2.not-installed")
     assert (
         "'params/a.yaml' of package 'bot' found in its source folder, not installed" in item.message
     )

@@ -73,7 +73,7 @@ def test_build_type_is_not_that_of_the_build_file(check: Any, make: Any, export:
     root = make(**{"package.xml": manifest(export=export), "CMakeLists.txt": AMENT})
     (item,) = check("bot", root)[0].by_code("package.build-type")
     assert item.message.startswith("CMakeLists.txt is for ament_cmake, the ")
-    assert item.fix == "<export><build_type>ament_cmake</build_type></export>"
+    assert item.fix == "add <export><build_type>ament_cmake</build_type></export>"
 
 
 def test_unknown_build_type_has_a_nearest_one(check: Any, make: Any) -> None:
@@ -111,7 +111,7 @@ def test_undeclared_packages_are_listed_once_with_a_place(check: Any, make: Any)
     (item,) = check("bot", make(**files))[0]
     assert (item.code, item.severity) == ("package.undeclared", Severity.INFO)
     assert "declare rviz2 (launch/a.launch.xml:3), xacro (urdf/a.xacro:1)" in item.message
-    assert item.fix == "<exec_depend>rviz2</exec_depend><exec_depend>xacro</exec_depend>"
+    assert item.fix == "add <exec_depend>rviz2</exec_depend><exec_depend>xacro</exec_depend>"
 
 
 def test_mistyped_dependency_has_a_nearest_name(check: Any, make: Any) -> None:

@@ -29,7 +29,7 @@ def test_one_table_of_names_that_are_missing_somewhere() -> None:
     (item,) = found.by_code("control.names-disagree")
     assert "the robot has no such joint; did you mean 'elbow'?" in item.message
     assert "no such controller is configured; did you mean 'arm_controller'?" in item.message
-    assert str(item.span).endswith("ros2_controllers.yaml:9:5")
+    assert str(item.span).endswith("ros2_controllers.yaml:9:24")
 
 
 def test_joint_with_effort_limit_0_is_told_at_its_place() -> None:

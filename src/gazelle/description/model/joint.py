@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 from gazelle.description.model.sensor import Sensor
@@ -59,7 +59,7 @@ class JointAxis:
     spring_stiffness: float = 0.0
     spring_reference: float = 0.0
     position: float = 0.0
-    span: SourceSpan | None = None
+    span: SourceSpan | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -91,7 +91,7 @@ class Collision:
     surface: Surface = field(default_factory=Surface)
     laser_retro: float = 0.0
     span: SourceSpan | None = None
-    shape_span: SourceSpan | None = None
+    shape_span: SourceSpan | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,7 @@ class Visual:
     laser_retro: float = 0.0
     visibility_flags: int = 0xFFFFFFFF
     span: SourceSpan | None = None
-    shape_span: SourceSpan | None = None
+    shape_span: SourceSpan | None = field(default=None, compare=False)
 
 
 class LightType(Enum):
