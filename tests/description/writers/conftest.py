@@ -119,7 +119,9 @@ class Reading:
         return found
 
 
-_IGNORED = frozenset({"span", "shape_span", "type_span", "file", "source_format", "estimated", "raw_text"})
+_IGNORED = frozenset(
+    {"span", "shape_span", "type_span", "file", "source_format", "estimated", "raw_text"}
+)
 
 
 def _plain(tag: Tag) -> tuple[Any, ...]:
