@@ -2,15 +2,8 @@ from __future__ import annotations
 
 import io
 
-from gazelle.diagnostics import (
-    Diagnostic,
-    Severity,
-    SourceLines,
-    SourceSpan,
-    render,
-    render_text,
-    styled,
-)
+from gazelle.diagnostics import Diagnostic, Severity, SourceSpan, render, render_text
+from gazelle.diagnostics.render import SourceLines, styled
 
 
 def finding(span: SourceSpan | None = None, fix: str = "", phrase: str = "") -> Diagnostic:

@@ -15,8 +15,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from gazelle.cli.doctor.tables import table_lines, table_title
-from gazelle.diagnostics import Diagnostic, Severity, SourceLines, SourceSpan, groups, styled
-from gazelle.diagnostics.collection import grouped
+from gazelle.diagnostics import Diagnostic, Severity, SourceSpan
+from gazelle.diagnostics.collection import grouped, groups
+from gazelle.diagnostics.render import SourceLines, styled
 
 if TYPE_CHECKING:
     from rich.console import Console
