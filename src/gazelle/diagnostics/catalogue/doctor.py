@@ -50,6 +50,22 @@ _LAUNCHES = (
         "RLException: requires the arg to be set",
     ),
     Entry(
+        "doctor.other-workspace",
+        "info",
+        "A target lies in another workspace than the current folder",
+        "Nothing started here would find its packages. It is examined as from its own folder.",
+        "go there before you start it, or source its setup.bash",
+        "ResourceNotFound",
+    ),
+    Entry(
+        "doctor.part",
+        "info",
+        "A file is a part of a robot",
+        "It has no links, or uses properties and macros of the file that includes it; that one is "
+        "examined in its place.",
+        "nothing",
+    ),
+    Entry(
         "doctor.bad-arguments",
         "error",
         "A node is started with arguments that it refuses",
