@@ -235,6 +235,22 @@ _LAUNCHES = (
         "remap one of the names, or put both nodes into one namespace",
     ),
     Entry(
+        "doctor.topic-misspelt",
+        "warning",
+        "A script uses a topic that nobody else has, and nearly the same name is there",
+        "Messages go nowhere; ROS says nothing of it.",
+        "write the other name, or remap this one",
+    ),
+    Entry(
+        "doctor.topic-type",
+        "error",
+        "A script and the other end of a topic have different types of messages",
+        "ROS links only ends of one type: nothing arrives. ROS 1 prints an error where the two "
+        "meet, ROS 2 nothing.",
+        "import the type that the other end has",
+        "topic types do not match; Dropping connection; wants topic to have datatype/md5sum",
+    ),
+    Entry(
         "doctor.required-ends",
         "warning",
         "A node that ends by itself is required",
