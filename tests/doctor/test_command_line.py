@@ -6,10 +6,13 @@ import os
 import socket
 import subprocess
 import threading
+from pathlib import Path
 from typing import Any
 
 import pytest
 from tests.doctor.conftest import FIXTURES, Examine, Write
+
+from gazelle.doctor import Options, examine
 
 NAMES = FIXTURES / "pain_23_namespaces" / "clean"
 
@@ -109,3 +112,22 @@ def test_a_line_of_gazelles_own_files_is_told_as_the_users_include(
     (finding,) = [item for item in report.findings if item.code == "doctor.paused"]
     assert finding.span is not None
     assert (finding.span.file, finding.span.line, finding.span.via) == (str(path), 2, ())
+
+
+def test_a_file_of_another_workspace_is_examined_as_from_there(
+    written: Write, tmp_path: Path
+) -> None:
+    launch = '<launch><include file="$(find bot)/launch/b.launch"/></launch>'
+    folder = written(**{"launch__a.launch": launch, "launch__b.launch": "<launch/>"})
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    options = Options(environ={"HOME": str(tmp_path)})
+    report = examine([str(folder / "launch" / "a.launch")], options=options, cwd=elsewhere)
+    (item,) = report.findings
+    assert item.code == "doctor.other-workspace"
+    assert item.message == (
+        f"package 'bot' is in a workspace that is not in use in '{elsewhere}': it is examined as "
+        "from its own folder"
+    )
+    assert item.fix == f"cd {folder}"
+    assert list(examine(["launch/a.launch"], options=options, cwd=folder).findings) == []

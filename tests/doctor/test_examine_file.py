@@ -117,3 +117,43 @@ def test_chain_of_twenty_thousand_links_is_soon_found_too_long(
     assert time.thread_time() - begun < 30.0
     (found,) = (item for item in report.findings if item.code == "doctor.spawn-fails")
     assert f"has a chain of more than {most}, up to joint 'j" in found.message
+
+
+WHOLE = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+<xacro:property name="side" value="{side}"/>
+<xacro:include filename="parts/shapes.xacro"/><link name="a"><xacro:cube mass="1"/></link>
+</robot>"""
+SHAPES = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:include filename="box.xacro"/>
+</robot>"""
+PART = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="cube" params="mass">
+<inertial><mass value="${mass}"/><inertia ixx="${side}" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
+</inertial></xacro:macro><material name="m"><color rgba="${side} 0 0 1"/></material></robot>"""
+
+
+@pytest.mark.parametrize("name", ["parts/box.xacro", "parts/shapes.xacro"])
+def test_a_part_of_a_robot_is_examined_as_that(
+    written: Write, examined: Examine, name: str
+) -> None:
+    files = {"urdf__bot.urdf.xacro": WHOLE.format(side=1), "urdf__parts__shapes.xacro": SHAPES}
+    folder = written(**files, **{"urdf__parts__box.xacro": PART})
+    report = examined(folder, f"urdf/{name}")
+    (found,) = (item for item in report.findings if item.code == "doctor.part")
+    part = name.rpartition("/")[2]
+    assert (
+        found.message == f"'{part}' is a part of 'bot.urdf.xacro', which is examined in its place"
+    )
+    assert codes(report) == []
+
+
+def test_what_is_wrong_with_a_part_is_told_there(written: Write, examined: Examine) -> None:
+    files = {"urdf__bot.urdf.xacro": WHOLE.format(side=3), "urdf__parts__shapes.xacro": SHAPES}
+    folder = written(**files, **{"urdf__parts__box.xacro": PART})
+    report = examined(folder, "urdf/parts/box.xacro")
+    (found,) = (item for item in report.findings if item.code == "inertia.triangle")
+    assert found.span is not None
+    assert found.span.file.endswith("parts/box.xacro")
+
+
+def test_a_file_that_no_robot_includes_is_examined_alone(written: Write, examined: Examine) -> None:
+    folder = written(**{"urdf__box.xacro": PART})
+    assert "xacro.undefined-name" in codes(examined(folder, "urdf/box.xacro"))

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.errors_as_warnings import strict
-from gazelle.diagnostics import Diagnostic
+from gazelle.diagnostics import Diagnostic, Diagnostics
 from gazelle.doctor.causes import causes_first
 from gazelle.doctor.examine_file import examine_file, kind_name
 from gazelle.doctor.examine_package import examine_folder, examine_package
@@ -18,6 +18,7 @@ from gazelle.doctor.packages import check_environment
 from gazelle.doctor.report import Examination, Options, Report
 from gazelle.doctor.robots_and_worlds import without_superseded
 from gazelle.doctor.target import Target, find_target, package_at
+from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace import Workspace
 from gazelle.workspace.environment_paths import BUILTIN
 
@@ -41,7 +42,8 @@ def examine(
     Args:
         argv: ``PKG``, ``FOLDER``, ``FILE``, ``PKG FILE``, or nothing for what the current
             folder is in; arguments (``name:=value``) are in `options`.
-        workspace: finds packages and models; made from the options' environment when None.
+        workspace: finds packages and models; made from the options' environment when None, and
+            for a path then also from what is around that.
         options: choices of the caller.
         progress: told what is being looked at.
         cwd: what relative paths start from; the current folder when None.
@@ -52,9 +54,10 @@ def examine(
     """
     options = options or Options()
     here = Path.cwd() if cwd is None else cwd
-    workspace = workspace or Workspace.discover(environ=options.environ, cwd=here)
+    found = Diagnostics()
+    workspace = workspace or _workspace_of(argv, options, here, found)
     target = find_target(argv, workspace, here)
-    examination = Examination(workspace, options)
+    examination = Examination(workspace, options, found)
     if progress is not None:
         examination.say = progress
     check_environment(options.environ, diagnostics=examination.diagnostics)
@@ -68,6 +71,25 @@ def examine(
         sections=tuple(examination.sections),
         consequences=consequences,
     )
+
+
+def _workspace_of(
+    argv: Sequence[str], options: Options, cwd: Path, diagnostics: Diagnostics
+) -> Workspace:
+    """Return the workspace of the current folder, or the target's own where that is another."""
+    here = Workspace.discover(environ=options.environ, cwd=cwd)
+    path = cwd / Path(argv[0]).expanduser() if argv else cwd
+    folder = path.parent if is_file(path) else path
+    if not is_folder(folder) or package_at(folder, here) is not None:
+        return here
+    around = Workspace.discover(environ=options.environ, cwd=folder)
+    package = package_at(folder, around)
+    if package is None:
+        return here
+    text = f"package '{package.name}' is in a workspace that is not in use in '{cwd}': it is "
+    text += "examined as from its own folder"
+    diagnostics.report("doctor.other-workspace", text, fix=f"cd {package.path}")
+    return around
 
 
 def _findings(examination: Examination) -> list[Diagnostic]:

@@ -9,9 +9,10 @@ from pathlib import Path
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.xml import read_xml
-from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
+from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan
 from gazelle.doctor.dry_start import Program, StartPlan, dry_start
 from gazelle.doctor.file_kinds import Kind, is_semantic
+from gazelle.doctor.included_files import including_robot
 from gazelle.doctor.launch_ros1 import examine_launch
 from gazelle.doctor.launch_ros2 import check_launch
 from gazelle.doctor.parameters import check_package_parameters, check_parameter_file
@@ -25,6 +26,16 @@ from gazelle.workspace.environment_paths import BUILTIN
 __all__ = ["examine_file", "kind_name"]
 
 _EMPTY = BUILTIN / "worlds" / "empty.world"
+# What is wrong with a file that needs the one that includes it.
+_OF_A_PART = frozenset(
+    {
+        "urdf.no-links",
+        "urdf.no-robot-name",
+        "xacro.argument-missing",
+        "xacro.undefined-name",
+        "xacro.unknown-macro",
+    }
+)
 _IN_EMPTY = frozenset({"ground_plane", "sun"})
 
 
@@ -113,6 +124,11 @@ def _examine_robot(
     )
     if _is_left(file, found, examination):
         return
+    whole = _whole_robot(file, found, examination)
+    if whole is not None:
+        examination.see(whole)
+        _examine_robot(whole, examination, mappings)
+        return
     if not models or found.errors:
         examination.diagnostics.extend(found)
         return
@@ -147,6 +163,19 @@ def _is_left(file: Path, found: Diagnostics, examination: Examination) -> bool:
             diagnostics.add(replace(item, severity=Severity.INFO, message=text))
         return True
     return False
+
+
+def _whole_robot(file: Path, found: Diagnostics, examination: Examination) -> Path | None:
+    """Return the robot that a file is a part of, which means nothing on its own."""
+    package = package_at(file.parent, examination.workspace)
+    codes = {item.code for item in found.errors}
+    if examination.is_wide or package is None or not codes or not codes <= _OF_A_PART:
+        return None
+    whole = including_robot(file, package.path)
+    if whole is not None:
+        text = f"'{file.name}' is a part of '{whole.name}', which is examined in its place"
+        examination.diagnostics.report("doctor.part", text, SourceSpan(str(file)))
+    return whole
 
 
 def _is_light(file: Path) -> bool:

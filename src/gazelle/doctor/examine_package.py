@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.examine_file import examine_file
 from gazelle.doctor.file_kinds import Kind, kind_of, looks_like
+from gazelle.doctor.included_files import included_names
 from gazelle.doctor.packages import check_package
 from gazelle.doctor.parameters import check_package_parameters
 from gazelle.doctor.report import Examination
@@ -18,7 +18,7 @@ from gazelle.workspace import Package
 
 __all__ = ["examine_folder", "examine_package"]
 
-_INCLUDE = re.compile(r"""<(?:xacro:)?include\b[^>]*\bfile(?:name)?\s*=\s*["']([^"']+)""")
+_ROBOTS = frozenset({".urdf", ".xacro"})
 _PRUNED = frozenset({"__pycache__", "build", "devel", "install", "log", "node_modules"})
 # Launches come first: what they use is examined as they use it, with their arguments. Parameter
 # files and SRDFs are looked at together, beside the robots they are for.
@@ -59,10 +59,12 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
         text = f"'{folder}' holds no launch file, robot, world, model or parameter file"
         examination.diagnostics.report("doctor.nothing", text, SourceSpan(str(folder)))
     # A file that is no XML includes its pieces all the same.
-    pieces = _included_names(
-        path for path, kind in files if kind is Kind.ROBOT or (kind is None and _is_robot(path))
+    pieces = included_names(
+        path
+        for path, kind in files
+        if kind is Kind.ROBOT or (kind is None and path.suffix in _ROBOTS)
     )
-    included = _included_names(path for path, kind in kinds if kind is Kind.LAUNCH)
+    included = included_names(path for path, kind in kinds if kind is Kind.LAUNCH)
     # Files that others include are examined as those include them, with their arguments.
     kinds.sort(key=lambda item: item[0].name in included)
     for wanted in _ORDER:
@@ -83,16 +85,6 @@ def _examine_robot(path: Path, examination: Examination) -> None:
         return
     examination.diagnostics.extend(alone.diagnostics)
     examination.add(*alone.sections)
-
-
-def _is_robot(path: Path) -> bool:
-    return path.suffix in {".xacro", ".urdf"}
-
-
-def _included_names(paths: Iterable[Path]) -> frozenset[str]:
-    """Return the names of files that xacro or launch files include."""
-    texts = (path.read_text(encoding="utf-8", errors="replace") for path in paths)
-    return frozenset(name.rpartition("/")[2] for text in texts for name in _INCLUDE.findall(text))
 
 
 def _files_below(folder: Path) -> Iterator[Path]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from functools import cache
 from pathlib import PurePath
 
@@ -60,7 +61,10 @@ def plugins_section(world: World, findings: Iterable[Diagnostic], *, subject: st
         subject: what the table is about.
     """
     wrong = {
-        item.span: _MISSING_CODES[item.code] for item in findings if item.code in _MISSING_CODES
+        span: _MISSING_CODES[item.code]
+        for item in findings
+        if item.code in _MISSING_CODES
+        for span in _plugin_spans(item)
     }
     rows = tuple(
         (plugin.filename or plugin.name, owner, _done(plugin, wrong), _location(plugin.span))
@@ -111,6 +115,14 @@ def probe(start: DryStart, plan: StartPlan, examination: Examination) -> None:
         progress=examination.say,
     )
     examination.add(*sections)
+
+
+def _plugin_spans(item: Diagnostic) -> Iterator[SourceSpan | None]:
+    """Yield the places of a finding about a plug-in: its own file may be to blame."""
+    yield item.span
+    if item.span is not None:
+        for number, place in enumerate(item.span.via):
+            yield replace(place, via=item.span.via[number + 1 :])
 
 
 def _plugins(world: World) -> Iterator[tuple[str, PluginTag]]:

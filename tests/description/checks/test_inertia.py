@@ -108,6 +108,12 @@ def test_link_lighter_than_foam(judge) -> None:
     assert found.only.fix == "correct the mass or the shapes; at 1000 kg/m³ they have 6 kg"
 
 
+def test_balloon_that_feels_no_gravity_may_be_light(judge) -> None:
+    extension = '<gazebo reference="a"><turnGravityOff>true</turnGravityOff></gazebo>'
+    light = link(inertial(0.06, (6.5e-4, 5e-4, 2.5e-4)))
+    assert judge(robot(light, extension)).codes == []
+
+
 def test_link_denser_than_gold(judge) -> None:
     mass = 6e-3 * 3e7
     moments = (mass * 0.13 / 12, mass * 0.1 / 12, mass * 0.05 / 12)

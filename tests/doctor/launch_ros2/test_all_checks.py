@@ -223,6 +223,26 @@ def test_misspelt_argument_of_the_command_line(check: Check) -> None:
     assert reading.sections[0].rows[0][0] == "b"
 
 
+@pytest.mark.parametrize(
+    "read",
+    [
+        "[LaunchConfiguration(x).perform(c) for x in NAMES]",
+        "c.launch_configurations",
+        "LaunchConfiguration(variable_name=given())",
+    ],
+)
+def test_arguments_whose_names_are_computed_may_be_read(check: Check, read: str) -> None:
+    text = "from launch.actions import DeclareLaunchArgument, OpaqueFunction\n"
+    text += "from launch.substitutions import LaunchConfiguration\n"
+    text += f"def later(c, *rest):\n    return {read}\n"
+    declared = "DeclareLaunchArgument('wor' + 'ld', default_value='a')"
+    body = PYTHON.format(f"{declared}, OpaqueFunction(function=later)")
+    found, _ = check("a.launch.py", text + body)
+    assert not found.by_code("launch_ros2.argument-idle")
+    found, _ = check("a.launch.py", text.replace(read, "c") + body)
+    assert found.by_code("launch_ros2.argument-idle")
+
+
 def test_launch_file_in_xml(check: Check) -> None:
     text = """<launch>
   <arg name="rate" default="10"/>

@@ -170,12 +170,12 @@ setup(name='bot', packages=[], data_files=rows + all_files('models'))
 @pytest.mark.parametrize(
     ("root", "name", "codes"),
     [
-        (EXAMPLES / "arm_ws", "heron_bringup", {"package.install-unread", "package.undeclared"}),
-        (EXAMPLES / "arm_ws", "heron_description", {"package.undeclared"}),
+        (EXAMPLES / "arm_ws", "heron_bringup", set()),
+        (EXAMPLES / "arm_ws", "heron_description", set()),
         (EXAMPLES / "arm_ws", "heron_moveit_config", set()),
         (EXAMPLES / "four_wheel_ws", "courier_robot", set()),
         (EXAMPLES / "own_plugin_ws", "gust_plugins", set()),
-        (EXAMPLES / "scout_ws", "scout_robot", {"package.undeclared"}),
+        (EXAMPLES / "scout_ws", "scout_robot", set()),
         *shared_cases(
             (SHARED / "workspaces/ros2_ws", "luck_description", set()),
             (SHARED / "workspaces/ros2_ws", "luck_gazebo", {"package.undeclared"}),

@@ -114,6 +114,23 @@ def test_undeclared_packages_are_listed_once_with_a_place(check: Any, make: Any)
     assert item.fix == "add <exec_depend>rviz2</exec_depend><exec_depend>xacro</exec_depend>"
 
 
+def test_what_depends_on_the_package_itself_need_not_be_declared(check: Any, make: Any) -> None:
+    """Declared, it would close a circle that no build tool can sort."""
+    xacro = '<robot><link name="$(find bot_config)"/><link name="$(find bot_launch)"/></robot>'
+    lists = AMENT.replace(
+        "ament_package", "install(DIRECTORY urdf DESTINATION share/bot)\nament_package"
+    )
+    root = make(**{"urdf__a.xacro": xacro, "CMakeLists.txt": lists})
+    for name, needs in {"bot_config": "bot", "bot_launch": "bot_config", "other": "x"}.items():
+        text = f"<package format='3'><name>{name}</name><depend>{needs}</depend></package>"
+        (root / name).mkdir()
+        (root / name / "package.xml").write_text(text)
+    assert list(check("bot", root)[0]) == []
+    (root / "bot_config" / "package.xml").write_text("<package><name>bot_config</name></package>")
+    (item,) = check("bot", root)[0]
+    assert "bot_config (urdf/a.xacro:1), bot_launch" in item.message
+
+
 def test_mistyped_dependency_has_a_nearest_name(check: Any, make: Any) -> None:
     inner = "<depend>sensor_msg</depend><depend>my_msgs</depend><depend>python3-numpy</depend>"
     root = make(**{"package.xml": manifest(inner), "CMakeLists.txt": AMENT})

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from tests.doctor.probes.worlds import block, ground, probed, robot
 
-from gazelle.diagnostics import Severity
+from gazelle.diagnostics import Diagnostics, Severity
+from gazelle.doctor.probes import run_probes
+from gazelle.simulator.description_sources import world_from
+from gazelle.workspace import Workspace
 
 
 def test_block_on_level_ground_is_still() -> None:
@@ -47,6 +52,23 @@ def test_robot_without_ground_falls() -> None:
     assert item.message == "robot 'cube' falls: 706 m in 10 s, and nothing touches it"
     assert pytest.approx(706, abs=1) == 9.8 / 2 * (12.201**2 - 2.201**2)
     assert item.fix.startswith("put a ground plane into the world")
+
+
+def test_robot_falls_along_gravity_whichever_way_that_is() -> None:
+    _, found = probed(block(0.1), gravity_m_s2=(9.8, 0.0, 0.0))
+    assert [item.code for item in found] == ["probe.thrown", "probe.falls"]
+
+
+def test_what_feels_no_gravity_may_float_away(examples_dir: Path) -> None:
+    """Wind of a plug-in carries the balloons of the example."""
+    found = Diagnostics()
+    workspace = Workspace.discover(environ={}, cwd="/", extra=[examples_dir / "own_plugin_ws"])
+    file = workspace.package("gust_plugins").path / "worlds" / "gust.world"
+    world = world_from(str(file), workspace, found)
+    sections = run_probes(world, workspace=workspace, diagnostics=found)
+    (drift,) = [item for item in sections if item.name == "probe_idle_drift"]
+    assert [(row[0], row[4]) for row in drift.rows] == [("slow", "floats"), ("fast", "floats")]
+    assert list(found) == []
 
 
 def test_falling_robot_is_not_told_to_drive() -> None:

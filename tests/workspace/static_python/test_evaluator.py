@@ -77,6 +77,20 @@ def test_globs_and_walks_look_at_names_only(tmp_path: Path) -> None:
     assert names["y"] == [("launch", ["a.launch.py"])]
 
 
+def test_globs_of_paths_look_at_names_only(tmp_path: Path) -> None:
+    (tmp_path / "launch" / "more").mkdir(parents=True)
+    (tmp_path / "launch" / "a.launch.py").touch()
+    (tmp_path / "launch" / "more" / "b.launch.py").touch()
+    text = "from pathlib import Path\nhere = Path('launch')\n"
+    text += "x = [str(file) for file in here.glob('*.py')]\ny = [*here.rglob('*.py')]\n"
+    text += "z = [one.name for one in here.iterdir()]\nu = [*here.glob(unknown)]\n"
+    names = evaluated(text, tmp_path)
+    assert names["x"] == ["launch/a.launch.py"]
+    assert [str(one) for one in names["y"]] == ["launch/a.launch.py", "launch/more/b.launch.py"]
+    assert names["z"] == ["a.launch.py", "more"]
+    assert names["u"] == [UNKNOWN]
+
+
 def test_calls_are_noted_with_their_arguments() -> None:
     evaluator = Evaluator(Path("/f.py"), Path("/"))
     text = (

@@ -17,22 +17,46 @@ from gazelle.control.python_controllers.controller_api import (
     UserNode,
     UserRobot,
 )
+from gazelle.diagnostics import SourceSpan
 from gazelle.parameters import ParameterTable
 
-__all__ = ["PythonController", "adapted", "located"]
+__all__ = ["PythonController", "adapted", "error_span", "error_text", "located"]
 
 
 def located(error: BaseException, folder: Path) -> str:
     """Return an error in words, with file and line of the last frame below a folder."""
+    span = error_span(error, folder)
+    place = "" if span is None else f"{span.file}:{span.line}"
+    text = error_text(error, folder)
+    return f"{place} {text}" if text.startswith("in ") else f"{place}: {text}" if place else text
+
+
+def error_text(error: BaseException, folder: Path) -> str:
+    """Return an error in words, with the function of the last frame below a folder."""
     text = f"{type(error).__name__}: {error}"
+    last = _last_frame(error, folder)
+    return text if last is None else f"in {last.name}(): {text}"
+
+
+def error_span(error: BaseException, folder: Path) -> SourceSpan | None:
+    """Return the line below a folder that an error came from; None when there is none."""
     if isinstance(error, SyntaxError) and error.filename:
-        return f"{error.filename}:{error.lineno}: {text}"
+        return SourceSpan(error.filename, error.lineno or 0, error.offset or 0)
+    last = _last_frame(error, folder)
+    if last is None:
+        return None
+    begin, end = last.colno or 0, last.end_colno or 0
+    is_one_line = last.end_lineno == last.lineno
+    length = end - begin if is_one_line else 0
+    return SourceSpan(last.filename, last.lineno or 0, begin + 1, length)
+
+
+def _last_frame(error: BaseException, folder: Path) -> traceback.FrameSummary | None:
+    if isinstance(error, SyntaxError) and error.filename:
+        return None
     frames = traceback.extract_tb(error.__traceback__)
     own = [frame for frame in frames if Path(frame.filename).is_relative_to(folder)]
-    if not own:
-        return text
-    last = own[-1]
-    return f"{last.filename}:{last.lineno} in {last.name}(): {text}"
+    return own[-1] if own else None
 
 
 _ARGUMENTS = {

@@ -280,6 +280,8 @@ def _density_finding(
     densities = [written.mass_kg / volume for volume in record.volumes_m3] if written else []
     if written is None or not densities or (max(densities) >= low and min(densities) <= high):
         return
+    if max(densities) < low and not record.feels_gravity:
+        return  # a balloon
     volume = max(record.volumes_m3) if max(densities) < low else min(record.volumes_m3)
     message = (
         f"link '{record.name}' has {written.mass_kg:.6g} kg in shapes of {volume:.4g} m³: "

@@ -70,6 +70,7 @@ class LinkRecord:
         needs_mass: it moves and nothing it is fixed to has mass.
         is_fixed: a fixed joint ties it to another link of a URDF; both move as one body.
         is_root: no joint moves its body.
+        feels_gravity: False where gravity is switched off for it, as for what floats.
         below: links that hang on its body.
         span: place of the ``<link>``.
         collisions, visuals: shapes of 1 kg/m³, their mass is the volume; without the flat ones.
@@ -85,6 +86,7 @@ class LinkRecord:
     needs_mass: bool = True
     is_fixed: bool = False
     is_root: bool = False
+    feels_gravity: bool = True
     below: tuple[str, ...] = ()
     span: SourceSpan | None = None
     collisions: tuple[MassProperties, ...] = ()
@@ -229,7 +231,7 @@ def _record(
 ) -> LinkRecord:
     collisions = [(item.shape, item.T_link_collision, item.span) for item in link.collisions]
     visuals = [(item.shape, item.T_link_visual, item.span) for item in link.visuals]
-    inertial = None if tag is None else tag.find("inertial")
+    inertial = _inertial_tag(tag, link)
     auto = inertial is not None and inertial.attributes.get("auto", "").strip().lower() in _TRUE
     written = None if auto else _written(tag, link, model.source_format)
     shapes = collisions + visuals
@@ -240,6 +242,7 @@ def _record(
         written=written,
         is_computed=auto,
         has_unreadable=inertial is not None and written is None and not auto,
+        feels_gravity=link.gravity,
         span=link.span,
         collisions=_bodies(collisions, diagnostics),
         visuals=_bodies(visuals, diagnostics),
@@ -262,11 +265,9 @@ def _bodies(
 
 
 def _written(tag: Tag | None, link: Link, source_format: str) -> WrittenInertial | None:
-    if tag is None:
-        return _as_read(link)
-    inertial = tag.find("inertial")
+    inertial = _inertial_tag(tag, link)
     if inertial is None:
-        return None
+        return _as_read(link) if tag is None else None
     is_urdf = source_format == "urdf"
     mass, moments = _urdf_numbers(inertial) if is_urdf else _sdf_numbers(inertial)
     if mass is None or moments is None:
@@ -280,6 +281,13 @@ def _written(tag: Tag | None, link: Link, source_format: str) -> WrittenInertial
         (inertial.find("mass") or inertial).span,
         (inertial.find("inertia") or inertial).span,
     )
+
+
+def _inertial_tag(tag: Tag | None, link: Link) -> Tag | None:
+    """Return a link's ``<inertial>``: as its reader saw it, which a macro may have written."""
+    if link.inertial_tag is not None:
+        return link.inertial_tag
+    return None if tag is None else tag.find("inertial")
 
 
 def _as_read(link: Link) -> WrittenInertial | None:

@@ -7,6 +7,7 @@ from enum import Enum
 
 from gazelle.description.model.sensor import Sensor
 from gazelle.description.model.shape import Material, Rgba, Shape
+from gazelle.description.xml import Tag
 from gazelle.diagnostics import SourceSpan
 from gazelle.geometry import IDENTITY_POSE, Pose, Vector3
 
@@ -152,6 +153,7 @@ class Link:
         name: name within the model; nested models' links are ``nested::link``.
         T_model_link: pose in the model's frame with all joints at zero.
         inertial: mass properties, None for a link that has none (URDF frames).
+        inertial_tag: what they were read from, after xacro; None where the file has nothing.
     """
 
     name: str
@@ -167,3 +169,4 @@ class Link:
     linear_damping: float = 0.0
     angular_damping: float = 0.0
     span: SourceSpan | None = None
+    inertial_tag: Tag | None = field(default=None, compare=False, repr=False)

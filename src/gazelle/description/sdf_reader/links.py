@@ -48,6 +48,7 @@ def read_link(tag: Tag, T_model_link: Pose, resolver: PoseResolver, *, static: b
         linear_damping=child_float(decay, "linear", 0.0, context),
         angular_damping=child_float(decay, "angular", 0.0, context),
         span=tag.span,
+        inertial_tag=tag.find("inertial"),
     )
 
 

@@ -38,6 +38,7 @@ def read_link(tag: Tag, name: str, materials: dict[str, Material], context: Read
         collisions=_read_collisions(tag, name, context),
         visuals=_read_visuals(tag, name, materials, context),
         span=tag.span,
+        inertial_tag=inertial,
     )
 
 

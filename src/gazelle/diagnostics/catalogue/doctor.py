@@ -50,6 +50,22 @@ _LAUNCHES = (
         "RLException: requires the arg to be set",
     ),
     Entry(
+        "doctor.other-workspace",
+        "info",
+        "A target lies in another workspace than the current folder",
+        "Nothing started here would find its packages. It is examined as from its own folder.",
+        "go there before you start it, or source its setup.bash",
+        "ResourceNotFound",
+    ),
+    Entry(
+        "doctor.part",
+        "info",
+        "A file is a part of a robot",
+        "It has no links, or uses properties and macros of the file that includes it; that one is "
+        "examined in its place.",
+        "nothing",
+    ),
+    Entry(
         "doctor.bad-arguments",
         "error",
         "A node is started with arguments that it refuses",
@@ -217,6 +233,22 @@ _LAUNCHES = (
         "Two nodes use different names for what seems to be the same topic",
         "Messages go nowhere.",
         "remap one of the names, or put both nodes into one namespace",
+    ),
+    Entry(
+        "doctor.topic-misspelt",
+        "warning",
+        "A script uses a topic that nobody else has, and nearly the same name is there",
+        "Messages go nowhere; ROS says nothing of it.",
+        "write the other name, or remap this one",
+    ),
+    Entry(
+        "doctor.topic-type",
+        "error",
+        "A script and the other end of a topic have different types of messages",
+        "ROS links only ends of one type: nothing arrives. ROS 1 prints an error where the two "
+        "meet, ROS 2 nothing.",
+        "import the type that the other end has",
+        "topic types do not match; Dropping connection; wants topic to have datatype/md5sum",
     ),
     Entry(
         "doctor.required-ends",

@@ -126,7 +126,12 @@ def _brought_up(
     managers = managers_of(server.controls.managers)
     world = server.engine.world
     moments = FirstMoments()
+    before = len(server.diagnostics)
     moments.listen(server, node)
+    # A plug-in of the user's that raises as soon as time passes does so in every run.
+    for item in tuple(server.diagnostics)[before:]:
+        if item.code == "plugin.user-error":
+            diagnostics.add(item)
     return DryStart(
         world=world,
         node=node,

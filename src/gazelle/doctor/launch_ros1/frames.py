@@ -9,9 +9,10 @@ from gazelle.description.model import Joint, JointType, Model
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
-from gazelle.doctor.launch_ros1.topics import NodeTopics, read_script
+from gazelle.doctor.launch_ros1.topics import NodeTopics
 from gazelle.doctor.report import Section
 from gazelle.doctor.robots_and_worlds import frame_slip, frame_tag
+from gazelle.doctor.script_topics import read_script
 from gazelle.errors import LaunchError
 from gazelle.nodes.link_tree import read_description
 from gazelle.nodes.static_transform_publisher import parse_arguments

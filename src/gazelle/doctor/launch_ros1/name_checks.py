@@ -9,6 +9,7 @@ from pathlib import Path
 from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.launch_ros1.topics import NodeTopics
+from gazelle.doctor.topic_checks import check_topic_names, check_topic_types, same_type
 from gazelle.documents import read_text_limited
 from gazelle.graph.names import resolve
 
@@ -54,8 +55,13 @@ def check_remaps(
 def check_topics(
     launched: Launched, topics: Sequence[NodeTopics], diagnostics: Diagnostics
 ) -> None:
-    """Report topics that the user's scripts and the simulator know under different names."""
-    if any(not item.is_complete and item.node.role is not Role.VIEW for item in topics):
+    """Report topics that the user's scripts and others know under other names or types."""
+    ends = [end for item in topics for end in item.ends()]
+    check_topic_types(ends, diagnostics, ros_version=1)
+    unknown = [item for item in topics if not item.is_complete and item.node.role is not Role.VIEW]
+    taken = [_target(pair, item.node) for item in unknown for pair in item.node.spec.remaps]
+    check_topic_names(ends, diagnostics, is_whole=not unknown, others=taken)
+    if unknown:
         return
     offered = {name: kind for item in topics for name, kind in item.publishes.items()}
     heard = {name: kind for item in topics for name, kind in item.listens.items()}
@@ -68,6 +74,10 @@ def check_topics(
         for name, kind in item.publishes.items():
             if name not in heard:
                 _report_topic(item.node, name, kind, heard, True, diagnostics)
+
+
+def _target(remap: tuple[str, str], node: LaunchedNode) -> str:
+    return resolve(remap[1], node.program.namespace, node=node.full_name)
 
 
 def check_descriptions(launched: Launched, diagnostics: Diagnostics) -> None:
@@ -149,7 +159,9 @@ def _report_topic(
     publishes: bool,
     diagnostics: Diagnostics,
 ) -> None:
-    fitting = [item for item, other in others.items() if not kind or _same(kind, other)]
+    fitting = [
+        item for item, other in others.items() if not kind or not other or same_type(kind, other)
+    ]
     last = name.rpartition("/")[2]
     same = [item for item in fitting if item.rpartition("/")[2] == last and item != name]
     near = same[0] if same else ""
@@ -160,10 +172,6 @@ def _report_topic(
     text += f"'{near}' of the same type"
     fix = f'write <remap from="{name}" to="{near}"/> into the node, or correct its ns'
     diagnostics.report("doctor.topic-elsewhere", text, node.spec.span, fix=fix)
-
-
-def _same(kind: str, other: str) -> bool:
-    return not other or kind == other.rpartition("/")[2]
 
 
 def _nearest(name: str, known: set[str]) -> str:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from functools import lru_cache
-from pathlib import Path
+from dataclasses import dataclass, replace
 
-from gazelle.compat.python2 import is_python2, translated
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
+from gazelle.doctor.script_topics import TopicUse, read_script
+from gazelle.doctor.topic_checks import TopicEnd
 from gazelle.graph.names import resolve
 from gazelle.node_specs.parameter_substitution import ValueOf, expanded, holds
 from gazelle.node_specs.registry import node_specs
@@ -21,21 +19,11 @@ __all__ = [
     "BuiltinTopics",
     "KnownNode",
     "NodeTopics",
-    "ScriptTopics",
     "builtin_topics",
-    "read_script",
     "topics_of",
 ]
 
 _EKF = frozenset({"ekf_localization_node", "ekf_node"})
-_PUBLISHERS = frozenset({"Publisher", "create_publisher"})
-_SUBSCRIBERS = frozenset({"Subscriber", "create_subscription"})
-_BROADCASTERS = frozenset(
-    {"StaticTransformBroadcaster", "TransformBroadcaster", "sendTransform", "sendTransformMessage"}
-)
-# Whatever else may talk to topics without naming them here.
-_OPAQUE = frozenset({"__import__", "eval", "exec", "exec_module", "import_module"})
-_ROS_MODULES = frozenset({"rclpy", "rospy"})
 _JOINT_STATE = "sensor_msgs/msg/JointState"
 
 
@@ -60,24 +48,6 @@ class BuiltinTopics:
 
 
 @dataclass(frozen=True, slots=True)
-class ScriptTopics:
-    """Topics of a script, as written in its source.
-
-    Attributes:
-        publishes: names with types, a type is empty when it is not plain.
-        listens: the same for subscriptions.
-        sends_transforms: it has a broadcaster of tf.
-        is_complete: these are all; False when a name is computed or code of other files may
-            talk as well.
-    """
-
-    publishes: tuple[tuple[str, str], ...] = ()
-    listens: tuple[tuple[str, str], ...] = ()
-    sends_transforms: bool = False
-    is_complete: bool = True
-
-
-@dataclass(frozen=True, slots=True)
 class KnownNode:
     """A node that sends no joint states, or known ones.
 
@@ -99,6 +69,7 @@ class NodeTopics:
         is_complete: the node surely uses no others.
         known: what is known of joint states and tf of a node whose topics are not.
         joints: whose states a built-in node sends, where it always sends the same.
+        uses: topics of a script, with their places.
     """
 
     node: LaunchedNode
@@ -108,6 +79,18 @@ class NodeTopics:
     is_complete: bool = True
     known: KnownNode | None = None
     joints: frozenset[str] = frozenset()
+    uses: tuple[TopicUse, ...] = ()
+
+    def ends(self) -> list[TopicEnd]:
+        """Return what is known as ends of topics."""
+        node = self.node
+        if self.uses:
+            return [
+                TopicEnd(node.full_name, node.resolve(use.name), use.type, use.publishes, use)
+                for use in self.uses
+            ]
+        gives = [TopicEnd(node.full_name, *item, True) for item in self.publishes.items()]
+        return gives + [TopicEnd(node.full_name, *item, False) for item in self.listens.items()]
 
 
 def builtin_topics(node: LaunchedNode, launched: Launched) -> BuiltinTopics | None:
@@ -132,25 +115,6 @@ def builtin_topics(node: LaunchedNode, launched: Launched) -> BuiltinTopics | No
         _transforms(spec, node, launched, value_of),
         None if spec.joints is None else frozenset(expanded(one, value_of) for one in spec.joints),
         spec.is_complete,
-    )
-
-
-@lru_cache(maxsize=64)
-def read_script(path: Path) -> ScriptTopics:
-    """Read a Python node; one that cannot be read is not complete."""
-    try:
-        source = path.read_bytes()
-        text = source.decode("utf-8", "replace")
-        tree = ast.parse(translated(text) if is_python2(source) else text)
-    except (OSError, SyntaxError, ValueError):
-        return ScriptTopics(is_complete=False)
-    reader = _Reader(_constants(tree), set(_imports(tree)))
-    reader.visit(tree)
-    return ScriptTopics(
-        tuple(dict.fromkeys(reader.publishes)),
-        tuple(dict.fromkeys(reader.listens)),
-        reader.sends_transforms,
-        reader.is_complete and _stands_alone(tree, path),
     )
 
 
@@ -212,103 +176,14 @@ def _filtered(node: LaunchedNode, launched: Launched) -> tuple[tuple[str, str], 
     return ((world, odom if world == frame("map_frame", "map") else base),)
 
 
-class _Reader(ast.NodeVisitor):
-    def __init__(self, constants: dict[str, str], imports: set[str]) -> None:
-        self._constants = constants
-        self._imports = imports
-        self.publishes: list[tuple[str, str]] = []
-        self.listens: list[tuple[str, str]] = []
-        self.sends_transforms = False
-        self.is_complete = True
-
-    def visit_Call(self, node: ast.Call) -> None:
-        name = _called(node.func)
-        if name in _PUBLISHERS | _SUBSCRIBERS:
-            self._topic(node, name)
-        elif name in _BROADCASTERS:
-            self.sends_transforms = True
-        elif name in _OPAQUE or name == "SimpleActionClient" or name.endswith("ActionServer"):
-            self.is_complete = False
-        self.generic_visit(node)
-
-    def _topic(self, node: ast.Call, called: str) -> None:
-        is_ros2 = called.startswith("create_")
-        keywords = {item.arg: item.value for item in node.keywords if item.arg}
-        positions = (1, 0) if is_ros2 else (0, 1)
-        given: list[ast.expr | None] = []
-        for position, keys in zip(
-            positions, (("topic", "name"), ("msg_type", "data_class")), strict=True
-        ):
-            found = next((keywords[key] for key in keys if key in keywords), None)
-            given.append(node.args[position] if position < len(node.args) else found)
-        name = self._text(given[0])
-        if name is None:
-            self.is_complete = False
-            return
-        kind = _called(given[1]) if given[1] is not None else ""
-        target = self.publishes if called in _PUBLISHERS else self.listens
-        target.append((name, kind))
-
-    def _text(self, node: ast.expr | None) -> str | None:
-        if isinstance(node, ast.Constant) and isinstance(node.value, str):
-            return node.value
-        return self._constants.get(node.id) if isinstance(node, ast.Name) else None
-
-
-def _called(node: ast.expr | None) -> str:
-    if isinstance(node, ast.Attribute):
-        return node.attr
-    return node.id if isinstance(node, ast.Name) else ""
-
-
-def _constants(tree: ast.Module) -> dict[str, str]:
-    """Return the texts that names of the module stand for, each bound once."""
-    found: dict[str, str | None] = {}
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Assign):
-            for target in node.targets:
-                if isinstance(target, ast.Name):
-                    value = node.value
-                    text = value.value if isinstance(value, ast.Constant) else None
-                    is_new = target.id not in found and isinstance(text, str)
-                    found[target.id] = text if is_new else None  # type: ignore[assignment]
-    return {name: text for name, text in found.items() if text is not None}
-
-
-def _imports(tree: ast.Module) -> list[str]:
-    names = []
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            names += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            names.append("." * node.level + (node.module or ""))
-    return names
-
-
-def _stands_alone(tree: ast.Module, path: Path) -> bool:
-    """Tell whether no other file of the user's can open topics for this one."""
-    names = _imports(tree)
-    uses_ros = any(name.partition(".")[0] in _ROS_MODULES for name in names)
-    folders = (path.parent, path.parent.parent, path.parent.parent / "src")
-    own = any(
-        name.startswith(".")
-        or any(
-            (folder / name.partition(".")[0]).is_dir()
-            or (folder / f"{name.partition('.')[0]}.py").is_file()
-            for folder in folders
-        )
-        for name in names
-    )
-    return uses_ros and not own
-
-
 def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStart]) -> NodeTopics:
     match node.role:
         case Role.SIMULATOR:
             return _of_simulator(node, starts.get(node.full_name))
         case Role.SCRIPT if node.file is not None:
             script = read_script(node.file)
-            return _named(node, dict(script.publishes), dict(script.listens), script.is_complete)
+            known = _named(node, script.publishes, script.listens, script.is_complete)
+            return replace(known, uses=script.uses)
         case Role.JOINT_STATES:
             sources = launched.private(node, "source_list", [])
             names = sources if isinstance(sources, list) else []
@@ -327,8 +202,8 @@ def _topics(node: LaunchedNode, launched: Launched, starts: Mapping[str, DryStar
             KnownNode(builtin.transforms) if builtin.joints is not None else None,
             builtin.joints or frozenset(),
         )
-    known = _elsewhere(node)
-    return NodeTopics(node, {}, {}, frozenset(), is_complete=False, known=known)
+    sent = _elsewhere(node)
+    return NodeTopics(node, {}, {}, frozenset(), is_complete=False, known=sent)
 
 
 def _elsewhere(node: LaunchedNode) -> KnownNode | None:

@@ -78,6 +78,8 @@ def _check_idle(items: Sequence[Followed], diagnostics: Diagnostics) -> None:
             # It declares what the original does, whoever reads it.
             continue
         below = item.walk()
+        if any(inner.file.computes_uses for inner in below):
+            continue
         used = {use.name for inner in below for use in inner.file.uses}
         for argument in item.file.arguments:
             if argument.name in used or any(_names(inner, argument.name) for inner in below):

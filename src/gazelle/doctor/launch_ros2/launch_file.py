@@ -176,6 +176,7 @@ class LaunchFile:
         opened: files that the file itself opens.
         sets_parameters: parameters of all nodes that follow (``SetParameter``).
         unknown_keywords: arguments that actions do not take.
+        computes_uses: it may read launch arguments whose names it computes.
         text: the file.
     """
 
@@ -190,6 +191,7 @@ class LaunchFile:
     opened: set[str] = field(default_factory=set)
     sets_parameters: set[str] = field(default_factory=set)
     unknown_keywords: list[UnknownKeyword] = field(default_factory=list)
+    computes_uses: bool = False
     text: str = ""
 
     def uses_path(self, path: str) -> bool:

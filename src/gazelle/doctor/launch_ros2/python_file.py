@@ -73,6 +73,7 @@ def read_python_file(
     again = Substitutions(path, given, workspace, first.file.arguments)
     reader = _Reader(path, text, again, workspace)
     reader.follow(tree)
+    reader.file.computes_uses = any(_is_computed_use(node) for node in ast.walk(tree))
     return reader.file
 
 
@@ -332,6 +333,18 @@ class _Reader:
             else:
                 files.append(text)
         return Parameters(values, tuple(files), complete)
+
+
+def _is_computed_use(node: ast.AST) -> bool:
+    """Tell a ``LaunchConfiguration`` of a name that is not written out, and the like."""
+    if isinstance(node, ast.Attribute):
+        return node.attr == "launch_configurations"
+    if not isinstance(node, ast.Call):
+        return False
+    called = node.func.attr if isinstance(node.func, ast.Attribute) else ast.unparse(node.func)
+    given = [*node.args[:1], *(one.value for one in node.keywords if one.arg == "variable_name")]
+    is_written = any(isinstance(one, ast.Constant) for one in given)
+    return called == "LaunchConfiguration" and not is_written
 
 
 def _given(call: Call) -> list[Any]:

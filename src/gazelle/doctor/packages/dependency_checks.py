@@ -91,6 +91,9 @@ def check_dependencies(
         is_own = use.package == source.package.name or use.package in _ALWAYS_THERE
         if use.package not in declared and not is_own and _is_package(use.package, workspace):
             missing.setdefault(use.package, use.span)
+    # Declared, these would close a circle, which no build tool can sort.
+    above = _depending(source.package.name, workspace)
+    missing = {name: span for name, span in missing.items() if name not in above}
     if missing:
         _report_undeclared(source, missing, diagnostics)
     _check_declared(source, workspace, diagnostics)
@@ -107,6 +110,18 @@ def is_slip(name: str, other: str) -> bool:
 
 def _is_package(name: str, workspace: Workspace) -> bool:
     return is_ros_package(name) or name in workspace.packages
+
+
+def _depending(name: str, workspace: Workspace) -> set[str]:
+    """Return the user's packages that depend on one, by way of others too."""
+    found, waiting = set[str](), [name]
+    while waiting:
+        wanted = waiting.pop()
+        for package in workspace.user_packages:
+            if wanted in package.depends and package.name not in found:
+                found.add(package.name)
+                waiting.append(package.name)
+    return found
 
 
 def _report_undeclared(

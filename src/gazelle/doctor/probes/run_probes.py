@@ -69,6 +69,8 @@ def run_probes(
         diagnostics.report("probe.diverged", str(error), _span_of(str(error), robots))
     except EngineError as error:
         diagnostics.report("probe.not-built", f"the world cannot be built: {error}", world.span)
+    for item in unheard.by_code("plugin.user-error"):
+        diagnostics.add(item)
     return tuple(section for section in sections if section.rows)
 
 

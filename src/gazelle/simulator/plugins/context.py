@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle.description.model import CameraSpec, Model, PluginTag, Sensor
-from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.graph import Qos
 from gazelle.graph.subscription import MAX_WAITING, Backlog
 from gazelle.interfaces import message_type, service_type
@@ -280,7 +280,15 @@ class PluginContext:
         host = self.host
         return PluginReader(self.plugin, table, host.diagnostics, host.ros_version)
 
-    def report(self, code: str, message: str, *, fix: str = "", about: str = "") -> None:
+    def report(
+        self,
+        code: str,
+        message: str,
+        *,
+        fix: str = "",
+        about: str = "",
+        at: SourceSpan | None = None,
+    ) -> None:
         """Report something about this plug-in.
 
         Args:
@@ -288,9 +296,12 @@ class PluginContext:
             message: what is wrong.
             fix: what to do.
             about: a value that is wrong; its element is the place, else the plug-in's.
+            at: another file that is to blame; the plug-in's element leads there.
         """
         tags = self.plugin.parameters.walk() if about else iter(())
         span = next((tag.span for tag in tags if about in tag.text.split()), self.plugin.span)
+        if at is not None:
+            span = replace(at, via=(span, *span.via) if span is not None else ())
         self.host.diagnostics.report(code, message, span, fix=fix)
 
     def namespace(self, parameters: PluginReader) -> str:

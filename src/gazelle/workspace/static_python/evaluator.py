@@ -455,6 +455,9 @@ class Evaluator:
         if isinstance(owner, dict) and name == "update":
             owner.update(arguments[0] if arguments and isinstance(arguments[0], dict) else {})
             return None
+        of_folder = self._functions.get(f"pathlib.Path.{name}")
+        if isinstance(owner, PurePath) and of_folder is not None and is_known(arguments):
+            return of_folder(owner, *arguments)
         work = self._methods.get(name) if isinstance(owner, Call) else None
         if work is not None:
             return work(owner)

@@ -118,6 +118,9 @@ def library(folder: Path, file: Path, environ: Mapping[str, str]) -> dict[str, C
         names = islice(glob.iglob(pattern, root_dir=folder, recursive=recursive), _MAX)  # noqa: PTH207
         return sorted(names)
 
+    def inside(base: PurePath, pattern: str) -> list[PurePath]:
+        return [PurePath(name) for name in found(str(base / pattern), recursive=True)]
+
     def walked(top: str, **_others: Any) -> list[tuple[str, list[str], list[str]]]:
         base = folder / top
         rows = islice(os.walk(base), _MAX)
@@ -142,6 +145,9 @@ def library(folder: Path, file: Path, environ: Mapping[str, str]) -> dict[str, C
         "os.path.exists": lambda path: (folder / path).exists(),
         "os.path.isfile": lambda path: (folder / path).is_file(),
         "os.path.isdir": lambda path: (folder / path).is_dir(),
+        "pathlib.Path.glob": inside,
+        "pathlib.Path.iterdir": lambda base: inside(base, "*"),
+        "pathlib.Path.rglob": lambda base, pattern: inside(base / "**", pattern),
         "pathlib.Path.cwd": lambda: PurePath(folder),
     }
     return {**_PURE, **own}

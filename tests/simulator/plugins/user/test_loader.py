@@ -171,21 +171,28 @@ def test_an_error_stops_the_plug_in_and_not_the_world(
     sim.run(seconds=0.5)
     assert sim.time_s == pytest.approx(0.5)
     (found,) = sim.diagnostics.by_code("plugin.user-error")
-    assert "plug-in 'p' (bad.py) raised and is stopped; the world goes on: " in found.message
-    assert "bad.py:10 in on_update(): ValueError: too late" in found.message
+    assert found.message == (
+        "plug-in 'p' (bad.py) raised and is stopped; the world goes on: in on_update(): "
+        "ValueError: too late"
+    )
+    assert found.span is not None
+    assert (Path(found.span.file).name, found.span.line) == ("bad.py", 10)
+    (place,) = found.span.via
+    assert place == sim.server.engine.world.models[0].plugins[0].span
     assert "/gone" not in sim.server.node.topics  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize(
-    ("code", "wanted"),
+    ("code", "line", "wanted"),
     [
-        ("import nothing_of_this_name\n", "bad.py:1 in <module>(): ModuleNotFoundError"),
-        ("def broken(:\n", "bad.py:1: SyntaxError"),
+        ("import nothing_of_this_name\n", 1, "in <module>(): ModuleNotFoundError"),
+        ("def broken(:\n", 1, "goes on: SyntaxError"),
         (
             "from gazelle.simulator.plugins.user import ModelPlugin\n"
             "class Bad(ModelPlugin):\n"
             "    def load(self, model, parameters, node):\n"
             "        model.link('ll')\n",
+            4,
             "link 'll'",
         ),
         (
@@ -193,16 +200,20 @@ def test_an_error_stops_the_plug_in_and_not_the_world(
             "class Bad(ModelPlugin):\n"
             "    def load(self, model, parameters, node):\n"
             "        parameters['forse']\n",
-            "bad.py:4 in load(): KeyError: 'forse'",
+            4,
+            "in load(): KeyError: 'forse'",
         ),
     ],
 )
 def test_a_file_that_does_not_load_is_named_with_its_line(
-    load_with: Callable[..., Simulation], code: str, wanted: str
+    load_with: Callable[..., Simulation], code: str, line: int, wanted: str
 ) -> None:
     sim = load_with({"bad.py": code}, plugin=plugin("libbad.so"))
     (found,) = sim.diagnostics.by_code("plugin.user-error")
     assert wanted in found.message
+    assert found.span is not None
+    assert (Path(found.span.file).name, found.span.line) == ("bad.py", line)
+    assert found.span.via
     sim.run(seconds=0.01)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from gazelle.control.python_controllers.adapter import located
+from gazelle.control.python_controllers.adapter import error_span, error_text, located
 from gazelle.extensions import entry_point_text, folder_of
 from gazelle.simulator.plugins.context import PluginContext, Resources
 from gazelle.simulator.plugins.user.finder import (
@@ -145,10 +145,13 @@ class _Runner:
         except Exception as error:  # noqa: BLE001 - a user's code raises what it likes
             self._failed, self._user = True, None
             plugin = self._context.plugin
+            folder = self._found.folder
             text = f"plug-in '{plugin.name}' ({self._found.path.name}) raised and is stopped; the "
-            text += f"world goes on: {located(error, self._found.folder)}"
-            self._context.report("plugin.user-error", text)
-            self._context.host.node.log("ERROR", text)
+            text += "world goes on"
+            place = error_span(error, folder)
+            message = f"{text}: {error_text(error, folder)}"
+            self._context.report("plugin.user-error", message, at=place)
+            self._context.host.node.log("ERROR", f"{text}: {located(error, folder)}")
             self._resources.close()
             return None
 
