@@ -70,7 +70,7 @@ def uses(source: SourcePackage) -> Iterator[Use]:
         if name.endswith(_XML) and name != "package.xml":
             text = _COMMENT.sub(_blanked, source.text(name))
             yield from _found(source, name, text, _IN_XML)
-            if name.endswith(".xacro"):
+            if name.endswith(".xacro") and "<xacro:" in text:
                 yield Use("xacro", source.span(name, 1))
         elif name.endswith(".py") and name != "setup.py":
             text = _LINE_COMMENT.sub("", source.text(name))
