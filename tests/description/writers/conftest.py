@@ -120,8 +120,11 @@ class Reading:
 
 
 _IGNORED = frozenset(
-    {"span", "shape_span", "type_span", "file", "source_format", "estimated", "raw_text"}
-)
+    {
+        "estimated", "file", "inertial_tag", "raw_text", "shape_span", "source_format", "span",
+        "type_span",
+    }
+)  # fmt: skip
 
 
 def _plain(tag: Tag) -> tuple[Any, ...]:
