@@ -31,7 +31,7 @@ class _Rule(NamedTuple):
         by_file: the cause names the file that the consequence is in.
         is_milder: the cause may be less severe than what follows from it.
         by_fix: the consequence lacks what the cause's fix asks for: ``no 'joint' given``.
-        asks: the cause's fix asks for this.
+        asks: the cause's fix asks for this name; ``?`` for any.
     """
 
     consequence: str
@@ -55,6 +55,8 @@ _RULES = (
     ),
     # What reads like the name of a plug-in that there is was to be one.
     _Rule("doctor.no-controller-manager", ("plugin.unknown",), is_milder=True),
+    _Rule("doctor.joint-without-state", ("plugin.unknown",), asks="?"),
+    _Rule("doctor.topic-elsewhere", ("doctor.topic-misspelt",), by_name=True),
     _Rule(
         "doctor.remap-unused",
         (
@@ -182,7 +184,7 @@ def _follows(item: Diagnostic, cause: Diagnostic) -> bool:
         and (rule.is_milder or cause.severity >= item.severity)
         and (not rule.by_name or _names_of(cause.message, item))
         and (not rule.by_fix or _names_of(cause.fix, item))
-        and (not rule.asks or f"'{rule.asks}'" in cause.fix)
+        and (not rule.asks or f"'{rule.asks.strip('?')}" in cause.fix)
         and (not rule.by_file or (item.span is not None and item.span.file in cause.message))
         for rule in _RULES
     )

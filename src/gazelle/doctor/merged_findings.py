@@ -29,6 +29,8 @@ _PLUGIN_CODES = ("plugin.compiled", "plugin.unknown")
 # The table of plug-ins says it.
 _IN_TABLES = frozenset({"plugin.built-in"})
 _DISAGREE = "control.names-disagree"
+_INCLUDE = re.compile(r"include that file above: .*")
+_MACRO = re.compile(r"unknown macro name: (\S+)")
 _YAML = (".yaml", ".yml")
 _PLACES_SHOWN = 3
 _NAMES_SHOWN = 12
@@ -56,6 +58,7 @@ def condensed(findings: Sequence[Diagnostic], packages: Iterable[str] = ()) -> l
     kept = _by_name(kept, "doctor.controller-fails", _CLASS, "the same class")
     kept = _models(kept)
     kept = _disagreements(kept)
+    kept = _unincluded(kept)
     for code in _PLUGIN_CODES:
         kept = _by_name(kept, code, _LIBRARY, "the same library")
     return [_with_few_places(item) for item in kept]
@@ -184,6 +187,22 @@ def _disagreements(findings: list[Diagnostic]) -> list[Diagnostic]:
         worst = max([item, *late], key=lambda one: one.severity).severity
         if late:
             findings = _replaced(findings, [item, *late], replace(item, severity=worst))
+    return findings
+
+
+def _unincluded(findings: list[Diagnostic]) -> list[Diagnostic]:
+    """Say once of a file that its macros are unknown where it is not included."""
+    groups: dict[tuple[str, str], list[Diagnostic]] = {}
+    for item in findings:
+        found = _INCLUDE.search(item.fix) if item.code == "xacro.unknown-macro" else None
+        if found and item.span is not None:
+            groups.setdefault((item.span.file, found[0]), []).append(item)
+    for (_, fix), group in groups.items():
+        if len(group) > 1:
+            names = {found[1]: None for item in group if (found := _MACRO.search(item.message))}
+            text = f"unknown macro names: {_listed(list(names))}; no file with them is included"
+            one = replace(group[0], message=text, fix=fix)
+            findings = _replaced(findings, group, one)
     return findings
 
 

@@ -391,6 +391,22 @@ _PACKAGES = (
         "ModuleNotFoundError, AttributeError: module has no attribute 'main'",
     ),
     Entry(
+        "package.python-attribute",
+        "warning",
+        "A class uses an attribute that it does not have",
+        "Nothing in the class defines it, and one of nearly the same name is defined.",
+        "correct the name",
+        "AttributeError: object has no attribute",
+    ),
+    Entry(
+        "package.python-name",
+        "warning",
+        "A program uses a name that nothing defines",
+        "The line that uses it raises a NameError when it runs.",
+        "import it, or define it above its use",
+        "NameError: name is not defined",
+    ),
+    Entry(
         "package.python-syntax",
         "error",
         "A program of a package is not Python",

@@ -375,12 +375,28 @@ _ROS2_STATIC = (
         "TypeError: __init__() got an unexpected keyword argument",
     ),
     Entry(
+        "launch_ros2.name",
+        "error",
+        "A launch file uses a name that nothing defines",
+        "The line that uses it raises a NameError when the file is launched.",
+        "import it, or define it above its use",
+        "NameError: name is not defined",
+    ),
+    Entry(
         "launch_ros2.not-installed",
         "warning",
         "A launch file names a file that its package does not install",
         "It is found in the source folder; the share folder of an installed package lacks it.",
         "install it in the package's build file",
         "file was not found in the share directory of package",
+    ),
+    Entry(
+        "launch_ros2.returns-nothing",
+        "error",
+        "generate_launch_description() returns nothing",
+        "What it makes is launched only when it is returned.",
+        "return a LaunchDescription",
+        "AttributeError: 'NoneType' object has no attribute",
     ),
     Entry(
         "launch_ros2.package-missing",

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 
 from gazelle.diagnostics import Diagnostic
 from gazelle.doctor.fixes.edits import Edit, SourceText
-from gazelle.doctor.fixes.xml_places import element_end, tag_at
+from gazelle.doctor.fixes.xml_places import children, element_end, tag_at, tags
 
-__all__ = ["install_rule", "number_written", "xacro_closed", "xacro_command"]
+__all__ = ["install_rule", "number_written", "xacro_closed", "xacro_command", "xacro_included"]
 
 _NUMBERS = re.compile(r"^write ((?:-?[\d.]+(?:[eE]-?\d+)?\s?)+)(?: or ((?:-?[\d.]+\s?)+))?")
-_QUOTED = re.compile(r"'([^'\n]*)'")
+_QUOTED_NUMBERS = re.compile(r"'([-+\d.,\seE]+)'")
 _TEXTFILE = re.compile(r"\btextfile\s*=\s*(\"|')(.*?)\1", re.DOTALL)
 _OPEN_EXPRESSION = re.compile(r"\$\{[^{}\"']*(?=\$\{|[\"'])")
 _CMAKE_END = re.compile(r"^[ \t]*(?:ament_package|ament_auto_package)\s*\(", re.MULTILINE)
@@ -21,7 +21,7 @@ _DATA_FILES = re.compile(r"\bdata_files\s*=\s*\[")
 
 def number_written(finding: Diagnostic, source: SourceText, at: int) -> Iterator[tuple[Edit, ...]]:
     """Write the numbers that a finding offers in place of those that it quotes."""
-    found, quoted = _NUMBERS.match(finding.fix), _QUOTED.search(finding.message)
+    found, quoted = _NUMBERS.match(finding.fix), _QUOTED_NUMBERS.search(finding.message)
     tag = tag_at(source.text, at)
     if found is None or quoted is None or tag is None:
         return
@@ -54,6 +54,16 @@ def xacro_command(_finding: Diagnostic, source: SourceText, at: int) -> Iterator
     if found:
         command = f"command={found[1]}$(find xacro)/xacro {found[2]}{found[1]}"
         yield (Edit(found.start(), found.end(), command),)
+
+
+def xacro_included(finding: Diagnostic, source: SourceText, _at: int) -> Iterator[tuple[Edit, ...]]:
+    """Include the file that defines a macro, above everything else."""
+    found = re.search(r"include that file above: (<xacro:include [^<>]*/>)", finding.fix)
+    first = next((tag for tag in tags(source.text) if not tag.closes), None)
+    if found is not None and first is not None:
+        inner = next(children(source.text, first), None)
+        indentation = source.indentation(inner.begin) if inner is not None else "  "
+        yield (Edit(first.end, first.end, f"\n{indentation}{found[1]}"),)
 
 
 def install_rule(finding: Diagnostic, source: SourceText, at: int) -> Iterator[tuple[Edit, ...]]:

@@ -12,6 +12,7 @@ from gazelle.doctor.fixes.by_code import (
     number_written,
     xacro_closed,
     xacro_command,
+    xacro_included,
 )
 from gazelle.doctor.fixes.edits import Edit, SourceText
 from gazelle.doctor.fixes.malformed import python_closed, xml_closed, xml_escaped, yaml_closed
@@ -37,6 +38,8 @@ _OF_CODE: dict[str, _Maker] = {
     "doctor.description-not-expanded": xacro_command,
     "package.not-installed": install_rule,
     "xacro.bad-expression": xacro_closed,
+    "xacro.decimal-comma": number_written,
+    "xacro.unknown-macro": xacro_included,
     "xml.bad-number": number_written,
 }
 # Words of fixes that leave something to choose.

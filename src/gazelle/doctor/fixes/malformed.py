@@ -146,7 +146,9 @@ def python_closed(finding: Diagnostic, source: SourceText, at: int) -> Iterator[
         begin = source.line_begins[int(told[1]) - 1]
         stop = begin + len(re.sub(r"\s*(#.*)?$", "", source.text[begin : source.line_end(begin)]))
         yield (Edit(stop, stop, ","),)
-    if "indent" in finding.message:
+    if "tabs" in finding.message:
+        yield from _untabbed(source, line, source.text[line:end])
+    elif "indent" in finding.message:
         yield from _reindented(source, line)
 
 

@@ -13,6 +13,7 @@ from gazelle.doctor.launch_ros2.node_checks import (
     check_clocks,
     check_executables,
     check_node_keywords,
+    check_programs,
     check_spawners,
 )
 from gazelle.doctor.launch_ros2.reference_checks import (
@@ -62,6 +63,7 @@ def check_launch(
     check_paths(files, workspace, diagnostics)
     check_arguments(root, arguments or {}, diagnostics)
     check_node_keywords(files, diagnostics)
+    check_programs(files, diagnostics)
     check_executables(files, workspace, diagnostics)
     parameter_files = _named(files, (".yaml", ".yml"))
     check_spawners(files, parameter_files, workspace, diagnostics)

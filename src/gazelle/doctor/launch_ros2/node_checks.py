@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from gazelle.diagnostics import Diagnostics, did_you_mean, nearest_names
+from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
 from gazelle.doctor.launch_ros2.launch_file import LaunchedNode
 from gazelle.doctor.launch_ros2.launch_tree import Followed, located
 from gazelle.doctor.packages.dependency_checks import is_slip
+from gazelle.doctor.packages.python_name_checks import check_names
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.doctor.parameters.controllers import controllers_in
 from gazelle.doctor.parameters.parameter_file import layout_of, read_document
+from gazelle.documents import read_text_limited
 from gazelle.node_specs.registry import builtin_executables
 from gazelle.node_specs.unavailable_packages import missing_node
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.entry_points import console_scripts
+from gazelle.workspace.environment_paths import BUILTIN
+from gazelle.workspace.static_python import parse_python
 
-__all__ = ["check_clocks", "check_executables", "check_node_keywords", "check_spawners"]
+__all__ = [
+    "check_clocks",
+    "check_executables",
+    "check_node_keywords",
+    "check_programs",
+    "check_spawners",
+]
 
 _SPAWNERS = frozenset({"spawner", "spawner.py"})
 _SPAWNER_VALUES = frozenset(
@@ -37,6 +48,7 @@ _TIMED = frozenset(
 _SIMULATOR_PACKAGES = frozenset({"gazebo_ros", "ros_gz_sim", "ros_ign_gazebo"})
 _SIMULATOR_WORDS = ("gazebo", "gzserver", "gz sim", "ign gazebo")
 _CLOCK = "use_sim_time"
+_ENTRY = "generate_launch_description"
 _MAX_PARAMETER_FILES = 20
 
 
@@ -73,6 +85,36 @@ def _configured(workspace: Workspace) -> tuple[str, ...]:
                 found = controllers_in(document, layout_of(document))
                 names.update(dict.fromkeys(item.name for item in found))
     return tuple(names)
+
+
+def check_programs(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
+    """Report names that a launch file's Python does not define, and one that returns nothing."""
+    for item in files:
+        path = item.file.path
+        if path.suffix != ".py" or path.is_relative_to(BUILTIN):
+            continue
+        try:
+            tree = parse_python(read_text_limited(path))
+        except (OSError, SyntaxError, UnicodeDecodeError):
+            continue  # told where it is read
+        check_names(tree, str(path), diagnostics, code="launch_ros2.name")
+        for node in tree.body:
+            if isinstance(node, ast.FunctionDef) and node.name == _ENTRY and not _returns(node):
+                text = f"{_ENTRY}() returns nothing: nothing is launched"
+                span = SourceSpan(str(path), node.lineno, node.col_offset + 1)
+                last = node.body[-1]
+                made = isinstance(last, ast.Expr) and isinstance(last.value, ast.Call)
+                fix = "write: return LaunchDescription([…])"
+                if made:
+                    span = SourceSpan(str(path), last.lineno, last.col_offset + 1)
+                    fix = "write return before it"
+                diagnostics.report("launch_ros2.returns-nothing", text, span, fix=fix)
+
+
+def _returns(function: ast.FunctionDef) -> bool:
+    return any(
+        isinstance(node, ast.Return) and node.value is not None for node in ast.walk(function)
+    )
 
 
 def check_spawners(

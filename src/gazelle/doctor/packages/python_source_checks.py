@@ -9,6 +9,7 @@ from typing import NamedTuple
 from gazelle.compat.python2 import translated
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, nearest_names
 from gazelle.doctor.packages.dependency_checks import is_slip, known_packages
+from gazelle.doctor.packages.python_name_checks import check_names
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.interfaces import exists, known_types
 from gazelle.workspace import Package, Workspace
@@ -39,6 +40,7 @@ def check_python_sources(
             continue
         tree = _tree(source, file, diagnostics)
         if tree is not None:
+            check_names(tree, str(source.folder / file), diagnostics)
             for found in _imports(tree, source, file):
                 _check_import(found, workspace, diagnostics)
 

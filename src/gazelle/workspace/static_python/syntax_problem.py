@@ -45,6 +45,8 @@ def syntax_problem(text: str, error: Exception) -> SyntaxProblem:
         if found:
             width = len(text.split("\n")[found - 1].rstrip())
             return SyntaxProblem(message, found, width, f"write a comma at the end of line {found}")
+    if "inconsistent use of tabs" in message:
+        return SyntaxProblem(message, line, 1, "indent with spaces")
     if message == "unexpected indent" and line > 1:
         # The block has the depth of its other lines: the one above may be the odd one.
         odd = _odd_line(text.split("\n"), line)

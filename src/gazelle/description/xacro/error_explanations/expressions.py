@@ -65,19 +65,41 @@ def explain_expression(failure: Failure) -> Explanation | None:
         message += f"; here {shown}"
     comma = _decimal_comma(failure.expression, values) if isinstance(cause, TypeError) else ""
     if comma:
+        text = _property_of(comma, failure) or _text_in(values, cause)
+        span = failure.library_run.properties.get(text) if comma not in failure.expression else None
+        if span is not None:
+            # The value has to change, not what is done with it; it is told once for all its uses.
+            message = f"property '{text}' is '{comma}', a text: the decimal sign is a dot"
+            fix = f"write {comma.replace(',', '.')}"
+            place = replace(span, via=(failure.span, *failure.via))
+            return Explanation("xacro.decimal-comma", message, place, fix, text)
         fix = f"write the decimal sign as a dot: {comma.replace(',', '.')}"
-        return Explanation(
-            "xacro.decimal-comma", message, failure.span, fix, _text_in(values, cause)
-        )
+        return Explanation("xacro.decimal-comma", message, failure.span, fix, text)
     fix = _remedy(failure, cause, values)
     text = _text_in(values, cause)
-    span, written = failure.library_run.properties.get(text), str(dict(values).get(text, ""))
+    written = str(dict(values).get(text, ""))
+    text = _property_of(written.strip(), failure) or text
+    span = failure.library_run.properties.get(text)
     if span is not None and _LIKE_A_NUMBER.fullmatch(written):
         # The value has to change, not what is done with it.
+        message = f"property '{text}' is '{written}', which is no number"
         place = replace(span, via=(failure.span, *failure.via))
         fix = f"write {' or '.join(_with_one_point(written))}: a number has one decimal point"
         return Explanation("xacro.bad-expression", message, place, fix, text)
     return Explanation("xacro.bad-expression", message, failure.span, fix, text)
+
+
+def _property_of(text: str, failure: Failure) -> str:
+    """Return the property that has a value, which parameters of macros may have from it."""
+    for name in failure.library_run.properties:
+        try:
+            value = failure.symbols[name]
+        # Evaluating a property may fail as the expression did.
+        except Exception:  # noqa: BLE001, S112
+            continue
+        if isinstance(value, str) and value.strip() == text:
+            return name
+    return ""
 
 
 def _with_one_point(text: str) -> tuple[str, str]:
