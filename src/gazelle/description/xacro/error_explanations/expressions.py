@@ -97,7 +97,7 @@ def _property_of(text: str, failure: Failure) -> str:
         # Evaluating a property may fail as the expression did.
         except Exception:  # noqa: BLE001, S112
             continue
-        if isinstance(value, str) and value.strip() == text:
+        if isinstance(name, str) and isinstance(value, str) and value.strip() == text:
             return name
     return ""
 
