@@ -7,7 +7,7 @@ controllers, so nobody publishes its joints. The first of these is the one to re
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from gazelle.diagnostics import Diagnostic
@@ -83,20 +83,31 @@ def causes_first(
     Returns:
         The causes and the consequences, each in the order found.
     """
-    follows = [any(_follows(item, other) for other in findings) for item in findings]
-    causes = tuple(item for item, late in zip(findings, follows, strict=True) if not late)
-    return causes, tuple(item for item, late in zip(findings, follows, strict=True) if late)
+    consequences = {item.code for item in findings}
+    causes = {rule: _causes(rule, findings) for rule in _RULES if rule.consequence in consequences}
+    follows = [any(_follows(item, rule, found) for rule, found in causes.items())
+               for item in findings]  # fmt: skip
+    alone = tuple(item for item, late in zip(findings, follows, strict=True) if not late)
+    return alone, tuple(item for item, late in zip(findings, follows, strict=True) if late)
 
 
-def _follows(item: Diagnostic, cause: Diagnostic) -> bool:
-    if cause is item or cause.severity < item.severity:
+def _causes(rule: _Rule, findings: Sequence[Diagnostic]) -> dict[str, list[Diagnostic]]:
+    """Return what may be a rule's cause, the worst first: by the names in it, or by no name."""
+    found: dict[str, list[Diagnostic]] = {}
+    for item in sorted(findings, key=lambda item: -item.severity):
+        if any(_is_of(item.code, code) for code in rule.causes):
+            for name in _names(item) if rule.by_name else {""}:
+                found.setdefault(name, []).append(item)
+    return found
+
+
+def _follows(item: Diagnostic, rule: _Rule, causes: Mapping[str, Sequence[Diagnostic]]) -> bool:
+    if rule.consequence != item.code:
         return False
-    return any(
-        rule.consequence == item.code
-        and any(_is_of(cause.code, code) for code in rule.causes)
-        and (not rule.by_name or bool(_names(item) & _names(cause)))
-        for rule in _RULES
-    )
+    names = _names(item) if rule.by_name else {""}
+    # One of the two worst is another one than the item itself.
+    near = (cause for name in names for cause in causes.get(name, ())[:2])
+    return any(cause is not item and cause.severity >= item.severity for cause in near)
 
 
 def _is_of(code: str, wanted: str) -> bool:
