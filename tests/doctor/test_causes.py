@@ -51,6 +51,14 @@ def test_findings_of_other_names_stand_for_themselves() -> None:
     assert causes_first([same, other, hardware]) == ((other, hardware), (same,))
 
 
+def test_the_worst_of_several_causes_counts() -> None:
+    quiet = error("robot.mesh-unit", "'arm' is large", Severity.INFO)
+    loud = error("robot.size-mismatch", "'arm' is small", Severity.WARNING)
+    late = error("inertia.box", "'arm' is heavy", Severity.WARNING)
+    assert causes_first([quiet, late, loud]) == ((quiet, loud), (late,))
+    assert causes_first([quiet, late]) == ((quiet, late), ())
+
+
 def test_report_says_how_many_follow(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -7,6 +7,8 @@ import time
 import pytest
 from tests.doctor.conftest import Examine, Write, codes
 
+from gazelle.doctor.dry_start import dry_start
+
 CONFIG = "<model><name>m</name><sdf version='1.6'>model.sdf</sdf></model>"
 SUN = "<sdf version='1.6'><light type='directional' name='sun'/></sdf>"
 GROUND = """<sdf version='1.6'><model name='ground_plane'><static>true</static><link name='link'>
@@ -157,3 +159,56 @@ def test_what_is_wrong_with_a_part_is_told_there(written: Write, examined: Exami
 def test_a_file_that_no_robot_includes_is_examined_alone(written: Write, examined: Examine) -> None:
     folder = written(**{"urdf__box.xacro": PART})
     assert "xacro.undefined-name" in codes(examined(folder, "urdf/box.xacro"))
+
+
+def _arms(arms: int, joints: int) -> str:
+    """Return a robot of arms on one base, all of whose joints turn."""
+    inertial = '<inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" '
+    inertial += 'ixz="0" iyz="0"/></inertial>'
+    lines = [f'<robot name="r"><link name="base">{inertial}</link>']
+    for arm in range(arms):
+        above = "base"
+        for at in range(joints):
+            name = f"a{arm}_{at}"
+            lines.append(f'<link name="{name}">{inertial}</link>')
+            lines.append(f'<joint name="j_{name}" type="continuous"><parent link="{above}"/>')
+            lines.append(f'<child link="{name}"/><axis xyz="0 1 0"/></joint>')
+            above = name
+    return "\n".join([*lines, "</robot>"])
+
+
+def test_robot_of_thousands_of_joints_is_checked_and_not_brought_up(
+    written: Write, examined: Examine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gazelle.doctor.examine_file._MAX_MOVING_JOINTS", 20)
+    folder = written(**{"urdf__large.urdf": _arms(3, 7), "urdf__small.urdf": _arms(2, 10)})
+    brought_up: list[object] = []
+    real = dry_start
+    monkeypatch.setattr(
+        "gazelle.doctor.examine_file.dry_start",
+        lambda *words, **keys: brought_up.append(words) or real(*words, **keys),
+    )
+    report = examined(folder, "urdf/large.urdf")
+    (found,) = (item for item in report.findings if item.code == "doctor.too-many-joints")
+    assert str(found.severity) == "info"
+    assert "it has 21 joints that move, more than 20 take long" in found.message
+    assert "plug-ins, controllers and contacts are not tried" in found.message
+    assert found.fix.endswith("GAZELLE_LIMITS=10 for ten times, or add --probe")
+    assert "robot.root-inertia" in codes(report, "info")
+    assert not brought_up
+    small = examined(folder, "urdf/small.urdf")
+    assert "doctor.too-many-joints" not in codes(small, "info")
+    assert "robot.root-inertia" in codes(small, "info")
+    assert len(brought_up) == 1
+
+
+def test_chain_that_the_engine_refuses_is_told_however_long_it_is(
+    written: Write, examined: Examine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gazelle.doctor.examine_file._MAX_MOVING_JOINTS", 20)
+    monkeypatch.setattr("gazelle.engine.kinematic_tree._MAX_CHAIN", 10)
+    folder = written(**{"urdf__chain.urdf": _arms(1, 30)})
+    report = examined(folder, "urdf/chain.urdf")
+    (found,) = (item for item in report.findings if item.code == "doctor.spawn-fails")
+    assert "a chain of more than 10 moving joints, up to joint 'j_a0_10'" in found.message
+    assert "doctor.too-many-joints" not in codes(report, "info")

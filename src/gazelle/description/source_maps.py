@@ -65,8 +65,10 @@ def keys_of(root: Tag) -> tuple[int, ...]:
 
 
 def digest_of(keys: Iterable[int]) -> str:
-    """Return a name for a sequence of keys."""
-    return hashlib.sha256(",".join(map(str, keys)).encode()).hexdigest()[:32]
+    """Return a name for a sequence of keys; it begins with their number."""
+    items = tuple(keys)
+    digest = hashlib.sha256(",".join(map(str, items)).encode()).hexdigest()[:32]
+    return f"{len(items)}-{digest}"
 
 
 def save_map(source_map: SourceMap) -> None:
@@ -107,7 +109,7 @@ def source_map_of(text: str | Tag) -> SourceMap | None:
         The places, one for each element; None when no run of xacro is known to have made the text.
     """
     root = parse_xml(text, "", Diagnostics()) if isinstance(text, str) else text
-    if root is None:
+    if root is None or not _has_maps_of(sum(1 for _ in root.walk())):
         return None
     keys = keys_of(root)
     found = load_map(digest_of(keys))
@@ -137,6 +139,14 @@ def _key(tag: Tag) -> int:
     attributes = sorted(item for item in tag.attributes.items() if item[0][:5] != "xmlns")
     said = repr((attributes, tag.text.split())).encode()
     return crc32(tag.name.encode()) << 32 | crc32(said)
+
+
+def _has_maps_of(count: int) -> bool:
+    """Tell whether a text of so many elements is known, which is sooner known than its keys."""
+    try:
+        return any(path.name.startswith(f"{count}-") for path in _folder().iterdir())
+    except OSError:
+        return False
 
 
 def _folder() -> Path:

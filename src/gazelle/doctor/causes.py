@@ -7,15 +7,17 @@ controllers, so nobody publishes its joints. The first of these is the one to re
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from gazelle.diagnostics import Diagnostic
+from gazelle.diagnostics import Diagnostic, Severity
 
 __all__ = ["causes_first"]
 
 _QUOTED = re.compile(r"'([^'\n]+)'")
+_MAX_NAMES = 50
+_WORD = re.compile(r"[\w-]+")
 # What makes a description unreadable, or leaves something of it out.
 _DESCRIPTION = ("limits.", "load.", "urdf.", "xacro.", "xml.")
 
@@ -154,49 +156,78 @@ def causes_first(
     Returns:
         The causes and the consequences, each in the order found.
     """
-    found = [
-        next((other for other in findings if _follows(item, other)), None) for item in findings
+    codes = {item.code for item in findings}
+    causes = [
+        _Causes.of(rule, findings)
+        for rule in _RULES
+        if any(_is_of(code, rule.consequence) for code in codes)
     ]
-    causes = tuple(
-        _as_severe(item, findings, found)
+    found = [_cause_of(item, causes) for item in findings]
+    worst: dict[int, Severity] = {}
+    for item, cause in zip(findings, found, strict=True):
+        if cause is not None:
+            worst[id(cause)] = max(item.severity, worst.get(id(cause), cause.severity))
+    alone = tuple(
+        replace(item, severity=worst[id(item)]) if id(item) in worst else item
         for item, cause in zip(findings, found, strict=True)
         if cause is None
     )
     late = (item for item, cause in zip(findings, found, strict=True) if cause is not None)
-    return causes, tuple(late)
+    return alone, tuple(late)
 
 
-def _as_severe(
-    cause: Diagnostic, findings: Sequence[Diagnostic], found: Sequence[Diagnostic | None]
-) -> Diagnostic:
-    """Raise a cause to what follows from it."""
-    late = (item.severity for item, of in zip(findings, found, strict=True) if of is cause)
-    worst = max(late, default=cause.severity)
-    return replace(cause, severity=worst) if worst > cause.severity else cause
+@dataclass(slots=True)
+class _Causes:
+    """What may be the cause that a rule speaks of, the worst first.
+
+    Attributes:
+        by_name: by the names in quotes in them, or by no name.
+        not_words: those of the names that are more than a word, such as paths.
+    """
+
+    rule: _Rule
+    by_name: dict[str, list[Diagnostic]] = field(default_factory=dict)
+    not_words: list[str] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, rule: _Rule, findings: Sequence[Diagnostic]) -> _Causes:
+        made = cls(rule)
+        for item in sorted(findings, key=lambda item: -item.severity):
+            is_cause = any(_is_of(item.code, code) for code in rule.causes)
+            if is_cause and (not rule.asks or f"'{rule.asks.strip('?')}" in item.fix):
+                for name in made._names(item):
+                    made.by_name.setdefault(name, []).append(item)
+        made.not_words = [name for name in made.by_name if name and not _WORD.fullmatch(name)]
+        return made
+
+    def fitting(self, item: Diagnostic, words: set[str]) -> Iterator[Diagnostic]:
+        """Yield what may be the cause of a finding that has these words."""
+        rule = self.rule
+        if not _is_of(item.code, rule.consequence):
+            return
+        known = self.by_name
+        names = {""} & known.keys() or words & known.keys()
+        names |= {name for name in self.not_words[:_MAX_NAMES] if name in item.message}
+        for name in sorted(names):
+            # One of the two worst is another one than the item itself.
+            for cause in known[name][:2]:
+                is_bad = rule.is_milder or cause.severity >= item.severity
+                in_file = not rule.by_file or (
+                    item.span is not None and item.span.file in cause.message
+                )
+                if cause is not item and is_bad and in_file:
+                    yield cause
+
+    def _names(self, item: Diagnostic) -> set[str]:
+        if self.rule.by_name:
+            return set(_QUOTED.findall(item.message))
+        return set(_QUOTED.findall(item.fix)) if self.rule.by_fix else {""}
 
 
-def _follows(item: Diagnostic, cause: Diagnostic) -> bool:
-    if cause is item:
-        return False
-    return any(
-        _is_of(item.code, rule.consequence)
-        and any(_is_of(cause.code, code) for code in rule.causes)
-        and (rule.is_milder or cause.severity >= item.severity)
-        and (not rule.by_name or _names_of(cause.message, item))
-        and (not rule.by_fix or _names_of(cause.fix, item))
-        and (not rule.asks or f"'{rule.asks.strip('?')}" in cause.fix)
-        and (not rule.by_file or (item.span is not None and item.span.file in cause.message))
-        for rule in _RULES
-    )
+def _cause_of(item: Diagnostic, causes: Sequence[_Causes]) -> Diagnostic | None:
+    words = set(_WORD.findall(item.message))
+    return next((found for one in causes for found in one.fitting(item, words)), None)
 
 
 def _is_of(code: str, wanted: str) -> bool:
     return code.startswith(wanted) if wanted.endswith(".") else code == wanted
-
-
-def _names_of(text: str, item: Diagnostic) -> bool:
-    """Tell whether a finding has a name that stands in quotes in its cause's words."""
-    return any(
-        re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", item.message)
-        for name in _QUOTED.findall(text)
-    )

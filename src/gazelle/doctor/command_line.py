@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.errors_as_warnings import strict
+from gazelle.description.xml import remembering_documents
 from gazelle.diagnostics import Diagnostic, Diagnostics
 from gazelle.doctor.causes import causes_first
 from gazelle.doctor.examine_file import examine_file, kind_name
@@ -61,7 +62,8 @@ def examine(
     if progress is not None:
         examination.say = progress
     check_environment(options.environ, diagnostics=examination.diagnostics)
-    kind = _examine(target, examination)
+    with remembering_documents():
+        kind = _examine(target, examination)
     examination.diagnostics.extend(workspace.diagnostics)
     findings, consequences = causes_first(_findings(examination))
     return Report(

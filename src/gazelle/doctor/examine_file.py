@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.loader import load_models
-from gazelle.description.model import Model
+from gazelle.description.model import JointType, Model, World
 from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan
 from gazelle.doctor.dry_start import Program, StartPlan, dry_start
@@ -20,7 +20,8 @@ from gazelle.doctor.report import Examination
 from gazelle.doctor.robots_and_worlds import examine_models
 from gazelle.doctor.simulated_world import probe, simulation_sections
 from gazelle.doctor.target import package_at
-from gazelle.documents.files import is_file
+from gazelle.documents.files import HOW_TO_RAISE, is_file, scaled
+from gazelle.errors import GazelleError
 from gazelle.workspace.environment_paths import BUILTIN
 
 __all__ = ["examine_file", "kind_name"]
@@ -36,6 +37,8 @@ _OF_A_PART = frozenset(
         "xacro.unknown-macro",
     }
 )
+# MuJoCo's time grows with the square of them.
+_MAX_MOVING_JOINTS = 2000
 _IN_EMPTY = frozenset({"ground_plane", "sun"})
 
 
@@ -132,14 +135,45 @@ def _examine_robot(
     if not models or found.errors:
         examination.diagnostics.extend(found)
         return
+    alone = replace(examination, diagnostics=found)
+    if not _is_too_large(models, alone):
+        _bring_up_robot(file, models, alone)
+    for item in found:
+        examination.diagnostics.add(_of_real_robot(item))
+
+
+def _bring_up_robot(file: Path, models: Sequence[Model], examination: Examination) -> None:
     world = examination.options.world
     # A package of the workspace may have an empty.world of its own, which says other things.
     place = str(_EMPTY) if world == "empty" else world
     plan = StartPlan(Program("gazebo", argv=(place,)), models=tuple(map(_beside_world, models)))
-    alone = replace(examination, diagnostics=found)
-    _bring_up(plan, file.name, alone)
-    for item in found:
-        examination.diagnostics.add(_of_real_robot(item))
+    _bring_up(plan, file.name, examination)
+
+
+def _is_too_large(models: Sequence[Model], examination: Examination) -> bool:
+    """Tell whether bringing models up would take long; they are checked without then.
+
+    An endless chain, which the engine refuses, is refused at once and is brought up all the same.
+    """
+    moving = [joint for model in models if not model.static for joint in model.joints
+              if joint.type is not JointType.FIXED]  # fmt: skip
+    most = scaled(_MAX_MOVING_JOINTS)
+    if len(moving) <= most or examination.options.probe:
+        return False
+    # It imports MuJoCo, which not every file needs.
+    from gazelle.engine.kinematic_tree import kinematic_tree
+
+    try:
+        for model in models:
+            kinematic_tree(model)
+    except GazelleError:
+        return False
+    examine_models(World(models=tuple(models)), examination)
+    text = "the robot is not brought up, so its plug-ins, controllers and contacts are not tried: "
+    text += f"it has {len(moving):,} joints that move, more than {most:,} take long"
+    fix = f"{HOW_TO_RAISE}, or add --probe"
+    examination.diagnostics.report("doctor.too-many-joints", text, models[0].span, fix=fix)
+    return True
 
 
 def _is_left(file: Path, found: Diagnostics, examination: Examination) -> bool:

@@ -39,6 +39,25 @@ def test_moving_link_without_inertial_gets_a_block(judge) -> None:
     assert found.only.severity is Severity.WARNING
 
 
+def test_what_hangs_on_a_link_without_inertial_is_named_and_counted(judge) -> None:
+    names = ("a", "b", "c", "d", "e", "f")
+    links = [link(inertial() if name == "a" else "", name=name) for name in names]
+    joints = [
+        f'<joint name="to_{below}" type="{kind}"><parent link="{above}"/><child link="{below}"/>'
+        '<axis xyz="0 0 1"/></joint>'
+        for above, below, kind in zip(
+            names, names[1:], ("continuous", "fixed", *(["continuous"] * 3)), strict=False
+        )
+    ]
+    said = [item.diagnostic.message for item in judge(robot(*links, *joints)).findings]
+    assert [text.partition("Gazebo drops it")[2] for text in said] == [
+        " with all that hangs on it: 'c' and 'd' and 'e' and 1 more vanish",
+        " with all that hangs on it: 'e' and 'f' vanish",
+        " with all that hangs on it: 'f' vanishes",
+        ", and its joint",
+    ]
+
+
 def test_link_without_shapes_cannot_be_mended(judge) -> None:
     found = judge(robot(link("", shape="")))
     assert found.only.message.endswith("it has no shapes to compute one from")

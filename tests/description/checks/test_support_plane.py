@@ -6,7 +6,7 @@ import pytest
 from tests.description.checks.pain import FIXTURES, finding, place
 
 from gazelle.description.checks.shape_volumes import Outlines
-from gazelle.description.checks.support_plane import support_plane_of
+from gazelle.description.checks.support_plane import check_support_plane, support_plane_of
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.diagnostics import Diagnostics, Severity
@@ -35,6 +35,33 @@ def test_rover_rests_on_two_wheels_and_its_caster() -> None:
 
 def test_model_without_mass_has_no_stance() -> None:
     assert support_plane_of(Model("ghost"), Outlines(Model("ghost"))) is None
+
+
+def test_robot_that_stands_level_is_judged_without_a_hull(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_points: object) -> None:
+        raise AssertionError("qhull takes long to import")
+
+    model, found = _model("pain_15_contact/clean/rover.urdf"), Diagnostics()
+    with monkeypatch.context() as patch:
+        patch.setattr("gazelle.description.checks.support_plane.convex_hull", refuse)
+        check_support_plane(model, Outlines(model), found)
+    assert len(found) == 0
+
+
+@pytest.mark.parametrize(
+    "name", ["clean/rover", "broken/hanging", "broken/dragging_caster"]
+)  # fmt: skip
+def test_level_plane_leads_to_the_same_findings_as_the_hull(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = _model(f"pain_15_contact/{name}.urdf")
+    quick, whole = Diagnostics(), Diagnostics()
+    check_support_plane(model, Outlines(model), quick)
+    monkeypatch.setattr(
+        "gazelle.description.checks.support_plane._level_plane", lambda *_words: None
+    )
+    check_support_plane(model, Outlines(model), whole)
+    assert tuple(quick) == tuple(whole)
 
 
 def test_low_chassis_lifts_the_wheels() -> None:

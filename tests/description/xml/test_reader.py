@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from tests.shared_files import SHARED, shared_cases
 
-from gazelle.description.xml import Tag, parse_xml, read_xml
+from gazelle.description.xml import Tag, parse_xml, read_xml, remembering_documents
 from gazelle.diagnostics import Diagnostics, Severity
 
 TESTS = Path(__file__).parents[2]
@@ -145,3 +145,35 @@ def test_licence_before_the_declaration_is_forgiven_as_by_gazebo() -> None:
     root, diagnostics = parse("<!--\n free -->\n<?xml version='1.0'?>\n<a><b/></a>")
     assert str(root.find("b").span) == "a.urdf:4:4"
     assert [item.code for item in diagnostics] == ["xml.lenient"]
+
+
+def test_a_document_is_parsed_once_where_documents_are_remembered(tmp_path):
+    file = tmp_path / "a.urdf"
+    file.write_text("<a><!-- a -- b --><b/></a>")
+    diagnostics = [Diagnostics(), Diagnostics()]
+    with remembering_documents():
+        first, second = (read_xml(file, found) for found in diagnostics)
+        other = parse_xml(file.read_bytes(), "other", Diagnostics())
+        file.write_text("<a/>")
+        changed = read_xml(file, Diagnostics())
+    assert first is second
+    assert [[item.code for item in found] for found in diagnostics] == [["xml.lenient"]] * 2
+    assert other.span.file == "other"
+    assert changed.children == ()
+    assert read_xml(file, Diagnostics()) is not read_xml(file, Diagnostics())
+
+
+def test_errors_of_remembered_documents_are_told_each_time():
+    found = [Diagnostics(), Diagnostics()]
+    with remembering_documents():
+        assert [parse_xml("<a>", "f", item) for item in found] == [None, None]
+    assert [item.code for one in found for item in one] == ["xml.malformed"] * 2
+
+
+def test_few_documents_are_remembered(monkeypatch):
+    monkeypatch.setattr("gazelle.description.xml.reader._REMEMBERED_BYTES", 10)
+    with remembering_documents():
+        assert parse_xml("<a></a>", "f", Diagnostics()) is parse_xml("<a></a>", "f", Diagnostics())
+        large = f"<a>{'x' * 20}</a>"
+        assert parse_xml(large, "f", Diagnostics()).text == "x" * 20
+        assert parse_xml(large, "f", Diagnostics()) is not parse_xml(large, "f", Diagnostics())

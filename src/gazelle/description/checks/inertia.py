@@ -202,9 +202,10 @@ def _lost(record: LinkRecord) -> str:
         return ", and with it the whole robot: nothing appears"
     if not record.below:
         return ", and its joint"
-    names = " and ".join(f"'{name}'" for name in record.below[:3])
-    more = f" and {len(record.below) - 3} more" if len(record.below) > 3 else ""
-    return f" with all that hangs on it: {names}{more} vanish{'es' * (len(record.below) == 1)}"
+    names = " and ".join(f"'{name}'" for name in record.below)
+    rest = record.count_below - len(record.below)
+    more = f" and {rest} more" if rest else ""
+    return f" with all that hangs on it: {names}{more} vanish{'es' * (record.count_below == 1)}"
 
 
 def _impossible(record: LinkRecord, new: MassProperties | None) -> Iterator[InertiaFinding]:

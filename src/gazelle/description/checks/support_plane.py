@@ -21,6 +21,9 @@ __all__ = ["SupportPlane", "check_support_plane", "support_plane_of"]
 
 # Hulls of round shapes are polygons; their lowest corner may miss the lowest point.
 _TOUCHING_M = 0.0015
+_ROUNDING_M = 1e-6
+_ANGLES_RAD = np.linspace(0.0, math.tau, 128, endpoint=False)
+_DIRECTIONS = np.stack([np.cos(_ANGLES_RAD), np.sin(_ANGLES_RAD)])
 _MIN_GRIP = 0.2
 _DEFAULT_MU = 1.0
 
@@ -71,7 +74,9 @@ def check_support_plane(model: Model, outlines: Outlines, diagnostics: Diagnosti
     groups = fixed_groups(model)
     if not all(touchable.intersection(groups[wheel.link.name]) for wheel in driven):
         return  # said of the wheel
-    plane = support_plane_of(model, outlines)
+    plane = _level_plane(model, outlines)
+    if plane is None or _hanging(driven, groups, outlines, plane):
+        plane = support_plane_of(model, outlines)
     if plane is None:
         return
     rolling = {name for wheel in wheels for name in groups[wheel.link.name]}
@@ -153,6 +158,34 @@ def _swings(link: Link, model: Model) -> bool:
     """Tell whether a ball or roller: a joint lets it turn instead of sliding."""
     joint = next((item for item in model.joints if item.child == link.name), None)
     return joint is not None and joint.type not in (JointType.FIXED, JointType.PRISMATIC)
+
+
+def _level_plane(model: Model, outlines: Outlines) -> SupportPlane | None:
+    """Return how a model rests that surely stands level and touches clearly; None for others.
+
+    For a hull qhull is imported, which takes longer than all checks of a robot. It is not asked
+    where points that are the lowest but for rounding surround the centre of mass so widely that the
+    plane through any of them is this one, within what no gap is near to.
+    """
+    center = _center_m(model)
+    if center is None or not outlines.collisions:
+        return None
+    points = np.concatenate([item.points_m for item in outlines.collisions])
+    if not np.isfinite(points).all():
+        return None
+    points = points - center
+    ground = float(points[:, 2].min())
+    lowest = points[points[:, 2] <= ground + _ROUNDING_M, :2]
+    widths = (lowest @ _DIRECTIONS).max(axis=0)
+    # Between two directions that are looked at, the width changes by no more than this.
+    width = float(widths.min()) - float(np.hypot(*lowest.T).max()) * math.tau / len(widths)
+    reach = float(np.hypot(*points[:, :2].T).max())
+    if width <= 0.0 or _ROUNDING_M * (1.0 + reach / width) > _TOUCHING_M / 4.0:
+        return None
+    gaps = tuple(float(item.points_m[:, 2].min() - center[2]) - ground
+                 for item in outlines.collisions)  # fmt: skip
+    is_clear = all(not _TOUCHING_M / 2.0 < gap < _TOUCHING_M * 2.0 for gap in gaps)
+    return SupportPlane(gaps, 0.0) if is_clear else None
 
 
 def _center_m(model: Model) -> Array | None:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,8 @@ __all__ = ["JointRecord", "LinkRecord", "WrittenInertial", "joint_records_of", "
 _TENSOR_COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _SDF_DEFAULTS = {"ixx": "1", "iyy": "1", "izz": "1"}
 _TRUE = ("1", "true")
+# So many of the links that hang on one are named.
+_NAMED = 3
 
 _Children = dict[str, list[str]]
 FindTag = Callable[[Link], Tag | None]
@@ -71,7 +74,8 @@ class LinkRecord:
         is_fixed: a fixed joint ties it to another link of a URDF; both move as one body.
         is_root: no joint moves its body.
         feels_gravity: False where gravity is switched off for it, as for what floats.
-        below: links that hang on its body.
+        below: the first few links that hang on its body; only of a URDF's.
+        count_below: how many hang on it.
         span: place of the ``<link>``.
         collisions, visuals: shapes of 1 kg/m³, their mass is the volume; without the flat ones.
         points_m: (n, 3) points whose hull holds all its shapes, link frame.
@@ -88,6 +92,7 @@ class LinkRecord:
     is_root: bool = False
     feels_gravity: bool = True
     below: tuple[str, ...] = ()
+    count_below: int = 0
     span: SourceSpan | None = None
     collisions: tuple[MassProperties, ...] = ()
     visuals: tuple[MassProperties, ...] = ()
@@ -145,6 +150,7 @@ def records_of(
         links_below: _Children = {}
         for joint in model.joints:
             links_below.setdefault(joint.parent, []).append(joint.child)
+        counts = _counts_below(model, links_below)
         for link in model.links:
             name = f"{model.name}::{link.name}" if several else link.name
             record = _record(name, link, model, find_tag(link), diagnostics)
@@ -153,11 +159,11 @@ def records_of(
             key = link.name, link.span or name
             record = replace(record, needs_mass=link.name in needy, is_fixed=tied)
             if record.needs_mass:
-                record = replace(
-                    record,
-                    is_root=heads[link.name] not in children,
-                    below=_below(link.name, heads, links_below),
-                )
+                record = replace(record, is_root=heads[link.name] not in children)
+            if record.needs_mass and model.source_format == "urdf":
+                head = heads[link.name]
+                below, count = _below(link.name, head, links_below, counts.get(head))
+                record = replace(record, below=below, count_below=count)
             records.setdefault(key, record)
     return tuple(records.values())
 
@@ -197,28 +203,64 @@ def _needy(model: Model, find_tag: FindTag) -> set[str]:
     return needy
 
 
-def _below(name: str, heads: Mapping[str, str], links: _Children) -> tuple[str, ...]:
-    """Return the links that hang on a link's body, without it."""
-    found, waiting = dict[str, None](), [heads[name]]
+def _below(
+    name: str, head: str, links: _Children, count: int | None
+) -> tuple[tuple[str, ...], int]:
+    """Return the first links that hang on a link's body, without it, and how many there are.
+
+    Args:
+        name: the link.
+        head: of its body.
+        links: links below each.
+        count: of links below the head where they are a tree.
+    """
+    walk = _walk_below(head, links)
+    if count is None:
+        found = [other for other in walk if other != name]
+        return tuple(found[:_NAMED]), len(found)
+    first = islice((other for other in walk if other != name), _NAMED)
+    return tuple(first), count - (name != head)
+
+
+def _walk_below(head: str, links: _Children) -> Iterator[str]:
+    found, waiting = set[str](), [head]
     while waiting:
         for child in links.get(waiting.pop(), ()):
             if child not in found:
-                found[child] = None
+                found.add(child)
                 waiting.append(child)
-    found.pop(name, None)
-    return tuple(found)
+                yield child
+
+
+def _counts_below(model: Model, links: _Children) -> dict[str, int]:
+    """Return how many links are below each link that stands in a tree; nothing for graphs."""
+    children = [joint.child for joint in model.joints]
+    above = {joint.child: joint.parent for joint in model.joints}
+    if len(above) < len(children):
+        return {}
+    names = dict.fromkeys((*(link.name for link in model.links), *above.values()))
+    roots = [name for name in names if name not in above]
+    counts = {name: 0 for root in roots for name in (root, *_walk_below(root, links))}
+    for name in reversed(tuple(counts)):
+        if name in above:
+            counts[above[name]] = counts.get(above[name], 0) + counts[name] + 1
+    return counts
 
 
 def _heads(model: Model) -> dict[str, str]:
     """Return for every link the first of those it is fixed to."""
     above = {joint.child: joint for joint in model.joints}
-    heads = {}
+    heads, known = dict[str, str](), dict[str, str]()
     for link in model.links:
-        name, seen = link.name, set[str]()
-        while name in above and above[name].type is JointType.FIXED and name not in seen:
-            seen.add(name)
-            name = above[name].parent
-        heads[link.name] = name
+        name, way = link.name, dict[str, None]()
+        while name not in known and name not in way:
+            way[name] = None
+            joint = above.get(name)
+            if joint is None or joint.type is not JointType.FIXED:
+                known |= dict.fromkeys(way, name)
+            else:
+                name = joint.parent
+        heads[link.name] = known.get(name, name)
     return heads
 
 

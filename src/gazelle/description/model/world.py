@@ -54,14 +54,21 @@ class Model:
     source_format: Literal["urdf", "sdf"] = "sdf"
     file: Path | None = None
     span: SourceSpan | None = None
+    _links: dict[str, Link] | None = field(default=None, init=False, repr=False, compare=False)
+    _joints: dict[str, Joint] | None = field(default=None, init=False, repr=False, compare=False)
 
     def link(self, name: str) -> Link | None:
-        """Return the link of this name, or None."""
-        return next((link for link in self.links if link.name == name), None)
+        """Return the link of this name, the first of several, or None."""
+        if self._links is None:
+            object.__setattr__(self, "_links", {link.name: link for link in self.links[::-1]})
+        return None if self._links is None else self._links.get(name)
 
     def joint(self, name: str) -> Joint | None:
-        """Return the joint of this name, or None."""
-        return next((joint for joint in self.joints if joint.name == name), None)
+        """Return the joint of this name, the first of several, or None."""
+        if self._joints is None:
+            found = {joint.name: joint for joint in self.joints[::-1]}
+            object.__setattr__(self, "_joints", found)
+        return None if self._joints is None else self._joints.get(name)
 
 
 @dataclass(frozen=True, slots=True)

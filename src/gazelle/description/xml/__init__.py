@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.description.xml.numbers import bool_from, float_from, floats_from, int_from
-from gazelle.description.xml.reader import parse_xml, read_xml
+from gazelle.description.xml.reader import parse_xml, read_xml, remembering_documents
 from gazelle.description.xml.spans import (
     attribute_holding,
     attribute_span,
@@ -23,6 +23,7 @@ __all__ = [
     "int_from",
     "parse_xml",
     "read_xml",
+    "remembering_documents",
     "text_span",
     "with_spans",
     "written_attributes",

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections import OrderedDict
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 from xml.parsers import expat
 
 from gazelle.description.xml.tag import Tag
@@ -12,7 +16,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.documents import TEXT_BYTES, FileLimitError, LimitError, read_limited, scaled
 from gazelle.documents.malformed_xml import malformed_xml
 
-__all__ = ["parse_xml", "read_data", "read_xml", "too_much_in"]
+__all__ = ["parse_xml", "read_data", "read_xml", "remembering_documents", "too_much_in"]
 
 _MAX_ELEMENTS = 500_000
 _MAX_ATTRIBUTES = 1000
@@ -22,6 +26,52 @@ _FORGIVEN = "this is no XML: '--' in a comment, a bare '&' or something before <
 _COMMENT = re.compile(rb"<!--(.*?)-->", re.DOTALL)
 _LATE_DECLARATION = re.compile(rb"(?<=\S)\s*<\?xml\s[^>]{0,200}\?>")
 _BARE_AND = re.compile(rb"&(?!#\d+;|#x[0-9A-Fa-f]+;|[A-Za-z_][\w.-]*;)")
+_MOST_REMEMBERED = 64
+_REMEMBERED_BYTES = 16_000_000
+
+
+class _Outcome(NamedTuple):
+    root: Tag | None
+    found: Diagnostics
+
+
+class _Remembered:
+    """Documents that have been parsed, the newest last."""
+
+    def __init__(self) -> None:
+        self._outcomes: OrderedDict[tuple[str, str | None, bytes], _Outcome] = OrderedDict()
+        self._bytes = 0
+
+    def outcome(self, data: bytes, encoding: str | None, file: str) -> _Outcome:
+        key = file, encoding, data
+        known = self._outcomes.get(key)
+        if known is None:
+            found = Diagnostics()
+            known = _Outcome(_parsed_or_reported(data, encoding, file, found), found)
+            self._outcomes[key] = known
+            self._bytes += len(data)
+        self._outcomes.move_to_end(key)
+        while len(self._outcomes) > _MOST_REMEMBERED or self._bytes > _REMEMBERED_BYTES:
+            (_file, _encoding, oldest), _outcome = self._outcomes.popitem(last=False)
+            self._bytes -= len(oldest)
+        return known
+
+
+_remembered: ContextVar[_Remembered | None] = ContextVar("remembered documents", default=None)
+
+
+@contextmanager
+def remembering_documents() -> Iterator[None]:
+    """Parse the same text of the same file once within a ``with`` block.
+
+    For who looks at files in several ways, one after the other. What is wrong with a document is
+    told each time.
+    """
+    token = _remembered.set(_Remembered())
+    try:
+        yield
+    finally:
+        _remembered.reset(token)
 
 
 def read_xml(path: Path, diagnostics: Diagnostics) -> Tag | None:
@@ -63,6 +113,33 @@ def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | N
     encoding = "utf-8" if isinstance(text, str) else None
     # Half a surrogate pair is no character; expat says where it stands.
     data = text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
+    remembered = _remembered.get()
+    if remembered is None:
+        return _parsed_or_reported(data, encoding, file, diagnostics)
+    root, found = remembered.outcome(data, encoding, file)
+    diagnostics.extend(found)
+    return root
+
+
+def too_much_in(data: bytes) -> str:
+    """Return why a document is too large to be read, empty when it is not.
+
+    Its tags are counted, which is much sooner done than reading half of it.
+    """
+    if len(data) > scaled(TEXT_BYTES):
+        return f"the document has {len(data)} bytes, the limit is {scaled(TEXT_BYTES)}"
+    most = scaled(_MAX_ELEMENTS)
+    # In UTF-16 end tags look different; there the elements are counted one by one.
+    if data.count(b"<") > most and b"\0" not in data[:16]:
+        count = data.count(b"<") - sum(data.count(word) for word in (b"</", b"<!", b"<?"))
+        if count > most:
+            return f"the document has {count} elements, the limit is {most}"
+    return ""
+
+
+def _parsed_or_reported(
+    data: bytes, encoding: str | None, file: str, diagnostics: Diagnostics
+) -> Tag | None:
     try:
         if reason := too_much_in(data):
             raise _TooMuchError(reason, SourceSpan(file))
@@ -80,22 +157,6 @@ def parse_xml(text: str | bytes, file: str, diagnostics: Diagnostics) -> Tag | N
     except _TooMuchError as error:
         diagnostics.report("limits.elements", str(error), error.span)
     return None
-
-
-def too_much_in(data: bytes) -> str:
-    """Return why a document is too large to be read, empty when it is not.
-
-    Its tags are counted, which is much sooner done than reading half of it.
-    """
-    if len(data) > scaled(TEXT_BYTES):
-        return f"the document has {len(data)} bytes, the limit is {scaled(TEXT_BYTES)}"
-    most = scaled(_MAX_ELEMENTS)
-    # In UTF-16 end tags look different; there the elements are counted one by one.
-    if data.count(b"<") > most and b"\0" not in data[:16]:
-        count = data.count(b"<") - sum(data.count(word) for word in (b"</", b"<!", b"<?"))
-        if count > most:
-            return f"the document has {count} elements, the limit is {most}"
-    return ""
 
 
 def _parsed_or_repaired(

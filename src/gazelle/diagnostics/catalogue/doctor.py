@@ -66,6 +66,14 @@ _LAUNCHES = (
         "nothing",
     ),
     Entry(
+        "doctor.too-many-joints",
+        "info",
+        "A robot has too many joints to be brought up beside the other checks",
+        "MuJoCo needs minutes for tens of thousands of joints. Everything that the description "
+        "alone shows is checked; plug-ins, controllers and contacts are not tried.",
+        "set the environment variable GAZELLE_LIMITS=10, or add --probe",
+    ),
+    Entry(
         "doctor.bad-arguments",
         "error",
         "A node is started with arguments that it refuses",
