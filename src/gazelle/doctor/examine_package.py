@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.examine_file import examine_file
 from gazelle.doctor.file_kinds import Kind, kind_of, looks_like
@@ -58,7 +59,7 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
     if not kinds and needs_files:
         text = f"'{folder}' holds no launch file, robot, world, model or parameter file"
         examination.diagnostics.report("doctor.nothing", text, SourceSpan(str(folder)))
-    pieces = _included_names(path for path, kind in kinds if kind is Kind.ROBOT)
+    pieces = _included_names(path for path, kind in files if _is_robot(path, kind))
     included = _included_names(path for path, kind in kinds if kind is Kind.LAUNCH)
     # Files that others include are examined as those include them, with their arguments.
     kinds.sort(key=lambda item: item[0].name in included)
@@ -74,12 +75,24 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
 
 def _examine_robot(path: Path, examination: Examination) -> None:
     """Examine a robot; a file without links is a piece for others, and none itself."""
+    if _is_placeholder(path):
+        return
     alone = replace(examination, diagnostics=Diagnostics(), sections=[])
     examine_file((path,), Kind.ROBOT, alone)
     if path.suffix == ".xacro" and alone.diagnostics.by_code("urdf.no-links"):
         return
     examination.diagnostics.extend(alone.diagnostics)
     examination.add(*alone.sections)
+
+
+def _is_robot(path: Path, kind: Kind | None) -> bool:
+    return kind is Kind.ROBOT or (kind is None and path.suffix == ".xacro")
+
+
+def _is_placeholder(path: Path) -> bool:
+    """Tell a robot with nothing in it, which stands where users may have a file of their own."""
+    root = read_xml(path, Diagnostics())
+    return root is not None and not root.children and not root.attributes
 
 
 def _included_names(paths: Iterable[Path]) -> frozenset[str]:
@@ -99,11 +112,21 @@ def _files_below(folder: Path) -> Iterator[Path]:
                 yield path
 
 
+def _is_piece(path: Path) -> bool:
+    """Tell a file that only defines and includes, or whose outermost element says that."""
+    root = read_xml(path, Diagnostics())
+    if root is None:
+        return False
+    words = {tag.name.removeprefix("xacro:") for tag in root.children}
+    return root.name == "root" or words <= {"arg", "include", "macro", "property"}
+
+
 def _kind(path: Path, examination: Examination) -> Kind | None:
     found = Diagnostics()
     kind = kind_of(path, found)
-    is_plain = path.suffix == ".xml" and all(item.code == "doctor.unknown-file" for item in found)
-    # Other programs keep XML files too.
-    if kind is None and not is_plain:
+    is_unknown = all(item.code == "doctor.unknown-file" for item in found)
+    # Other programs keep XML files too, and pieces for xacro may have any outermost element.
+    is_plain = path.suffix == ".xml" or (path.suffix == ".xacro" and _is_piece(path))
+    if kind is None and not (is_unknown and is_plain):
         examination.diagnostics.extend(found)
     return kind
