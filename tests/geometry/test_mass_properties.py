@@ -15,6 +15,7 @@ from gazelle.geometry import (
     inertia_matrix,
     inertia_problems,
     is_legal_inertia,
+    least_principal_moment,
     legalised_inertia,
     sphere_mass_properties,
 )
@@ -118,3 +119,9 @@ def test_legalising_always_ends_legal_and_only_adds(inertia):
 
 def test_the_largest_moment_stays_when_the_others_are_raised():
     assert legalised_inertia((1, 0, 0, 1, 0, 3)) == pytest.approx((1.5, 0, 0, 1.5, 0, 3))
+
+
+def test_least_principal_moment_tells_0_from_less():
+    assert least_principal_moment((0.0, 0.0, 0.0, 0.1, 0.0, 0.1)) == 0.0
+    assert least_principal_moment((0.01, 0.015, 0.0, 0.01, 0.0, 0.02)) == pytest.approx(-0.005)
+    assert math.isnan(least_principal_moment((math.inf, 0.0, 0.0, 1.0, 0.0, 1.0)))

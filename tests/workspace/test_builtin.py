@@ -139,3 +139,13 @@ def test_every_model_has_a_config_that_names_its_sdf():
     for folder in sorted((BUILTIN / "models").iterdir()):
         root = ElementTree.parse(folder / "model.config").getroot()
         assert (folder / root.findtext("sdf")).is_file()
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["force_torque_sensor_controller", "imu_sensor_controller", "joint_state_controller"],
+)
+def test_broadcasters_bring_their_parameters_and_their_launch_file(discover, name):
+    package = discover().package(name)
+    for file in (f"{name}.yaml", f"{name}.launch"):
+        assert name in (package.path / file).read_text("utf-8")

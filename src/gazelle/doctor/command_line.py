@@ -19,6 +19,7 @@ from gazelle.doctor.packages import check_environment
 from gazelle.doctor.report import Examination, Options, Report
 from gazelle.doctor.robots_and_worlds import without_superseded
 from gazelle.doctor.target import Target, find_target, package_at
+from gazelle.doctor.works_elsewhere import as_warnings_of_parts_elsewhere
 from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace import Workspace
 from gazelle.workspace.environment_paths import BUILTIN
@@ -99,6 +100,7 @@ def _findings(examination: Examination) -> list[Diagnostic]:
     own = examination.workspace.user_packages
     known = {*packages, *(name for item in own for name in item.depends)}
     found = _once(map(_at_users_line, without_superseded(tuple(strict(examination.diagnostics)))))
+    found = as_warnings_of_parts_elsewhere(found, (item.name for item in own))
     return condensed(found, known)
 
 
@@ -111,13 +113,13 @@ def _at_users_line(item: Diagnostic) -> Diagnostic:
     return replace(item, span=replace(outer[0], via=tuple(outer[1:]))) if outer else item
 
 
-def _once(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+def _once(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
     """Keep one of findings that differ only in the includes that led to them."""
     kept: dict[Diagnostic, Diagnostic] = {}
     for item in findings:
         bare = item if item.span is None else replace(item, span=replace(item.span, via=()))
         kept.setdefault(bare, item)
-    return tuple(kept.values())
+    return list(kept.values())
 
 
 def _examine(target: Target, examination: Examination) -> str:

@@ -191,6 +191,14 @@ def _is_left(file: Path, found: Diagnostics, examination: Examination) -> bool:
             "doctor.needs-arguments", text, unset[0].span, fix=fix, phrase=unset[0].phrase
         )
         return True
+    placeholder = _placeholder_default(file, found)
+    if placeholder:
+        first = found.errors[0]
+        text = f"'{file.name}' needs arguments and is not started: there are no files for "
+        text += f"{placeholder}, which is its default ({first.message})"
+        fix = f"examine it with a value: gazelle doctor {file} {placeholder.partition('=')[0]}=…"
+        diagnostics.report("doctor.needs-arguments", text, first.span, fix=fix)
+        return True
     if found.by_code("sdf.no-model"):
         for item in found:
             text = f"{item.message}; right where others use its meshes only, or a program makes it"
@@ -210,6 +218,18 @@ def _whole_robot(file: Path, found: Diagnostics, examination: Examination) -> Pa
         text = f"'{file.name}' is a part of '{whole.name}', which is examined in its place"
         examination.diagnostics.report("doctor.part", text, SourceSpan(str(file)))
     return whole
+
+
+def _placeholder_default(file: Path, found: Diagnostics) -> str:
+    """Return the argument, as name:=value, whose default is the folder of all missing files."""
+    root = read_xml(file, Diagnostics()) if found.errors else None
+    if root is None or any(item.code != "xacro.file-missing" for item in found.errors):
+        return ""
+    for tag in root.walk():
+        value = tag.attributes.get("default", "") if tag.name == "xacro:arg" else ""
+        if value and all(f"/{value}/" in item.message for item in found.errors):
+            return f"{tag.attributes.get('name', '')}:={value}"
+    return ""
 
 
 def _is_light(file: Path) -> bool:

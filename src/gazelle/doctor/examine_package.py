@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.examine_file import examine_file
 from gazelle.doctor.file_kinds import Kind, kind_of, looks_like
@@ -79,12 +80,20 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
 
 def _examine_robot(path: Path, examination: Examination) -> None:
     """Examine a robot; a file without links is a piece for others, and none itself."""
+    if _is_placeholder(path):
+        return
     alone = replace(examination, diagnostics=Diagnostics(), sections=[])
     examine_file((path,), Kind.ROBOT, alone)
     if path.suffix == ".xacro" and alone.diagnostics.by_code("urdf.no-links"):
         return
     examination.diagnostics.extend(alone.diagnostics)
     examination.add(*alone.sections)
+
+
+def _is_placeholder(path: Path) -> bool:
+    """Tell a robot with nothing in it, which stands where users may have a file of their own."""
+    root = read_xml(path, Diagnostics())
+    return root is not None and not root.children and not root.attributes
 
 
 def _files_below(folder: Path) -> Iterator[Path]:
@@ -98,11 +107,21 @@ def _files_below(folder: Path) -> Iterator[Path]:
                 yield path
 
 
+def _is_piece(path: Path) -> bool:
+    """Tell a file that only defines and includes, or whose outermost element says that."""
+    root = read_xml(path, Diagnostics())
+    if root is None:
+        return False
+    words = {tag.name.removeprefix("xacro:") for tag in root.children}
+    return root.name == "root" or words <= {"arg", "include", "macro", "property"}
+
+
 def _kind(path: Path, examination: Examination) -> Kind | None:
     found = Diagnostics()
     kind = kind_of(path, found)
-    is_plain = path.suffix == ".xml" and all(item.code == "doctor.unknown-file" for item in found)
-    # Other programs keep XML files too.
-    if kind is None and not is_plain:
+    is_unknown = all(item.code == "doctor.unknown-file" for item in found)
+    # Other programs keep XML files too, and pieces for xacro may have any outermost element.
+    is_plain = path.suffix == ".xml" or (path.suffix == ".xacro" and _is_piece(path))
+    if kind is None and not (is_unknown and is_plain):
         examination.diagnostics.extend(found)
     return kind

@@ -19,6 +19,7 @@ from gazelle.geometry.mass_properties import (
     inertia_matrix,
     inertia_problems,
     is_legal_inertia,
+    least_principal_moment,
     legalised_inertia,
 )
 from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart
@@ -112,6 +113,7 @@ __all__ = [
     "is_closed",
     "is_legal_inertia",
     "is_splitting",
+    "least_principal_moment",
     "legalised_inertia",
     "load_mesh",
     "load_mesh_reported",

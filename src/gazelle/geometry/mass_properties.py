@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -18,6 +19,7 @@ __all__ = [
     "inertia_matrix",
     "inertia_problems",
     "is_legal_inertia",
+    "least_principal_moment",
     "legalised_inertia",
 ]
 
@@ -135,6 +137,17 @@ def inertia_problems(inertia: Inertia6) -> tuple[str, ...]:
             f"{a:.4g} + {b:.4g} < {c:.4g})"
         )
     return tuple(problems)
+
+
+def least_principal_moment(inertia: Inertia6) -> float:
+    """Return the smallest principal moment in kg m2, 0 where rounding made it a little less.
+
+    NaN when a value is not finite.
+    """
+    if not np.isfinite(np.asarray(inertia, np.float64)).all():
+        return math.nan
+    least, _, most = np.linalg.eigvalsh(inertia_matrix(inertia)).tolist()
+    return 0.0 if abs(least) <= 1e-9 * abs(most) else float(least)
 
 
 def legalised_inertia(inertia: Inertia6) -> Inertia6:

@@ -90,6 +90,13 @@ def test_a_wrong_joint_is_left_out_with_the_nearest_name() -> None:
     assert "did you mean 'elbow'?" in text
 
 
+def test_a_fixed_joint_may_be_named_to_hardware_of_another_package() -> None:
+    tip = transmission("tip").replace("hardware_interface/Effort", "arm_hw/Model")
+    rig = ros1_rig(rotor("tip", "fixed", ""), tip, rotor("k"), transmission("k"))
+    assert list(rig.robot.joints) == ["k"]
+    assert not rig.diagnostics.by_code("control.hardware-joint")
+
+
 def test_a_fixed_joint_cannot_be_driven() -> None:
     fixed = rotor("j", "fixed", "")
     rig = ros1_rig(fixed, transmission("j"), rotor("k"), transmission("k"))

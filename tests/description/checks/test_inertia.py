@@ -114,7 +114,14 @@ def test_point_mass_on_another_body_is_fine(judge) -> None:
 
 
 def test_moving_point_mass_is_not(judge) -> None:
-    assert judge(robot(link(inertial(1, (0, 0, 0)), shape=""))).codes == ["inertia.not-positive"]
+    found = judge(robot(link(inertial(1, (0, 0, 0)), shape="")))
+    assert found.only.code == "inertia.not-positive"
+    assert found.only.severity is Severity.WARNING
+
+
+def test_negative_moment_is_an_error(judge) -> None:
+    found = judge(robot(link(inertial(1, (-0.1, 0.1, 0.1)), shape="")))
+    assert found.only.severity is Severity.ERROR
 
 
 def test_link_lighter_than_foam(judge) -> None:

@@ -38,10 +38,10 @@ def test_second_collision_of_a_name_gets_another_name(model, diagnostics):
     body = f"<link name='l'><collision name='c'>{shape}</collision>"
     body += f"<collision name='c'>{shape}</collision></link>"
     assert [item.name for item in model(body).link("l").collisions] == ["c", "c_1"]
-    (found,) = diagnostics.by_code("sdf.duplicate-name")
+    (found,) = diagnostics.by_code("sdf.duplicate-shape")
     assert "collision with name 'c' stands twice in link 'l'" in found.message
     assert found.message.endswith("the second one becomes 'c_1'")
-    assert "already exists" in found.phrase
+    assert found.phrase == "Non-unique name detected"
 
 
 def test_nameless_link_is_reported(model, diagnostics):

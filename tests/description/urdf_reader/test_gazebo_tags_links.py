@@ -172,3 +172,10 @@ def test_slip_works_in_a_surface_and_only_there(read_link) -> None:
     single = read_link(TOUCHES, after=_block("<slip1>0.1</slip1>"))
     assert single.robot.link("a").collisions[0].surface.slip1 is None
     assert "<collision><surface><friction><ode><slip1>" in single.message("urdf.gazebo-no-effect")
+
+
+def test_projector_is_legal_and_not_simulated(read_link) -> None:
+    found = read_link(TOUCHES, after=_block("<projector name='p'/>"))
+    (item,) = found.diagnostics.by_code("sdf.not-simulated")
+    assert "<projector> in <gazebo> for" in item.message
+    assert not found.diagnostics.by_code("xml.unknown-tag")

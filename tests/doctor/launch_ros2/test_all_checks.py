@@ -440,3 +440,30 @@ def test_words_of_roslaunch_are_no_arguments_of_a_node(check: Check) -> None:
     found, _ = check("bot.launch.py", PYTHON.format(node))
     fixes = [item.fix for item in found.by_code("launch_ros2.keyword")]
     assert fixes == ["did you mean 'arguments'?", "did you mean 'parameters'?"]
+
+
+def test_quotes_in_a_command_are_the_shells(check: Check) -> None:
+    robot = "<robot name='r' xmlns:xacro='http://ros.org/wiki/xacro'>"
+    robot += "<xacro:arg name='prefix' default=''/><link name='$(arg prefix)a'/></robot>"
+    command = "Node(package='p', executable='e', parameters=[{'robot_description': "
+    command += "Command(['xacro ', get_package_share_directory('bot') + '/config/r.xacro', "
+    command += "' prefix:=', LaunchConfiguration('prefix')])}])"
+    text = "from ament_index_python.packages import get_package_share_directory\n"
+    text += "from launch.actions import DeclareLaunchArgument\n"
+    text += "from launch.substitutions import Command, LaunchConfiguration\n"
+    argument = "DeclareLaunchArgument('prefix', default_value='\"\"'), "
+    _, reading = check("r.launch.py", text + PYTHON.format(argument + command),
+                       {"config/r.xacro": robot})  # fmt: skip
+    (source,) = reading.robots
+    assert source.mappings.get("prefix", "") == ""
+
+
+def test_words_in_quotes_are_one_argument_of_a_spawner(check: Check) -> None:
+    launch = "<launch><node pkg='controller_manager' exec='ros2_control_node'>"
+    launch += "<param from='$(find-pkg-share bot)/config/c.yaml'/></node>"
+    launch += "<node pkg='controller_manager' exec='spawner' "
+    launch += "args=\"arm --controller-ros-args '-r ~/a:=/b'\"/></launch>"
+    kind = "joint_trajectory_controller/JointTrajectoryController"
+    lines = f"controller_manager:\n  ros__parameters:\n    arm:\n      type: {kind}\n"
+    found, _ = check("c.launch.xml", launch, {"config/c.yaml": lines})
+    assert not found.by_code("launch_ros2.controller-missing")

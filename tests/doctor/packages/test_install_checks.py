@@ -214,3 +214,12 @@ def test_broken_build_files_come_to_an_end(
 ) -> None:
     found, _ = check("bot", make(build_type, **{name: text, "launch__a.launch.py": ""}))
     assert all(item.code.startswith("package.") for item in found)
+
+
+def test_mark_of_utf8_before_the_first_command_is_none_of_it(check: Any, tmp_path: Path) -> None:
+    manifest = '<package format="2"><name>bot</name><version>1.0.0</version></package>'
+    (tmp_path / "bot").mkdir()
+    (tmp_path / "bot" / "package.xml").write_text(manifest, "utf-8")
+    (tmp_path / "bot" / "CMakeLists.txt").write_text(f"\ufeff{AMENT.format('')}", "utf-8")
+    found, _ = check("bot", tmp_path)
+    assert not found.by_code("package.cmake-syntax")

@@ -153,3 +153,45 @@ def test_colons_that_end_a_plain_text_of_yaml(text: str, count: int) -> None:
     found = Diagnostics()
     check_description_text(text, file="<text>", diagnostics=found)
     assert len(found.by_code("parameters.colon-in-description")) == count
+
+
+def _written(root: Path, **files: str) -> None:
+    manifest = '<package format="2"><name>bot</name><version>1.0.0</version></package>'
+    for name, text in {"package.xml": manifest, **files}.items():
+        path = root / "bot" / name.replace("__", "/")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+def _arm(name: str, *joints: str) -> str:
+    parts = ["<link name='l0'/>"]
+    for index, joint in enumerate(joints):
+        kind = "fixed" if joint == "flange" else "revolute"
+        parts.append(
+            f"<link name='l{index + 1}'/><joint name='{joint}' type='{kind}'><parent "
+            f"link='l{index}'/><child link='l{index + 1}'/><axis xyz='0 0 1'/>"
+            "<limit lower='-1' upper='1' effort='1' velocity='1'/></joint>"
+        )
+    return f"<robot name='{name}'>{''.join(parts)}</robot>"
+
+
+def _list(*joints: str) -> str:
+    kind = "type: FollowJointTrajectory"
+    return f"controller_list:\n  - name: arm\n    {kind}\n    joints: [{', '.join(joints)}]\n"
+
+
+def test_fixed_joints_that_no_file_names_are_no_disagreement(tmp_path: Path) -> None:
+    arm = _arm("a", "one", "two", "flange")
+    _written(tmp_path, **{"urdf__a.urdf": arm})
+    _written(tmp_path, **{"config__controllers.yaml": _list("one", "two")})
+    assert not checked("bot", tmp_path)[0].by_code("control.names-disagree")
+
+
+def test_files_for_another_robot_of_the_package_are_not_compared(tmp_path: Path) -> None:
+    _written(tmp_path, **{"urdf__a.urdf": _arm("a", "one", "two", "three")})
+    _written(tmp_path, **{"urdf__b.urdf": _arm("b", "j1", "j2")})
+    _written(tmp_path, **{"config__a__controllers.yaml": _list("one", "two", "three")})
+    _written(tmp_path, **{"config__b__controllers.yaml": _list("j1", "j2")})
+    assert not checked("bot", tmp_path)[0].by_code("control.names-disagree")
+    _written(tmp_path, **{"config__b__controllers.yaml": _list("j1", "jj2")})
+    assert checked("bot", tmp_path)[0].by_code("control.names-disagree")

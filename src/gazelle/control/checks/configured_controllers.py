@@ -53,8 +53,10 @@ def moveit_controllers(tree: Mapping[str, Any]) -> tuple[MoveItController, ...]:
 
 def _from_list(rows: list[Any]) -> Iterator[MoveItController]:
     for row in rows:
-        if isinstance(row, Mapping) and isinstance(row.get("name"), str):
-            yield MoveItController(row["name"].strip("/"), _texts(row.get("joints")))
+        name = row.get("name") if isinstance(row, Mapping) else None
+        # One without a name is an action of a robot's driver, which has no controllers.
+        if isinstance(name, str) and name.strip("/"):
+            yield MoveItController(name.strip("/"), _texts(row.get("joints")))
 
 
 def _texts(value: Any) -> tuple[str, ...]:

@@ -102,6 +102,12 @@ def read_ros1_joints(
     return tuple(reader.joints())
 
 
+def _is_foreign(member: TransmissionJoint) -> bool:
+    """Tell a joint whose interfaces are all of other packages than ROS's."""
+    names = [name.replace("::", "/") for name in member.hardware_interfaces]
+    return bool(names) and all("/" in name and not name.startswith(_PREFIX) for name in names)
+
+
 class _Reader:
     def __init__(
         self,
@@ -124,7 +130,7 @@ class _Reader:
         for tag in self._description.transmissions:
             self._check(tag)
             for member in tag.joints:
-                if not self._exists(tag, member.name):
+                if not self._exists(tag, member):
                     continue
                 if member.name in seen:
                     text = f"joint '{member.name}' is in the transmissions '{seen[member.name]}'"
@@ -205,7 +211,8 @@ class _Reader:
             text += f" controllers drive the joints themselves ({', '.join(self._reduced)})"
             self._host.diagnostics.report("control.transmission-idle", text, self._model.span)
 
-    def _exists(self, tag: TransmissionTag, name: str) -> bool:
+    def _exists(self, tag: TransmissionTag, member: TransmissionJoint) -> bool:
+        name = member.name
         full = f"{self._model.name}::{name}"
         joint = self._model.joint(name)
         if joint is not None and self._host.engine.joint(full).is_driveable:
@@ -218,6 +225,9 @@ class _Reader:
             text += f' "{name}" which is not in the gazebo model.)'
             movable = [item.name for item in self._model.joints if item.axis is not None]
             hint = did_you_mean(name, movable)
+        elif _is_foreign(member):
+            # It names a place, such as an arm's tip, for hardware of somebody else's.
+            return False
         else:
             text += f"is {joint.type.value} and cannot be driven; it is left out"
         span = next((one.span for one in tag.joints if one.name == name), None) or tag.span

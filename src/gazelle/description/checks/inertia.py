@@ -18,8 +18,13 @@ from gazelle.description.checks.inertia_units import (
     is_inside,
 )
 from gazelle.description.checks.written_inertials import JointRecord, LinkRecord
-from gazelle.diagnostics import Diagnostic, Diagnostics, SourceSpan
-from gazelle.geometry import MassProperties, inertia_problems, legalised_inertia
+from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan
+from gazelle.geometry import (
+    MassProperties,
+    inertia_problems,
+    least_principal_moment,
+    legalised_inertia,
+)
 
 __all__ = [
     "SUPERSEDED_CODES",
@@ -216,7 +221,10 @@ def _impossible(record: LinkRecord, new: MassProperties | None) -> Iterator[Iner
     for problem in inertia_problems(written.inertia_kg_m2)[:1]:
         code = "inertia.triangle" if "triangle" in problem else "inertia.not-positive"
         message = f"no body has the inertia of link '{record.name}': {problem}"
-        yield _finding(code, message, record, written.inertia_span, new)
+        # Many a robot has zeros somewhere, and Gazebo simulates it.
+        is_flat = least_principal_moment(written.inertia_kg_m2) >= 0.0
+        severity = Severity.WARNING if is_flat else None
+        yield _finding(code, message, record, written.inertia_span, new, severity)
 
 
 def _misfits(
@@ -307,6 +315,7 @@ def _finding(
     record: LinkRecord,
     span: SourceSpan | None,
     new: MassProperties | None,
+    severity: Severity | None = None,
 ) -> InertiaFinding:
     diagnostics = Diagnostics()
     name = record.name.rpartition("::")[2]
@@ -314,7 +323,7 @@ def _finding(
     if new is not None:
         block = inertial_block(new, record.source_format)
         fix = f'paste into <link name="{name}">\n{block}'
-    diagnostics.report(code, message, span, fix=fix)
+    diagnostics.report(code, message, span, fix=fix, severity=severity)
     return InertiaFinding(next(iter(diagnostics)), record, new)
 
 

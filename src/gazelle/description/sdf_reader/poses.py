@@ -101,7 +101,8 @@ def named_children(tag: Tag, kind: str, context: ReadContext) -> tuple[Tag, ...]
                 f"{kind} with name '{name}' stands twice in {tag.name} '{owner}' (first in line "
                 f"{found[name].span.line}); the second one {effect}"
             )
-            context.diagnostics.report("sdf.duplicate-name", message, child.span)
+            code = "sdf.duplicate-shape" if other else "sdf.duplicate-name"
+            context.diagnostics.report(code, message, child.span)
             if other:
                 found[other] = replace(child, attributes={**child.attributes, "name": other})
             continue

@@ -114,7 +114,11 @@ def _bool_value(tag: Tag, default: bool, context: ReadContext) -> bool:
 
 
 def _report_unknown(tag: Tag, where: str, known: Iterable[str], context: ReadContext) -> None:
-    """Report an element that has no meaning in this ``<gazebo>`` block."""
+    """Report an element that has no meaning in this ``<gazebo>`` block, or none here."""
+    if tag.name == "projector":
+        message = f"<projector> in <gazebo> for {where} is not simulated: no picture is projected"
+        context.diagnostics.report("sdf.not-simulated", message, tag.span)
+        return
     message = f"<{tag.name}> is not known in <gazebo> for {where}; it has no effect"
     context.diagnostics.report(
         "xml.unknown-tag", message, tag.span, fix=did_you_mean(tag.name, known)

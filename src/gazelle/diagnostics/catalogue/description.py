@@ -324,13 +324,14 @@ _INERTIA = (
         "error",
         "A link's inertia tensor is not positive definite",
         "It takes work to turn a body about any axis, so all principal moments are greater than "
-        "0. Gazebo refuses such a tensor or the simulation diverges.",
+        "0. The new Gazebo refuses a negative one, and Gazebo Classic diverges; where some are 0, "
+        "both go on, and this is a warning.",
         "paste the block shown",
         "A link named ... has invalid inertia.",
     ),
     Entry(
         "inertia.triangle",
-        "error",
+        "warning",
         "A link's inertia tensor breaks the triangle inequality",
         "Each principal moment is an integral of two squared distances, so none is larger than "
         "the sum of the other two. Such a tensor often is one about the joint, not about the "

@@ -110,10 +110,18 @@ ENTRIES = (
         "sdf.duplicate-name",
         "error",
         "Two things in one scope have the same name",
-        "References by name would be ambiguous. Of two collisions or visuals the second one gets a "
-        "name of its own, as Gazebo loads both; of other things the first one is kept.",
+        "References by name would be ambiguous. The first one is kept.",
         "rename one of them",
         "link with name[...] already exists. / Non-unique name detected",
+    ),
+    Entry(
+        "sdf.duplicate-shape",
+        "warning",
+        "Two collisions or visuals of a link have the same name",
+        "Gazebo loads both. Contact sensors and plug-ins that name a collision mean one of them; "
+        "here the second one gets a name of its own.",
+        "rename one of them",
+        "Non-unique name detected",
     ),
     Entry(
         "sdf.bad-inertia",

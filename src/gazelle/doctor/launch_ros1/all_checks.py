@@ -25,6 +25,7 @@ from gazelle.doctor.launch_ros1.node_checks import (
     check_unsupported_parameters,
     nodes_section,
 )
+from gazelle.doctor.launch_ros1.required_arguments import report_required, without_consequences
 from gazelle.doctor.launch_ros1.topics import topics_of
 from gazelle.doctor.report import Examination
 from gazelle.doctor.robots_and_worlds import examine_models, examine_text, texts_known
@@ -36,7 +37,6 @@ from gazelle.launch.ros1.loader import load_launch_files
 __all__ = ["examine_launch"]
 
 _DESCRIPTION = "robot_description"
-_UNSET = frozenset({"launch.arg-missing", "launch.env-missing"})
 _LACKS = frozenset({"doctor.no-controller-manager", "doctor.no-description", "doctor.spawn-fails"})
 
 
@@ -57,11 +57,9 @@ def examine_launch(files: Sequence[Path], examination: Examination) -> None:
     )
     for file in (*config.files, *config.text_files):
         examination.see(Path(file))
-    if examination.is_wide and _report_required(config, found, examination):
-        # What is wrong without them is wrong with them.
-        for item in found:
-            if item.code not in _UNSET:
-                examination.diagnostics.add(item)
+    if examination.is_wide and report_required(config, found, examination):
+        for item in without_consequences(found):
+            examination.diagnostics.add(item)
         _executables(config, examination)
         return
     whole, examination = examination, replace(examination, diagnostics=Diagnostics())
@@ -88,34 +86,6 @@ def _of_a_part(item: Diagnostic) -> Diagnostic:
 
 def _asks(item: Diagnostic) -> bool:
     return f"{_DESCRIPTION}'" in item.message
-
-
-def _report_required(config: LaunchConfig, found: Diagnostics, examination: Examination) -> bool:
-    """Tell of a file that means nothing without arguments or environment; True when it is one."""
-    unset = found.by_code("launch.env-missing")
-    if unset:
-        text = f"'{Path(config.files[0]).name}' needs the environment and is not started: "
-        text += unset[0].message
-        fix = "examine it with the variable exported"
-        examination.diagnostics.report(
-            "doctor.needs-arguments", text, unset[0].span, fix=fix, phrase=unset[0].phrase
-        )
-        return True
-    needed = [item for item in config.args if item.default is None and item.value is None]
-    given = examination.options.arguments
-    missing = [item for item in needed if item.name not in given]
-    if not missing:
-        return False
-    file = Path(config.files[0])
-    argv = " ".join(f"{item.name}:=…" for item in missing)
-    text = f"'{file.name}' needs arguments and is not started: "
-    text += ", ".join(f"{item.name} ({item.doc})" if item.doc else item.name for item in missing)
-    fix = f"examine it with them: gazelle doctor {file} {argv}"
-    phrase = f"RLException: [{file}] requires the '{missing[0].name}' arg to be set"
-    examination.diagnostics.report(
-        "doctor.needs-arguments", text, missing[0].span, fix=fix, phrase=phrase
-    )
-    return True
 
 
 def _executables(config: LaunchConfig, examination: Examination) -> list[Executable | None]:

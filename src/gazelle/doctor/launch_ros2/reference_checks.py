@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -123,14 +124,26 @@ def _robot(command: Command) -> RobotSource | None:
     name, _, rest = command.text.strip().partition(" ")
     if Path(name).name not in {"xacro", "xacro.py"}:
         return None
-    # What follows the first word that is not known may be an argument's half.
-    words = [word for word in rest.split() if "…" not in word and not word.endswith(":=")]
     try:
+        words = _known_words(rest)
         parsed = parse_xacro_arguments(words)
     except ValueError:
         return None
     path = located(parsed.file) or Path(parsed.file)
     return RobotSource(path, parsed.mappings, command.span)
+
+
+def _known_words(text: str) -> list[str]:
+    """Return the words that Command makes of a text, without those that are not known.
+
+    What follows the first word that is not known may be an argument's half.
+
+    Raises:
+        ValueError: a quote is left open.
+    """
+    quoted = shlex.split(text, posix=False)
+    known = (word for word in quoted if "…" not in word and not word.endswith(":="))
+    return [" ".join(shlex.split(word)) for word in known]
 
 
 def _check_blanks(command: Command, diagnostics: Diagnostics) -> None:

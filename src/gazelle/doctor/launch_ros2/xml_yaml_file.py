@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 from collections.abc import Mapping
 from pathlib import Path, PurePath
 
@@ -119,6 +120,14 @@ def _element(name: str, place: YamlNode, node: YamlNode) -> Tag:
     return Tag(name, place.span, attributes, tuple(children))
 
 
+def _words(text: str) -> list[str]:
+    """Return the words of a node's ``args``, those in quotes as one."""
+    try:
+        return shlex.split(text)
+    except ValueError:
+        return text.split()
+
+
 class _Reader:
     def __init__(self, path: Path, values: Substitutions) -> None:
         self._values = values
@@ -173,7 +182,7 @@ class _Reader:
                 complete = complete and text is not None
             else:
                 values[item.attributes.get("name", "")] = self._text(item, "value")
-        words = (self._text(tag, "args") or "").split()
+        words = _words(self._text(tag, "args") or "")
         self._file.nodes.append(
             LaunchedNode(
                 self._text(tag, "pkg"),

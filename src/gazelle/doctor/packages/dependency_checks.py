@@ -40,6 +40,8 @@ _ALWAYS_THERE = frozenset(
     {"ament_index_python", "launch", "launch_ros", "launch_xml", "launch_yaml"}
 )
 _LONG_NAME = 12
+_SHORT_WORD = 3
+_DIGITS = re.compile(r"\d")
 
 
 class Use(NamedTuple):
@@ -101,11 +103,29 @@ def check_dependencies(
 
 def is_slip(name: str, other: str) -> bool:
     """Tell a slip of the finger from two names of one family, as ``a_msgs`` and ``b_msgs`` are."""
+    if _is_family(name, other):
+        return False
     longest = max(len(name), len(other))
     begin, end = _same_begin(name, other), _same_begin(name[::-1], other[::-1])
     # Two letters that changed places are one slip.
     wrong = 1 if longest < _LONG_NAME and sorted(name) != sorted(other) else 2
     return begin + end >= longest - wrong and abs(len(name) - len(other)) <= wrong
+
+
+def _is_family(name: str, other: str) -> bool:
+    """Tell names of one family by a number or a short word: ``tb3_viz``, ``tb4_viz``, ``tb3_gz``.
+
+    Of three letters one is forgotten or doubled; two different ones are two words.
+    """
+    if _DIGITS.sub("", name) == _DIGITS.sub("", other):
+        return True
+    words, others = name.split("_"), other.split("_")
+    pairs = [pair for pair in zip(words, others, strict=False) if pair[0] != pair[1]]
+    if len(words) != len(others) or len(pairs) != 1:
+        return False
+    short, long = sorted(pairs[0], key=len)
+    is_short = len(long) <= _SHORT_WORD and sorted(short) != sorted(long)
+    return is_short and not any(long[:i] + long[i + 1 :] == short for i in range(len(long)))
 
 
 def _is_package(name: str, workspace: Workspace) -> bool:

@@ -105,8 +105,21 @@ def check_package_parameters(
         written = [source.folder / name for name in source.files if name.endswith(_ROBOTS)]
         for path, text in whole_robots(source, workspace):
             check_description_text(text, file=str(path), diagnostics=diagnostics, sources=written)
-    section = check_names(model, files, diagnostics=diagnostics) if model is not None else None
+    if model is None:
+        return ()
+    own = [path for path in files if not _is_of_another(path, model, package, workspace)]
+    section = check_names(model, own, diagnostics=diagnostics)
     return (section,) if section is not None else ()
+
+
+def _is_of_another(path: Path, model: Model, package: Package, workspace: Workspace) -> bool:
+    """Tell a file whose joints are all of another robot, where a package is for several."""
+    names = read_name_files([path])
+    joints = names.joints()
+    if joints <= {joint.name for joint in model.joints}:
+        return False
+    others = robots_for(package, joints, ros_version=names.ros_version, workspace=workspace)
+    return any(joints <= {joint.name for joint in other.joints} for other in others)
 
 
 def _robot(

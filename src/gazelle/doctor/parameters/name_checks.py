@@ -251,7 +251,8 @@ def check_names(model: Model, files: Sequence[Path], *, diagnostics: Diagnostics
     if found.controllers or found.moveit:
         # Without any controller here, MoveIt's own list is all there is to compare.
         source = FoundControllers(found.controllers or _as_controllers(found.moveit, model))
-        known = hardware or {name: JointResource(name, ("position",), ()) for name in joints}
+        movable = [name for name, joint in joints.items() if joint.axis is not None]
+        known = hardware or {name: JointResource(name, ("position",), ()) for name in movable}
         told = Diagnostics()
         check_control(joints, known, source, told, moveit=found.moveit, span=model.span)
         for item in told:

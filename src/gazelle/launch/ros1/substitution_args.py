@@ -181,9 +181,14 @@ class Substitution:
             raise SubstitutionError(
                 "limits.expression", f"$(eval {expression}): {error}"
             ) from error
+        except NameError as error:
+            name = error.name or ""
+            if name in self.args:
+                # It is declared, and has no value; that is told in the words for it.
+                self.arg(name)
+            raise _failed(expression, error) from error
         except Exception as error:  # the user's expression may raise anything
-            message = f"$(eval {expression}): {type(error).__name__}: {error}"
-            raise SubstitutionError("launch.substitution", message) from error
+            raise _failed(expression, error) from error
 
 
 _EVAL_NAMES: dict[str, Any] = {
@@ -197,6 +202,11 @@ _EVAL_NAMES: dict[str, Any] = {
     "true": True,
     "false": False,
 }
+
+
+def _failed(expression: str, error: Exception) -> SubstitutionError:
+    message = f"$(eval {expression}): {type(error).__name__}: {error}"
+    return SubstitutionError("launch.substitution", message)
 
 
 def _not_found(name: str, error: NotFoundError) -> SubstitutionError:

@@ -156,7 +156,7 @@ class _Walker:
         if self._depth >= _MAX_DEPTH:
             return
         self._depth += 1
-        commands, problem = read_commands(file.read_text(encoding="utf-8", errors="replace"))
+        commands, problem = read_commands(file.read_text(encoding="utf-8-sig", errors="replace"))
         if problem is not None and self.lists.problem is None:
             span = SourceSpan(str(file), problem.line, problem.column)
             self.lists.problem = (problem, span)
