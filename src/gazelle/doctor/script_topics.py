@@ -60,11 +60,14 @@ class ScriptTopics:
         sends_transforms: it has a broadcaster of tf.
         is_complete: these are all; False when a name is computed or code of other files may
             talk as well.
+        texts: all texts in the source that are no names of these topics and no comments: services,
+            parameters, parts of names.
     """
 
     uses: tuple[TopicUse, ...] = ()
     sends_transforms: bool = False
     is_complete: bool = True
+    texts: frozenset[str] = frozenset()
 
     @property
     def publishes(self) -> dict[str, str]:
@@ -95,6 +98,7 @@ def _read(path: Path, source: bytes) -> ScriptTopics:
         tuple(reader.uses),
         reader.sends_transforms,
         reader.is_complete and _stands_alone(tree, path),
+        frozenset(_texts(tree)) - {use.name for use in reader.uses},
     )
 
 
@@ -196,6 +200,13 @@ def _constants(tree: ast.Module) -> dict[str, str]:
                     is_new = target.id not in found and isinstance(text, str)
                     found[target.id] = text if is_new else None  # type: ignore[assignment]
     return {name: text for name, text in found.items() if text is not None}
+
+
+def _texts(tree: ast.Module) -> Iterator[str]:
+    said = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in said:
+            yield node.value
 
 
 def _imported(tree: ast.Module) -> Iterator[tuple[str, str]]:

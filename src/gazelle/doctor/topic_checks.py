@@ -10,7 +10,7 @@ from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.script_topics import TopicUse
 
-__all__ = ["TopicEnd", "check_topic_names", "check_topic_types", "same_type"]
+__all__ = ["TopicEnd", "check_topic_names", "check_topic_types", "is_typo", "same_type"]
 
 # What a script says counts less than what a simulator or a built-in node does.
 _SURE = 100
@@ -81,6 +81,15 @@ def check_topic_names(
         near = _meant(end, ends, is_whole)
         if near:
             _report_name(end, end.use, near, diagnostics, is_whole)
+
+
+def is_typo(name: str, other: str) -> bool:
+    """Tell a slip of the fingers from names that differ on purpose: ``scan_1``, ``cam_l``."""
+    words, others = re.split(r"[/_]", name), re.split(r"[/_]", other)
+    if len(words) != len(others) or _digits(name) != _digits(other):
+        return False
+    pairs = [(a, b) for a, b in zip(words, others, strict=True) if a != b]
+    return is_slip(name, other) and all(max(len(a), len(b)) >= _SHORT_WORD for a, b in pairs)
 
 
 def same_type(one: str, other: str) -> bool:
@@ -172,8 +181,8 @@ def _meant(end: TopicEnd, ends: Sequence[TopicEnd], is_whole: bool) -> str:
         for one in ends
         if one.publishes != end.publishes and one.node != end.node and _may_be(one, end, is_whole)
     ]
-    alike = [one for one in fitting if _digits(one) == _digits(end)]
-    slips = sorted({one.topic for one in alike if _is_typo(end.topic, one.topic)})
+    alike = [one for one in fitting if _digits(one.topic) == _digits(end.topic)]
+    slips = sorted({one.topic for one in alike if is_typo(end.topic, one.topic)})
     if slips:
         return slips[0]
     if end.publishes or not is_whole:
@@ -192,18 +201,9 @@ def _may_be(one: TopicEnd, end: TopicEnd, is_whole: bool) -> bool:
     return same_type(one.type, end.type)
 
 
-def _is_typo(name: str, other: str) -> bool:
-    """Tell a slip of the fingers from names that differ on purpose: ``scan_1``, ``cam_l``."""
-    words, others = re.split(r"[/_]", name), re.split(r"[/_]", other)
-    if len(words) != len(others):
-        return False
-    pairs = [(a, b) for a, b in zip(words, others, strict=True) if a != b]
-    return is_slip(name, other) and all(max(len(a), len(b)) >= _SHORT_WORD for a, b in pairs)
-
-
-def _digits(end: TopicEnd) -> str:
+def _digits(topic: str) -> str:
     """Return the digits of a topic: those with others are numbered on purpose."""
-    return re.sub(r"\D", "", end.topic)
+    return re.sub(r"\D", "", topic)
 
 
 def _parts(name: str) -> tuple[str, str]:
