@@ -1,4 +1,4 @@
-"""Which topics a script in Python uses, read from its source, with their places."""
+"""Topics: their ends in a launch, and those that a script in Python names in its source."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import NamedTuple
 from gazelle.compat.python2 import is_python2, translated
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["ScriptTopics", "TopicUse", "read_script"]
+__all__ = ["ScriptTopics", "TopicEnd", "TopicUse", "read_script"]
 
 _PUBLISHERS = frozenset({"Publisher", "create_publisher"})
 _SUBSCRIBERS = frozenset({"Subscriber", "create_subscription", "wait_for_message"})
@@ -49,6 +49,25 @@ class TopicUse(NamedTuple):
     publishes: bool
     name_span: SourceSpan
     type_span: SourceSpan
+
+
+class TopicEnd(NamedTuple):
+    """A node that publishes or listens to a topic.
+
+    Attributes:
+        node: its global name.
+        topic: global, after remapping.
+        type: such as ``sensor_msgs/msg/LaserScan``; a class's name alone, or empty, when no more
+            is known.
+        publishes: it publishes, else it listens.
+        use: where a script of the user's says so, None for other nodes.
+    """
+
+    node: str
+    topic: str
+    type: str
+    publishes: bool
+    use: TopicUse | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.doctor.packages.dependency_checks import is_slip
-from gazelle.doctor.script_topics import TopicUse
+from gazelle.doctor.script_topics import TopicEnd, TopicUse
 
-__all__ = ["TopicEnd", "check_topic_names", "check_topic_types", "is_typo", "same_type"]
+__all__ = ["check_topic_names", "check_topic_types", "is_typo", "same_type"]
 
 # What a script says counts less than what a simulator or a built-in node does.
 _SURE = 100
@@ -19,25 +18,6 @@ _SHORT = 5
 _SHORT_WORD = 3
 # Listened to without a publisher in the launch: by hand, by RViz, by a teleoperation of its own.
 _FROM_OUTSIDE = frozenset({"cmd_vel", "clicked_point", "goal", "initialpose", "tf", "tf_static"})
-
-
-class TopicEnd(NamedTuple):
-    """A node that publishes or listens to a topic.
-
-    Attributes:
-        node: its global name.
-        topic: global, after remapping.
-        type: such as ``sensor_msgs/msg/LaserScan``; a class's name alone, or empty, when no more
-            is known.
-        publishes: it publishes, else it listens.
-        use: where a script of the user's says so, None for other nodes.
-    """
-
-    node: str
-    topic: str
-    type: str
-    publishes: bool
-    use: TopicUse | None = None
 
 
 def check_topic_types(
@@ -142,7 +122,9 @@ def _report_type(
     text += ": no message arrives"
     package, name = _parts(wanted)
     fix = f"from {package}.msg import {name}" if package else f"use {name}"
-    phrase = f"topic types do not match: [{own}] vs. [{its}]" if ros_version == 1 else ""
+    phrase = f"topic types do not match: [{own}] vs. [{its}]"
+    if ros_version != 1:
+        phrase = f"Cannot echo topic '{end.topic}', as it contains more than one type"
     span = end.use.type_span
     diagnostics.report("doctor.topic-type", text, span, fix=fix, phrase=phrase)
 

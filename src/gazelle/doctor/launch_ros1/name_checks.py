@@ -10,9 +10,8 @@ from gazelle.description.xml import attribute_span
 from gazelle.diagnostics import Diagnostics, SourceSpan, nearest_names
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.launch_ros1.topics import NodeTopics
-from gazelle.doctor.script_topics import read_script
+from gazelle.doctor.script_topics import TopicEnd, read_script
 from gazelle.doctor.topic_checks import (
-    TopicEnd,
     check_topic_names,
     check_topic_types,
     is_typo,

@@ -16,7 +16,13 @@ from gazelle.node_specs.unavailable_packages import missing_node
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.entry_points import console_scripts
 
-__all__ = ["check_clocks", "check_executables", "check_node_keywords", "check_spawners"]
+__all__ = [
+    "check_clocks",
+    "check_executables",
+    "check_node_keywords",
+    "check_spawners",
+    "starts_simulator",
+]
 
 _SPAWNERS = frozenset({"spawner", "spawner.py"})
 _SPAWNER_VALUES = frozenset(
@@ -91,7 +97,7 @@ def check_spawners(
 
 def check_clocks(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
     """Report nodes on the wall clock beside a simulator."""
-    if not any(_starts_simulator(item) for item in files):
+    if not starts_simulator(files):
         return
     if any(_CLOCK in item.file.sets_parameters for item in files):
         return
@@ -105,6 +111,11 @@ def check_clocks(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
     text += "nodes on simulated time (Lookup would require extrapolation into the past)"
     fix = f"parameters=[…, {{'{_CLOCK}': True}}]"
     diagnostics.report("launch_ros2.clocks", text, late[0].span, fix=fix)
+
+
+def starts_simulator(files: Sequence[Followed]) -> bool:
+    """Tell whether a launch starts a simulator."""
+    return any(_starts_simulator(item) for item in files)
 
 
 def _nodes(files: Sequence[Followed]) -> Iterator[LaunchedNode]:
