@@ -14,12 +14,14 @@ from gazelle.doctor.dry_start import Program, StartPlan, dry_start
 from gazelle.doctor.file_kinds import Kind, is_semantic
 from gazelle.doctor.included_files import including_robot
 from gazelle.doctor.launch_ros1 import examine_launch
-from gazelle.doctor.launch_ros2 import check_launch
+from gazelle.doctor.launch_ros2 import LaunchReading, check_launch
 from gazelle.doctor.parameters import check_package_parameters, check_parameter_file
 from gazelle.doctor.report import Examination
 from gazelle.doctor.robots_and_worlds import examine_models
+from gazelle.doctor.script_topics import TopicEnd
 from gazelle.doctor.simulated_world import probe, simulation_sections
 from gazelle.doctor.target import package_at
+from gazelle.doctor.topic_checks import check_topic_names, check_topic_types
 from gazelle.documents.files import HOW_TO_RAISE, is_file, scaled
 from gazelle.errors import GazelleError
 from gazelle.workspace.environment_paths import BUILTIN
@@ -92,10 +94,30 @@ def _examine_ros2(file: Path, examination: Examination) -> None:
     examination.add(*found.sections)
     for robot in found.robots:
         if examination.see(robot.path) and not is_semantic(robot.path):
-            _examine_robot(robot.path, examination, robot.mappings)
+            _examine_robot(robot.path, examination, robot.mappings, started_by=2)
     for world in found.worlds:
         if examination.see(world):
-            _examine_world(world, examination)
+            _examine_world(world, examination, started_by=2)
+    _check_topics(found, examination)
+
+
+def _check_topics(found: LaunchReading, examination: Examination) -> None:
+    """Compare the topics of a launch's nodes with each other's and with its simulator's."""
+    topics = found.topics
+    if topics is None:
+        return
+    keys = [_key(robot.path, robot.mappings) for robot in found.robots]
+    keys += [_key(world, {}) for world in found.worlds]
+    known = [examination.simulated[key] for key in keys if key in examination.simulated]
+    simulated = [end for ends in known for end in ends] if found.simulates else []
+    ends = [*topics.ends, *simulated]
+    is_whole = topics.is_whole and found.simulates and len(known) == len(keys)
+    check_topic_types(ends, examination.diagnostics, ros_version=2)
+    check_topic_names(ends, examination.diagnostics, is_whole=is_whole, others=topics.others)
+
+
+def _key(path: Path, mappings: Mapping[str, str]) -> tuple[Path, frozenset[tuple[str, str]]]:
+    return path.resolve(), frozenset(mappings.items())
 
 
 def _examine_semantics(file: Path, examination: Examination) -> None:
@@ -111,12 +133,17 @@ def _examine_semantics(file: Path, examination: Examination) -> None:
         )
 
 
-def _examine_world(file: Path, examination: Examination) -> None:
-    _bring_up(StartPlan(Program("gazebo", argv=(str(file),))), file.name, examination)
+def _examine_world(file: Path, examination: Examination, *, started_by: int = 0) -> None:
+    plan = StartPlan(Program("gazebo", argv=(str(file),)), started_by=started_by)
+    examination.simulated[_key(file, {})] = _bring_up(plan, file.name, examination)
 
 
 def _examine_robot(
-    file: Path, examination: Examination, mappings: Mapping[str, str] | None = None
+    file: Path,
+    examination: Examination,
+    mappings: Mapping[str, str] | None = None,
+    *,
+    started_by: int = 0,
 ) -> None:
     found = Diagnostics()
     models = load_models(
@@ -137,17 +164,24 @@ def _examine_robot(
         return
     alone = replace(examination, diagnostics=found)
     if not _is_too_large(models, alone):
-        _bring_up_robot(file, models, alone)
+        key = _key(file, examination.options.arguments if mappings is None else mappings)
+        examination.simulated[key] = _bring_up_robot(file, models, alone, started_by)
     for item in found:
         examination.diagnostics.add(_of_real_robot(item))
 
 
-def _bring_up_robot(file: Path, models: Sequence[Model], examination: Examination) -> None:
+def _bring_up_robot(
+    file: Path, models: Sequence[Model], examination: Examination, started_by: int
+) -> tuple[TopicEnd, ...]:
     world = examination.options.world
     # A package of the workspace may have an empty.world of its own, which says other things.
     place = str(_EMPTY) if world == "empty" else world
-    plan = StartPlan(Program("gazebo", argv=(place,)), models=tuple(map(_beside_world, models)))
-    _bring_up(plan, file.name, examination)
+    plan = StartPlan(
+        Program("gazebo", argv=(place,)),
+        models=tuple(map(_beside_world, models)),
+        started_by=started_by,
+    )
+    return _bring_up(plan, file.name, examination)
 
 
 def _is_too_large(models: Sequence[Model], examination: Examination) -> bool:
@@ -252,11 +286,16 @@ def _of_real_robot(item: Diagnostic) -> Diagnostic:
     return replace(item, severity=Severity.WARNING, message=text)
 
 
-def _bring_up(plan: StartPlan, subject: str, examination: Examination) -> None:
+def _bring_up(plan: StartPlan, subject: str, examination: Examination) -> tuple[TopicEnd, ...]:
+    """Examine a world that comes up, and return the topics of its simulator."""
     found = Diagnostics()
     start = dry_start(plan, workspace=examination.workspace, diagnostics=found)
     examination.diagnostics.extend(found)
-    if start is not None:
-        examine_models(start.world, examination)
-        examination.add(*simulation_sections(start, found, subject=subject))
-        probe(start, plan, examination)
+    if start is None:
+        return ()
+    examine_models(start.world, examination)
+    examination.add(*simulation_sections(start, found, subject=subject))
+    probe(start, plan, examination)
+    node = start.node
+    offered = [TopicEnd(node.full_name, *item, True) for item in node.offered.items()]
+    return (*offered, *(TopicEnd(node.full_name, *item, False) for item in node.heard.items()))

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
+from gazelle.doctor.script_topics import TopicEnd
 from gazelle.workspace import Workspace
 
 __all__ = ["Examination", "Options", "Report", "Section"]
@@ -101,6 +102,7 @@ class Examination:
         diagnostics: receives every finding.
         sections: tables of the report, in the order made.
         seen: files that have been examined, alone or as part of something else.
+        simulated: topics of the simulator with a robot or world, by file and its arguments.
         is_wide: a whole package is looked at, and nobody has given arguments for its files.
         say: told what is being looked at, for a person who waits.
     """
@@ -110,6 +112,9 @@ class Examination:
     diagnostics: Diagnostics = field(default_factory=Diagnostics)
     sections: list[Section] = field(default_factory=list)
     seen: set[Path] = field(default_factory=set)
+    simulated: dict[tuple[Path, frozenset[tuple[str, str]]], tuple[TopicEnd, ...]] = field(
+        default_factory=dict
+    )
     is_wide: bool = False
     say: Callable[[str], None] = _say_nothing
 

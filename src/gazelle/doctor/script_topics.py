@@ -1,4 +1,4 @@
-"""Which topics a script in Python uses, read from its source, with their places."""
+"""Topics: their ends in a launch, and those that a script in Python names in its source."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import NamedTuple
 from gazelle.compat.python2 import is_python2, translated
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["ScriptTopics", "TopicUse", "read_script"]
+__all__ = ["ScriptTopics", "TopicEnd", "TopicUse", "read_script"]
 
 _PUBLISHERS = frozenset({"Publisher", "create_publisher"})
 _SUBSCRIBERS = frozenset({"Subscriber", "create_subscription", "wait_for_message"})
@@ -51,6 +51,25 @@ class TopicUse(NamedTuple):
     type_span: SourceSpan
 
 
+class TopicEnd(NamedTuple):
+    """A node that publishes or listens to a topic.
+
+    Attributes:
+        node: its global name.
+        topic: global, after remapping.
+        type: such as ``sensor_msgs/msg/LaserScan``; a class's name alone, or empty, when no more
+            is known.
+        publishes: it publishes, else it listens.
+        use: where a script of the user's says so, None for other nodes.
+    """
+
+    node: str
+    topic: str
+    type: str
+    publishes: bool
+    use: TopicUse | None = None
+
+
 @dataclass(frozen=True, slots=True)
 class ScriptTopics:
     """Topics of a script, as written in its source.
@@ -60,11 +79,14 @@ class ScriptTopics:
         sends_transforms: it has a broadcaster of tf.
         is_complete: these are all; False when a name is computed or code of other files may
             talk as well.
+        texts: all texts in the source that are no names of these topics and no comments: services,
+            parameters, parts of names.
     """
 
     uses: tuple[TopicUse, ...] = ()
     sends_transforms: bool = False
     is_complete: bool = True
+    texts: frozenset[str] = frozenset()
 
     @property
     def publishes(self) -> dict[str, str]:
@@ -95,6 +117,7 @@ def _read(path: Path, source: bytes) -> ScriptTopics:
         tuple(reader.uses),
         reader.sends_transforms,
         reader.is_complete and _stands_alone(tree, path),
+        frozenset(_texts(tree)) - {use.name for use in reader.uses},
     )
 
 
@@ -196,6 +219,13 @@ def _constants(tree: ast.Module) -> dict[str, str]:
                     is_new = target.id not in found and isinstance(text, str)
                     found[target.id] = text if is_new else None  # type: ignore[assignment]
     return {name: text for name, text in found.items() if text is not None}
+
+
+def _texts(tree: ast.Module) -> Iterator[str]:
+    said = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in said:
+            yield node.value
 
 
 def _imported(tree: ast.Module) -> Iterator[tuple[str, str]]:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.doctor.packages.dependency_checks import is_slip
-from gazelle.doctor.script_topics import TopicUse
+from gazelle.doctor.script_topics import TopicEnd, TopicUse
 
-__all__ = ["TopicEnd", "check_topic_names", "check_topic_types", "same_type"]
+__all__ = ["check_topic_names", "check_topic_types", "is_typo", "same_type"]
 
 # What a script says counts less than what a simulator or a built-in node does.
 _SURE = 100
@@ -19,25 +18,6 @@ _SHORT = 5
 _SHORT_WORD = 3
 # Listened to without a publisher in the launch: by hand, by RViz, by a teleoperation of its own.
 _FROM_OUTSIDE = frozenset({"cmd_vel", "clicked_point", "goal", "initialpose", "tf", "tf_static"})
-
-
-class TopicEnd(NamedTuple):
-    """A node that publishes or listens to a topic.
-
-    Attributes:
-        node: its global name.
-        topic: global, after remapping.
-        type: such as ``sensor_msgs/msg/LaserScan``; a class's name alone, or empty, when no more
-            is known.
-        publishes: it publishes, else it listens.
-        use: where a script of the user's says so, None for other nodes.
-    """
-
-    node: str
-    topic: str
-    type: str
-    publishes: bool
-    use: TopicUse | None = None
 
 
 def check_topic_types(
@@ -81,6 +61,15 @@ def check_topic_names(
         near = _meant(end, ends, is_whole)
         if near:
             _report_name(end, end.use, near, diagnostics, is_whole)
+
+
+def is_typo(name: str, other: str) -> bool:
+    """Tell a slip of the fingers from names that differ on purpose: ``scan_1``, ``cam_l``."""
+    words, others = re.split(r"[/_]", name), re.split(r"[/_]", other)
+    if len(words) != len(others) or _digits(name) != _digits(other):
+        return False
+    pairs = [(a, b) for a, b in zip(words, others, strict=True) if a != b]
+    return is_slip(name, other) and all(max(len(a), len(b)) >= _SHORT_WORD for a, b in pairs)
 
 
 def same_type(one: str, other: str) -> bool:
@@ -133,7 +122,9 @@ def _report_type(
     text += ": no message arrives"
     package, name = _parts(wanted)
     fix = f"from {package}.msg import {name}" if package else f"use {name}"
-    phrase = f"topic types do not match: [{own}] vs. [{its}]" if ros_version == 1 else ""
+    phrase = f"topic types do not match: [{own}] vs. [{its}]"
+    if ros_version != 1:
+        phrase = f"Cannot echo topic '{end.topic}', as it contains more than one type"
     span = end.use.type_span
     diagnostics.report("doctor.topic-type", text, span, fix=fix, phrase=phrase)
 
@@ -172,8 +163,8 @@ def _meant(end: TopicEnd, ends: Sequence[TopicEnd], is_whole: bool) -> str:
         for one in ends
         if one.publishes != end.publishes and one.node != end.node and _may_be(one, end, is_whole)
     ]
-    alike = [one for one in fitting if _digits(one) == _digits(end)]
-    slips = sorted({one.topic for one in alike if _is_typo(end.topic, one.topic)})
+    alike = [one for one in fitting if _digits(one.topic) == _digits(end.topic)]
+    slips = sorted({one.topic for one in alike if is_typo(end.topic, one.topic)})
     if slips:
         return slips[0]
     if end.publishes or not is_whole:
@@ -192,18 +183,9 @@ def _may_be(one: TopicEnd, end: TopicEnd, is_whole: bool) -> bool:
     return same_type(one.type, end.type)
 
 
-def _is_typo(name: str, other: str) -> bool:
-    """Tell a slip of the fingers from names that differ on purpose: ``scan_1``, ``cam_l``."""
-    words, others = re.split(r"[/_]", name), re.split(r"[/_]", other)
-    if len(words) != len(others):
-        return False
-    pairs = [(a, b) for a, b in zip(words, others, strict=True) if a != b]
-    return is_slip(name, other) and all(max(len(a), len(b)) >= _SHORT_WORD for a, b in pairs)
-
-
-def _digits(end: TopicEnd) -> str:
+def _digits(topic: str) -> str:
     """Return the digits of a topic: those with others are numbered on purpose."""
-    return re.sub(r"\D", "", end.topic)
+    return re.sub(r"\D", "", topic)
 
 
 def _parts(name: str) -> tuple[str, str]:

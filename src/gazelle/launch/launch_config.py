@@ -19,6 +19,7 @@ class NodeTag:
         namespace: absolute namespace, ends with ``/``.
         args: command line arguments, one string.
         remaps: pairs (from, to) in the order they apply.
+        remap_spans: their places, in the same order.
         env: environment added for this node.
         respawn_delay_s: seconds between its death and its next start.
         output: ``screen`` or ``log``.
@@ -41,6 +42,7 @@ class NodeTag:
     launch_prefix: str = ""
     machine: str = ""
     span: SourceSpan | None = None
+    remap_spans: tuple[SourceSpan, ...] = field(default=(), compare=False)
 
     @property
     def full_name(self) -> str:

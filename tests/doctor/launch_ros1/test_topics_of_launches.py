@@ -184,3 +184,38 @@ def test_a_slip_is_told_beside_nodes_of_which_nothing_is_known(
     (folder / "native").chmod(0o755)
     (item,) = _told(examined(folder, "bot", "bot.launch"))
     assert "which nobody in this launch is known to publish; there is '/scan'" in item.message
+
+
+@pytest.mark.parametrize(
+    ("remap", "fix"),
+    [
+        ('from="scann" to="picture"', "scan"),
+        ('from="/laser/scan" to="picture"', "/scan"),
+        # What is at the other end says which name is meant.
+        ('from="laser" to="echo"', "scan"),
+        ('from="imag" to="echo"', "scan"),
+    ],
+)
+def test_remap_of_a_name_that_nobody_uses_offers_one_that_helps(
+    written: Write, examined: Examine, remap: str, fix: str
+) -> None:
+    look = "rospy.Subscriber('scan', LaserScan, print)\n"
+    look += "rospy.Publisher('image', Image, queue_size=1)\nrospy.Subscriber('text', String)"
+    nodes = _node("look", f"\n<remap {remap}/>\n") + _node("talk")
+    talk = "rospy.Publisher('echo', LaserScan, queue_size=1)"
+    folder = _launch(written, nodes, look=look, talk=talk)
+    report = examined(folder, "bot", "bot.launch")
+    (item,) = (one for one in report.findings if one.code == "doctor.remap-unused")
+    assert item.message.endswith(
+        "is of no use: /look does not use " + f"'{remap.split(chr(34))[1]}'"
+    )
+    assert _place(item) == "bot.launch:7:14"
+    assert item.fix == f"did you mean '{fix}'?"
+
+
+def test_remap_that_is_used_is_not_told(written: Write, examined: Examine) -> None:
+    inside = '<remap from="scan" to="picture"/><remap from="~text" to="echo"/>'
+    look = "rospy.Subscriber('scan', LaserScan, print)\nrospy.Subscriber('~text', String)"
+    folder = _launch(written, _node("look", inside), look=look)
+    report = examined(folder, "bot", "bot.launch")
+    assert [one for one in report.findings if one.code == "doctor.remap-unused"] == []

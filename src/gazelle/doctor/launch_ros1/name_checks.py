@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from enum import Enum
 from pathlib import Path
 
-from gazelle.diagnostics import Diagnostics, did_you_mean
+from gazelle.description.xml import attribute_span
+from gazelle.diagnostics import Diagnostics, SourceSpan, nearest_names
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.launch_ros1.topics import NodeTopics
-from gazelle.doctor.topic_checks import check_topic_names, check_topic_types, same_type
+from gazelle.doctor.script_topics import TopicEnd, read_script
+from gazelle.doctor.topic_checks import (
+    check_topic_names,
+    check_topic_types,
+    is_typo,
+    same_type,
+)
 from gazelle.documents import read_text_limited
 from gazelle.graph.names import resolve
 
@@ -31,25 +39,33 @@ def check_remaps(
 ) -> None:
     """Report remaps of names that none of the nodes they are for uses.
 
-    Only where that is sure: all those nodes are built in, simulated or complete scripts.
+    Only where that is sure: all those nodes are built in, simulated or complete scripts. Of others,
+    a slip for a name that they are known to use.
     """
     pairs: dict[tuple[str, str], list[NodeTopics]] = {}
+    spans: dict[tuple[str, str], SourceSpan | None] = {}
     for item in topics:
-        for pair in item.node.spec.remaps:
+        spec = item.node.spec
+        places = spec.remap_spans or (spec.span,) * len(spec.remaps)
+        for pair, span in zip(spec.remaps, places, strict=True):
             pairs.setdefault(pair, []).append(item)
+            spans.setdefault(pair, span)
+    ends = [end for item in topics for end in item.ends()]
     for (source, target), items in pairs.items():
         concerned = [item for item in items if not _needs_no_topics(item.node)]
         if not concerned or any(_may_use(source, item, launched) for item in concerned):
             continue
         names = ", ".join(item.node.full_name for item in concerned)
-        known = {name for item in concerned for name in item.written}
         text = f"the remap from '{source}' to '{target}' is of no use: {names} does not use "
         text += f"'{source}'"
+        known = {name for item in concerned for name in item.written}
         used = sorted(name for name in known if not name.startswith(("/gazebo/", "/rosout")))
         shown = ", ".join(used[:6]) + (" …" if len(used) > 6 else "")
-        near = _nearest(resolve(source), known)
-        fix = near or (f"names in use: {shown}" if shown else "remove it")
-        diagnostics.report("doctor.remap-unused", text, concerned[0].node.spec.span, fix=fix)
+        near = _meant(source, target, concerned, ends)
+        fix = f"did you mean '{near}'?" if near else f"names in use: {shown}" if shown else ""
+        span = spans[source, target]
+        place = attribute_span(span, "from") if span is not None else None
+        diagnostics.report("doctor.remap-unused", text, place, fix=fix or "remove it")
 
 
 def check_topics(
@@ -135,9 +151,9 @@ def _needs_no_topics(node: LaunchedNode) -> bool:
 
 def _may_use(source: str, item: NodeTopics, launched: Launched) -> bool:
     node = item.node
-    if not item.is_complete:
-        return True
     name = resolve(source, node.program.namespace, node=node.full_name)
+    if not item.is_complete:
+        return name in item.written or not any(is_typo(name, other) for other in item.written)
     if name in item.written or launched.parameters.has(name):
         return True
     if name.endswith(("/tf", "/tf_static", "/clock", _WORD)):
@@ -146,9 +162,9 @@ def _may_use(source: str, item: NodeTopics, launched: Launched) -> bool:
 
 
 def _mentions(node: LaunchedNode, word: str) -> bool:
-    """Tell whether a script has a word anywhere: a service, a parameter or an action may be so."""
+    """Tell whether a script has a word in a text: a service, a parameter or an action may be so."""
     assert node.file is not None
-    return word in node.file.read_text(encoding="utf-8", errors="replace")
+    return any(word in text for text in read_script(node.file).texts)
 
 
 def _report_topic(
@@ -174,7 +190,56 @@ def _report_topic(
     diagnostics.report("doctor.topic-elsewhere", text, node.spec.span, fix=fix)
 
 
-def _nearest(name: str, known: set[str]) -> str:
-    last = name.rpartition("/")[2]
-    same = sorted(item for item in known if item.rpartition("/")[2] == last)
-    return f"did you mean '{same[0]}'?" if same else did_you_mean(name, known)
+def _meant(
+    source: str, target: str, concerned: Sequence[NodeTopics], ends: Sequence[TopicEnd]
+) -> str:
+    """Return the name of a node that a remap is to be from, as the remap would write it."""
+    for item in concerned:
+        namespace = item.node.program.namespace
+        name, goal = (resolve(one, namespace, node=item.node.full_name) for one in (source, target))
+        fits = {one: _fit(one, goal, item, ends) for one in sorted(item.written)}
+        useful = [one for one, fit in fits.items() if fit is not _Fit.NONE]
+        last = name.rpartition("/")[2]
+        meets = [one for one in useful if fits[one] is _Fit.SURE]
+        near = [
+            *(one for one in useful if one.rpartition("/")[2] == last),
+            *(one for one in useful if is_typo(name, one)),
+            *nearest_names(name, meets, count=1),
+            *nearest_names(name, useful, count=1),
+            *(meets if len(meets) == 1 else ()),
+        ]
+        if near:
+            return _relative(near[0], source, item.node)
+    return ""
+
+
+class _Fit(Enum):
+    """Whether a topic of a node would meet what is at the target of a remap."""
+
+    NONE = 0
+    PERHAPS = 1
+    SURE = 2
+
+
+def _fit(name: str, target: str, item: NodeTopics, ends: Sequence[TopicEnd]) -> _Fit:
+    if name in item.node.rules:
+        # It has a remap already.
+        return _Fit.NONE
+    own = [(kind, True) for kind in [item.publishes.get(name)] if kind]
+    own += [(kind, False) for kind in [item.listens.get(name)] if kind]
+    there = [end for end in ends if end.topic == target and end.type]
+    facing = [end for end in there if any(end.publishes != gives for _, gives in own)]
+    if any(same_type(kind, end.type) for kind, _ in own for end in facing):
+        return _Fit.SURE
+    is_other = own and there and not any(same_type(k, end.type) for k, _ in own for end in there)
+    return _Fit.NONE if is_other else _Fit.PERHAPS
+
+
+def _relative(name: str, source: str, node: LaunchedNode) -> str:
+    """Return a global name in the way a remap is written: relative where that is."""
+    if source.startswith("/"):
+        return name
+    private, around = f"{node.full_name}/", f"{node.program.namespace.rstrip('/')}/"
+    if name.startswith(private):
+        return f"~{name.removeprefix(private)}"
+    return name.removeprefix(around) if name.startswith(around) else name

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
-from gazelle.doctor.script_topics import TopicUse, read_script
-from gazelle.doctor.topic_checks import TopicEnd
+from gazelle.doctor.script_topics import TopicEnd, TopicUse, read_script
 from gazelle.graph.names import resolve
 from gazelle.node_specs.parameter_substitution import ValueOf, expanded, holds
 from gazelle.node_specs.registry import node_specs

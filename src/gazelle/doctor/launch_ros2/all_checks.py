@@ -15,6 +15,7 @@ from gazelle.doctor.launch_ros2.node_checks import (
     check_node_keywords,
     check_programs,
     check_spawners,
+    starts_simulator,
 )
 from gazelle.doctor.launch_ros2.reference_checks import (
     check_commands,
@@ -22,6 +23,11 @@ from gazelle.doctor.launch_ros2.reference_checks import (
     check_paths,
     paths_of,
     robots_of,
+)
+from gazelle.doctor.launch_ros2.topics import (
+    has_one_namespace,
+    may_be_simulated,
+    topics_of_launch,
 )
 from gazelle.doctor.report import Section
 from gazelle.documents.files import is_file
@@ -75,6 +81,8 @@ def check_launch(
         parameter_files=parameter_files,
         launch_files=tuple(dict.fromkeys(item.file.path for item in files)),
         sections=_sections(files, path),
+        topics=topics_of_launch(files, workspace) if has_one_namespace(files) else None,
+        simulates=starts_simulator(files) and may_be_simulated(files),
     )
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from gazelle.diagnostics import SourceSpan
 from gazelle.doctor.report import Section
+from gazelle.doctor.script_topics import TopicEnd
 
 __all__ = [
     "Argument",
@@ -15,6 +16,7 @@ __all__ = [
     "Include",
     "LaunchFile",
     "LaunchReading",
+    "LaunchTopics",
     "LaunchedNode",
     "Parameters",
     "RobotSource",
@@ -39,6 +41,21 @@ class RobotSource:
 
 
 @dataclass(frozen=True, slots=True)
+class LaunchTopics:
+    """What is known of the topics of a launch.
+
+    Attributes:
+        ends: of nodes whose topics are known.
+        others: names that nodes may have of which no more is known.
+        is_whole: there is nothing else.
+    """
+
+    ends: tuple[TopicEnd, ...] = ()
+    others: tuple[str, ...] = ()
+    is_whole: bool = True
+
+
+@dataclass(frozen=True, slots=True)
 class LaunchReading:
     """The files a launch names, for further checks, and the tables of the report.
 
@@ -48,6 +65,8 @@ class LaunchReading:
         parameter_files: YAML files that nodes get.
         launch_files: the file itself and every file it includes, of both generations.
         sections: table ``nodes``.
+        topics: what is known of its nodes' topics, None where their namespaces are not known.
+        simulates: its simulator has the topics that the robots and worlds name.
     """
 
     robots: tuple[RobotSource, ...] = ()
@@ -55,6 +74,8 @@ class LaunchReading:
     parameter_files: tuple[Path, ...] = ()
     launch_files: tuple[Path, ...] = ()
     sections: tuple[Section, ...] = ()
+    topics: LaunchTopics | None = None
+    simulates: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +122,8 @@ class LaunchedNode:
 
     Attributes:
         places: where each text that it is given stands, as far as that is not its own place.
+        remappings: from and to; None where the names of its topics cannot be told, for they or its
+            namespace are known at run time only.
     """
 
     package: str | None
@@ -111,6 +134,7 @@ class LaunchedNode:
     arguments: tuple[str | None, ...]
     span: SourceSpan
     places: Mapping[str, SourceSpan] = field(default_factory=dict)
+    remappings: tuple[tuple[str, str], ...] | None = ()
 
     def place_of(self, text: str) -> SourceSpan:
         """Return where a text stands that the node is given, its own place where nobody knows."""

@@ -28,6 +28,7 @@ __all__ = [
     "check_node_keywords",
     "check_programs",
     "check_spawners",
+    "starts_simulator",
 ]
 
 _SPAWNERS = frozenset({"spawner", "spawner.py"})
@@ -160,7 +161,7 @@ def check_spawners(
 
 def check_clocks(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
     """Report nodes on the wall clock beside a simulator."""
-    if not any(_starts_simulator(item) for item in files):
+    if not starts_simulator(files):
         return
     if any(_CLOCK in item.file.sets_parameters for item in files):
         return
@@ -174,6 +175,11 @@ def check_clocks(files: Sequence[Followed], diagnostics: Diagnostics) -> None:
     text += "nodes on simulated time (Lookup would require extrapolation into the past)"
     fix = f"parameters=[…, {{'{_CLOCK}': True}}]"
     diagnostics.report("launch_ros2.clocks", text, late[0].span, fix=fix)
+
+
+def starts_simulator(files: Sequence[Followed]) -> bool:
+    """Tell whether a launch starts a simulator."""
+    return any(_starts_simulator(item) for item in files)
 
 
 def _nodes(files: Sequence[Followed]) -> Iterator[LaunchedNode]:

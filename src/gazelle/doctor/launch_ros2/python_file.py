@@ -281,9 +281,24 @@ class _Reader:
                 tuple(texts),
                 self._span(call),
                 self._places(call),
+                self._remappings(call),
             )
         )
         self._take_keywords(call)
+
+    def _remappings(self, call: Call) -> tuple[tuple[str, str], ...] | None:
+        namespace = call.get("namespace", default=call.get("node_namespace", default=""))
+        rows = call.get("remappings", default=[])
+        if self._values.text(namespace) is None or not isinstance(rows, list | tuple):
+            return None
+        pairs = []
+        for row in rows:
+            texts = [self._values.text(one) for one in row] if isinstance(row, list | tuple) else []
+            known = [text for text in texts if text is not None]
+            if len(known) != 2:
+                return None
+            pairs.append((known[0], known[1]))
+        return tuple(pairs)
 
     def _take_keywords(self, call: Call) -> None:
         # The whole launch system comes with it, which a look at a robot does not need.

@@ -42,6 +42,11 @@ def robots_of(files: Sequence[Followed]) -> Iterator[RobotSource]:
             for use in item.file.paths
             if use.name.endswith(_ENDINGS)
         ]
+        found += [
+            RobotSource(located(name) or Path(name))
+            for name in sorted(item.file.opened)
+            if name.endswith(_ENDINGS)
+        ]
         for robot in found:
             if is_file(robot.path) and robot.path not in seen:
                 seen.add(robot.path)

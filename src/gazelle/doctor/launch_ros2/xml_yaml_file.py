@@ -192,8 +192,20 @@ class _Reader:
                 Parameters(values, tuple(files), complete),
                 tuple(words),
                 tag.span,
+                remappings=self._remappings(tag),
             )
         )
+
+    def _remappings(self, tag: Tag) -> tuple[tuple[str, str], ...] | None:
+        if "namespace" in tag.attributes and self._text(tag, "namespace") is None:
+            return None
+        pairs = []
+        for item in tag.find_all("remap"):
+            source, target = self._text(item, "from"), self._text(item, "to")
+            if source is None or target is None:
+                return None
+            pairs.append((source, target))
+        return tuple(pairs)
 
     def _text(self, tag: Tag, key: str) -> str | None:
         """Return an attribute with its substitutions replaced; None when one is not known."""

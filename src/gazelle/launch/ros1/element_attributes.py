@@ -75,6 +75,7 @@ class Scope:
         given: arguments passed to this file and not yet declared.
         fixed: arguments declared with a fixed value.
         remaps: pairs (from, to), later ones win.
+        remap_spans: their places, in the same order.
         env: environment for the nodes that follow.
         private_params: ``~name`` parameters for the nodes that follow.
         stack: places of the includes that led here, outermost first.
@@ -89,6 +90,7 @@ class Scope:
     given: dict[str, str] = field(default_factory=dict)
     fixed: set[str] = field(default_factory=set)
     remaps: tuple[tuple[str, str], ...] = ()
+    remap_spans: tuple[SourceSpan, ...] = ()
     env: dict[str, str] = field(default_factory=dict)
     private_params: dict[str, Any] = field(default_factory=dict)
     stack: tuple[SourceSpan, ...] = ()
@@ -123,10 +125,12 @@ class Scope:
         joined = namespace if namespace.startswith("/") else self.namespace + namespace
         return joined.rstrip("/") + "/"
 
-    def add_remap(self, source: str, target: str) -> None:
+    def add_remap(self, source: str, target: str, span: SourceSpan) -> None:
         """Add a remap; one for the same name is replaced."""
-        kept = tuple(pair for pair in self.remaps if pair[0] != source)
-        self.remaps = (*kept, (source, target))
+        rows = zip(self.remaps, self.remap_spans, strict=True)
+        kept = [(pair, place) for pair, place in rows if pair[0] != source]
+        self.remaps = (*(pair for pair, _ in kept), (source, target))
+        self.remap_spans = (*(place for _, place in kept), span)
 
 
 class TagError(Exception):

@@ -277,7 +277,7 @@ def _remap(tag: Tag, scope: Scope, reading: Reading) -> None:
             message = f"Invalid <remap> tag: remap {word} [{name}] is not a valid ROS name"
             fix = "write a letter, '/' or '~' first, then letters, digits, '_' and '/'"
             raise TagError("launch.bad-attribute", message, tag.span, fix)
-    scope.add_remap(*names)
+    scope.add_remap(names[0], names[1], reading.located(tag.span, scope))
 
 
 def _node(tag: Tag, scope: Scope, reading: Reading) -> None:
@@ -319,6 +319,7 @@ def _node_spec(tag: Tag, scope: Scope, reading: Reading, name: str) -> NodeTag:
         namespace=inner.namespace,
         args=reading.text(tag, "args", scope),
         remaps=inner.remaps,
+        remap_spans=inner.remap_spans,
         env=tuple(inner.env.items()),
         respawn=respawn,
         respawn_delay_s=reading.number(tag, "respawn_delay", scope, 0.0),
