@@ -41,7 +41,12 @@ def check_topic_types(
 
 
 def check_topic_names(
-    ends: Sequence[TopicEnd], diagnostics: Diagnostics, *, is_whole: bool, others: Iterable[str]
+    ends: Sequence[TopicEnd],
+    diagnostics: Diagnostics,
+    *,
+    is_whole: bool,
+    others: Iterable[str],
+    of_namespaces: bool = True,
 ) -> None:
     """Report names in scripts that nobody else uses, where nearly the same name would have met.
 
@@ -50,6 +55,7 @@ def check_topic_names(
         diagnostics: receives the findings.
         is_whole: there are no more.
         others: topics that nodes of which no more is known may have.
+        of_namespaces: also those that differ in their namespaces only.
     """
     taken = frozenset(others)
     for end in ends:
@@ -59,7 +65,8 @@ def check_topic_names(
         if not end.publishes and end.topic.rpartition("/")[2] in _FROM_OUTSIDE:
             continue
         near = _meant(end, ends, is_whole)
-        if near:
+        is_same = near.rpartition("/")[2] == end.topic.rpartition("/")[2]
+        if near and (of_namespaces or not is_same):
             _report_name(end, end.use, near, diagnostics, is_whole)
 
 

@@ -100,8 +100,8 @@ def test_property_that_is_evaluated_later_is_shown_where_it_is_written(fail: Fai
 def test_decimal_comma_has_its_own_words(fail: Fail) -> None:
     error = fail('<xacro:property name="r" value="0,5"/><v a="${r * 2.5}"/>')
     assert error.code == "xacro.decimal-comma"
-    assert "here r = '0,5'" in error.message
-    assert error.fix == "write the decimal sign as a dot: 0.5"
+    assert error.message == "property 'r' is '0,5', a text: the decimal sign is a dot"
+    assert error.fix == "write 0.5"
     assert fail('<v a="${sqrt(0,25)}"/>').fix == "write the decimal sign as a dot: 0.25"
 
 

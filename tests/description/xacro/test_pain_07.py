@@ -30,14 +30,14 @@ def _place(item: Diagnostic) -> str:
 def test_broken_cart_has_all_its_errors_at_once() -> None:
     found = _findings("broken", "cart.urdf.xacro")
     assert [(item.code, _place(item)) for item in found] == [
-        ("xacro.decimal-comma", "cart.urdf.xacro:11:21 from 18 from 17"),
+        ("xacro.decimal-comma", "cart.urdf.xacro:4:3 from 11 from 18 from 17"),
         ("xacro.undefined-name", "wheel.xacro:7:54 from 17"),
         ("xacro.bad-call", "cart.urdf.xacro:20:3"),
         ("xacro.bad-condition", "cart.urdf.xacro:23:20"),
     ]
     comma, name, call, condition = found
-    assert "here wheel_mass = 0.5 (cart.urdf.xacro:5), wheel_radius = '0,1'" in comma.message
-    assert comma.fix == "write the decimal sign as a dot: 0.1"
+    assert comma.message == ("property 'wheel_radius' is '0,1', a text: the decimal sign is a dot")
+    assert comma.fix == "write 0.1"
     assert "name 'wheel_widht' is not defined" in name.message
     assert "macro 'wheel' needs reflect; given: side" in call.message
     assert call.fix == 'add reflect="1", as another call has it, or its own value'

@@ -76,7 +76,10 @@ def check_topics(
     check_topic_types(ends, diagnostics, ros_version=1)
     unknown = [item for item in topics if not item.is_complete and item.node.role is not Role.VIEW]
     taken = [_target(pair, item.node) for item in unknown for pair in item.node.spec.remaps]
-    check_topic_names(ends, diagnostics, is_whole=not unknown, others=taken)
+    # Another namespace is mended by a remap, below.
+    check_topic_names(
+        ends, diagnostics, is_whole=not unknown, others=taken, of_namespaces=bool(unknown)
+    )
     if unknown:
         return
     offered = {name: kind for item in topics for name, kind in item.publishes.items()}
