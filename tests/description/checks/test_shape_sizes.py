@@ -49,3 +49,42 @@ def test_box_of_a_millimetre_is_there_because_gazebo_wants_one(
         encoding="utf-8",
     )
     assert bool(examined(path).by_code("robot.size-mismatch")) is is_told
+
+
+@pytest.mark.parametrize(
+    ("visual", "collision", "place_of_it"),
+    [
+        ('<cylinder radius="0.035" length="0.04"/>', '<cylinder radius="35" length="0.04"/>', "35"),
+        ('<cylinder radius="35" length="0.04"/>', '<cylinder radius="0.035" length="0.04"/>', "35"),
+        ("", '<cylinder radius="0.02" length="40"/>', "40"),
+    ],
+)
+def test_length_in_millimetres_is_told_at_its_shape(
+    tmp_path: Path, visual: str, collision: str, place_of_it: str
+) -> None:
+    seen = f"<visual><geometry>{visual}</geometry></visual>" if visual else ""
+    other = (
+        '<link name="b"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>'
+    )
+    path = tmp_path / "r.urdf"
+    path.write_text(
+        f'<robot name="r"><link name="a">{seen}<collision><geometry>{collision}</geometry>'
+        f"</collision></link>{other}"
+        '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>',
+        encoding="utf-8",
+    )
+    (item,) = examined(path).by_code("robot.size-unit")
+    assert f'="{place_of_it}"' in place(item)
+    assert item.message.endswith("it is in millimetres, URDF and SDF take it as metres")
+    assert item.fix in {'write radius="0.035"', 'write length="0.04"'}
+
+
+def test_long_thing_among_long_things_is_in_metres(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf"
+    box = '<collision><geometry><box size="40 0.2 3"/></geometry></collision>'
+    path.write_text(
+        f'<robot name="r"><link name="a">{box}</link><link name="b">{box}</link>'
+        '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>',
+        encoding="utf-8",
+    )
+    assert not examined(path).by_code("robot.size-unit")

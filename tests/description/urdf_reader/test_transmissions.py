@@ -52,3 +52,27 @@ def test_transmission_without_type_or_joint_is_left_out(read_joint) -> None:
         "transmission 't' lacks a <type> and is left out",
         "transmission 'u' lacks a <joint> and is left out",
     ]
+
+
+def test_classes_that_are_slips_are_told_at_their_elements(read_joint) -> None:
+    found = read_joint(
+        after="<transmission name='t'><type>transmission_interface/SimpleTrnasmission</type>"
+        "<joint name='j'><hardwareInterface>hardware_interface/EffortJoinItnterface"
+        "</hardwareInterface></joint><actuator name='m'><hardwareInterface>my_own/Interface"
+        "</hardwareInterface></actuator></transmission>"
+    )
+    texts = [
+        (item.message, item.fix) for item in found.diagnostics.by_code("urdf.transmission-class")
+    ]
+    assert sorted(texts) == [
+        (
+            "<hardwareInterface> of joint 'j' of transmission 't' is "
+            "'hardware_interface/EffortJoinItnterface', which is not known",
+            "did you mean 'EffortJointInterface'?",
+        ),
+        (
+            "<type> of transmission 't' is 'transmission_interface/SimpleTrnasmission', which is "
+            "not known",
+            "did you mean 'SimpleTransmission'?",
+        ),
+    ]

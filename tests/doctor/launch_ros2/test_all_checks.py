@@ -467,3 +467,21 @@ def test_words_in_quotes_are_one_argument_of_a_spawner(check: Check) -> None:
     lines = f"controller_manager:\n  ros__parameters:\n    arm:\n      type: {kind}\n"
     found, _ = check("c.launch.xml", launch, {"config/c.yaml": lines})
     assert not found.by_code("launch_ros2.controller-missing")
+
+
+def test_names_that_a_launch_file_does_not_define(check: Check) -> None:
+    node = "Node(package='rviz2', executable='rviz2', parameters=[{'use_sim_time': true}])"
+    found, _ = check("a.launch.py", PYTHON.format(node))
+    (item,) = found.by_code("launch_ros2.name")
+    assert item.message == "name 'true' is not defined (NameError)"
+    assert item.fix == "did you mean 'True'?"
+
+
+def test_description_that_is_not_returned(check: Check) -> None:
+    text = PYTHON.format("").replace("return LaunchDescription", "LaunchDescription")
+    found, _ = check("a.launch.py", text)
+    (item,) = found.by_code("launch_ros2.returns-nothing")
+    assert item.message == "generate_launch_description() returns nothing: nothing is launched"
+    assert item.fix == "write return before it"
+    assert item.span is not None
+    assert (item.span.line, item.span.column) == (5, 5)

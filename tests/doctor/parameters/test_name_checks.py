@@ -195,3 +195,71 @@ def test_files_for_another_robot_of_the_package_are_not_compared(tmp_path: Path)
     assert not checked("bot", tmp_path)[0].by_code("control.names-disagree")
     _written(tmp_path, **{"config__b__controllers.yaml": _list("j1", "jj2")})
     assert checked("bot", tmp_path)[0].by_code("control.names-disagree")
+
+
+SLIDE = """<robot name="o"><link name="a"/><link name="b"/>
+<joint name="lift" type="revolute"><parent link="a"/><child link="b"/>
+<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<ros2_control name="h" type="system"><joint name="lift"><command_interface name="effort"/>
+<state_interface name="position"/><state_interface name="velocity"/></joint></ros2_control>
+</robot>"""
+SLIDE_YAML = """controller_manager:
+  ros__parameters:
+    arm: {{type: joint_trajectory_controller/JointTrajectoryController}}
+arm:
+  ros__parameters:
+    joints: [lift]
+    command_interfaces: [effort]
+    state_interfaces: [position, {state}]
+    gains:
+      {joint}: {{p: 1.0}}
+"""
+
+
+def _slide(
+    tmp_path: Path, state: str = "velocity", joint: str = "lift", **more: str
+) -> Diagnostics:
+    manifest = "<package format='3'><name>bot</name><export><build_type>ament_cmake</build_type>"
+    files = {
+        "bot/package.xml": f"{manifest}</export></package>",
+        "bot/urdf/bot.urdf": SLIDE,
+        "bot/config/c.yaml": SLIDE_YAML.format(state=state, joint=joint),
+        **more,
+    }
+    for name, text in files.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    return checked("bot", tmp_path)[0]
+
+
+def test_controller_whose_names_are_the_robot_s(tmp_path: Path) -> None:
+    assert not _slide(tmp_path).by_code("parameters.interface-claim")
+    assert not _slide(tmp_path).by_code("parameters.gains-joint")
+
+
+def test_state_interface_that_no_joint_has(tmp_path: Path) -> None:
+    (item,) = _slide(tmp_path, state="veloicty").by_code("parameters.interface-claim")
+    assert "needs the state interface 'veloicty' of joint 'lift', which has position, " in (
+        item.message
+    )
+    assert item.fix == "did you mean 'velocity'?"
+    assert str(item.span).endswith("c.yaml:8:34")
+
+
+def test_gains_of_a_joint_that_the_controller_does_not_have(tmp_path: Path) -> None:
+    (item,) = _slide(tmp_path, joint="litf").by_code("parameters.gains-joint")
+    assert item.message == (
+        "controller 'arm' has gains of joint 'litf', which is none of its joints: lift; they have "
+        "no effect"
+    )
+    assert item.fix == "did you mean 'lift'?"
+
+
+def test_moveit_controller_whose_joints_are_spelt_otherwise(tmp_path: Path) -> None:
+    moveit = "moveit_simple_controller_manager:\n  controller_names: [arm]\n  arm:\n"
+    moveit += "    type: FollowJointTrajectory\n    joitns: [lift]\n"
+    found = _slide(tmp_path, **{"bot/config/moveit_controllers.yaml": moveit})
+    (item,) = found.by_code("parameters.moveit-name")
+    assert item.message.startswith("MoveIt's controller 'arm' has no 'joints' and has 'joitns'")
+    assert item.fix == "did you mean 'joints' for 'joitns'?"

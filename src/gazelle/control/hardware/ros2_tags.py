@@ -85,8 +85,9 @@ def _each_once(
     block: HardwareTag, taken: set[tuple[str, str, str]], diagnostics: Diagnostics
 ) -> HardwareTag:
     """Leave out interfaces that another element has: the resource manager throws at them."""
-    parts = []
+    parts: list[PartTag] = []
     for part in block.parts:
+        is_known = any((one.kind, one.name) == (part.kind, part.name) for one in parts)
         commands = _new("command", part, part.commands, taken)
         states = _new("state", part, part.states, taken)
         late = [*(set(part.commands) - set(commands)), *(set(part.states) - set(states))]
@@ -95,6 +96,8 @@ def _each_once(
             text = f"<{part.kind}> '{part.name}' of hardware '{block.name}' has {names}, which "
             text += "another element has already; it is left out (real ROS 2: already exists)"
             diagnostics.report("control.ros2-control-twice", text, part.span)
+        if is_known:
+            continue
         parts.append(replace(part, commands=commands, states=states))
     return replace(block, parts=tuple(parts))
 
