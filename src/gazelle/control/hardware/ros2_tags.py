@@ -86,10 +86,10 @@ def _each_once(
 ) -> HardwareTag:
     """Leave out interfaces that another element has: the resource manager throws at them."""
     parts: list[PartTag] = []
-    names: set[tuple[str, str]] = set()
+    own: set[tuple[str, str]] = set()
     for part in block.parts:
-        is_known = (part.kind, part.name) in names
-        names.add((part.kind, part.name))
+        is_known = (part.kind, part.name) in own
+        own.add((part.kind, part.name))
         commands = _new("command", part, part.commands, taken)
         states = _new("state", part, part.states, taken)
         late = [*(set(part.commands) - set(commands)), *(set(part.states) - set(states))]
