@@ -88,3 +88,31 @@ def test_other_words_are_reported_and_the_default_used():
     (found,) = diagnostics.by_code("xml.bad-number")
     assert found.message == "<v>: 'maybe' is neither true nor false; True is used"
     assert found.fix == "write true or false"
+
+
+@pytest.mark.parametrize(
+    ("text", "count", "what", "fix"),
+    [
+        ("0,09", 1, "<cylinder length>", "write 0.09"),
+        ("1,2,3", 3, "<origin xyz>", "write 1 2 3"),
+        ("1 2 0.5", 6, "<pose>", "write 1 2 0.5 0 0 0"),
+        ("0.1 0.2", 3, "<origin xyz>", "write 0.1 0.2 0"),
+        ("0.0.2", 1, "<box>", "write 0.02 or 0.2: a number has one decimal point"),
+        ("ten", 1, "<update_rate>", "write a number such as <update_rate>4</update_rate>, which "
+                                    "counts now"),
+    ],
+)  # fmt: skip
+def test_what_to_write_for_numbers_that_are_nearly_right(text, count, what, fix):
+    found = Diagnostics()
+    default = (4.0,) * count
+    floats_from(text, count, default, what=what, span=SourceSpan("f", 1), diagnostics=found)
+    assert [item.fix for item in found] == [fix]
+
+
+def test_sizes_that_are_missing_are_not_made_up():
+    found = Diagnostics()
+    span = SourceSpan("f", 1)
+    floats_from("0.1 0.2", 3, (1.0,) * 3, what="<box size>", span=span, diagnostics=found)
+    assert [item.fix for item in found] == [
+        "write plain numbers separated by spaces, such as 0.5 0 1e-3"
+    ]

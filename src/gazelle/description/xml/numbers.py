@@ -57,9 +57,12 @@ def floats_from(
         message = f"{what} needs {count} number{'s' * (count != 1)}, found {len(values)}: '{text}'"
     span = attribute_span(span, attribute, bad[0] if bad else "") if attribute else span
     fix = _instead(text, bad, count, what)
-    if not fix and what == f"<{what.strip('<>')}>" and count == len(default) == 1:
-        word = what.strip("<>")
-        fix = f"write a number such as <{word}>{default[0]:g}</{word}>, which counts now"
+    word = what.strip("<>")
+    if not fix and what == f"<{word}>" and count == 1:
+        # What counts in its place is plain: the default, or nothing.
+        fix = f"write a number, or remove <{word}>: it counts as if it were not there"
+        if default:
+            fix = f"write a number such as <{word}>{default[0]:g}</{word}>, which counts now"
     diagnostics.report("xml.bad-number", message, span, fix=fix)
     return default
 

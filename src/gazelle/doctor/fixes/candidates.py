@@ -98,6 +98,7 @@ def candidates(
             with_names_replaced,
             as_written,
             pasted,
+            removed,
         )
         for maker in makers:
             for edits in maker(finding, source, at) if maker else ():

@@ -9,13 +9,14 @@ from gazelle.diagnostics import Diagnostic
 from gazelle.doctor.fixes.edits import Edit, SourceText
 from gazelle.doctor.fixes.xml_places import Tag, children, closing_tag, element_end, tag_at
 
-__all__ = ["as_written", "pasted"]
+__all__ = ["as_written", "pasted", "removed"]
 
 _ATTRIBUTE = re.compile(r"([\w:]+)=\"([^\"…]*)\"")
 _WRITE_ATTRIBUTES = re.compile(r"\b(?:write|add) ((?:[\w:]+=\"[^\"…]*\"(?:, | and | )?)+)")
 _WRITE_ELEMENT = re.compile(
     r"\b(write|add|such as) ((?:<([\w:]+)(?:\s[^<>…]*)?(?:/>|>[^…\n]*?</\3>))+)"
 )
+_REMOVE = re.compile(r"\bor remove <([\w:]+)>")
 _PASTE = re.compile(r"paste into <([\w:]+)[^<>]*>\n")
 
 
@@ -35,6 +36,16 @@ def as_written(finding: Diagnostic, source: SourceText, at: int) -> Iterator[tup
             yield (_inserted(source, tag, found[2].replace("><exec_depend>", ">\n<exec_depend>")),)
         else:
             yield from _with_element(source, tag, found[3], found[2])
+
+
+def removed(finding: Diagnostic, source: SourceText, at: int) -> Iterator[tuple[Edit, ...]]:
+    """Take an element out that has no effect as it is."""
+    found, tag = _REMOVE.search(finding.fix), tag_at(source.text, at)
+    if found is None or tag is None:
+        return
+    for one in (tag, *children(source.text, tag)):
+        if one.name == found[1]:
+            yield (Edit(one.begin, element_end(source.text, one), ""),)
 
 
 def pasted(finding: Diagnostic, source: SourceText, at: int) -> Iterator[tuple[Edit, ...]]:
