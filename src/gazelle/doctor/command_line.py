@@ -18,6 +18,7 @@ from gazelle.doctor.report import Examination, Options, Report
 from gazelle.doctor.robots_and_worlds import without_superseded
 from gazelle.doctor.target import Target, find_target, package_at
 from gazelle.doctor.works_elsewhere import as_warnings_of_parts_elsewhere
+from gazelle.simulator.plugins.user.finder import remembering_folders
 from gazelle.workspace import Workspace
 
 __all__ = ["examine"]
@@ -55,7 +56,8 @@ def examine(
     if progress is not None:
         examination.say = progress
     check_environment(options.environ, diagnostics=examination.diagnostics)
-    kind = _examine(target, examination)
+    with remembering_folders():
+        kind = _examine(target, examination)
     examination.diagnostics.extend(workspace.diagnostics)
     findings, consequences = causes_first(_findings(examination))
     return Report(

@@ -92,7 +92,7 @@ def _is_robot(path: Path, kind: Kind | None) -> bool:
 def _is_placeholder(path: Path) -> bool:
     """Tell a robot with nothing in it, which stands where users may have a file of their own."""
     root = read_xml(path, Diagnostics())
-    return root is not None and not root.children and not root.attributes
+    return root is not None and not root.children and "name" not in root.attributes
 
 
 def _included_names(paths: Iterable[Path]) -> frozenset[str]:

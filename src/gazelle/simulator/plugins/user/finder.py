@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -21,6 +23,7 @@ __all__ = [
     "compiled_plugin",
     "installed_plugin",
     "python_plugin",
+    "remembering_folders",
     "stems",
 ]
 
@@ -29,6 +32,20 @@ _LIBRARY_ENDINGS = (".so", ".dylib", ".dll")
 _SKIPPED = frozenset({"build", "devel", "install", "log", "node_modules", "__pycache__"})
 _SOURCE_ENDINGS = (".cpp", ".cc", ".cxx", ".c")
 _PROJECT = re.compile(r"\bproject\s*\(\s*([\w-]+)")
+
+
+_Folders = dict[tuple[Path, tuple[str, ...]], Sequence[Path]]
+_remembered: ContextVar[_Folders | None] = ContextVar("_remembered", default=None)
+
+
+@contextmanager
+def remembering_folders() -> Iterator[None]:
+    """Walk through each package once within a ``with`` block, whose files do not change."""
+    token = _remembered.set({})
+    try:
+        yield
+    finally:
+        _remembered.reset(token)
 
 
 class PythonPlugin(NamedTuple):
@@ -133,7 +150,16 @@ def _own_packages(workspace: Workspace | None) -> Iterator[Package]:
         yield from workspace.user_packages
 
 
-def _files(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
+def _files(folder: Path, endings: tuple[str, ...]) -> Sequence[Path]:
+    remembered = _remembered.get()
+    if remembered is None:
+        return tuple(_walked(folder, endings))
+    if (folder, endings) not in remembered:
+        remembered[folder, endings] = tuple(_walked(folder, endings))
+    return remembered[folder, endings]
+
+
+def _walked(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
     for root, folders, names in os.walk(folder):
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and name[0] != ".")
         yield from (Path(root) / name for name in sorted(names) if name.endswith(endings))
