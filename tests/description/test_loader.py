@@ -46,7 +46,14 @@ def test_text_is_called_robot_description() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "text"), [("a.urdf", URDF), ("a.xml", XACRO), ("a.xacro", XACRO), ("robot", URDF)]
+    ("name", "text"),
+    [
+        ("a.urdf", URDF),
+        ("a.xml", XACRO),
+        ("a.xacro", XACRO),
+        ("robot", URDF),
+        ("a.xacro.urdf", URDF.replace('"a"', '"$(optenv NOTHING a)"')),
+    ],
 )
 def test_file_is_recognised_by_its_content(name: str, text: str, tmp_path: Path) -> None:
     (tmp_path / name).write_text(text, encoding="utf-8")

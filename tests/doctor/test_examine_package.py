@@ -50,6 +50,16 @@ def test_default_without_files_asks_for_a_value(written: Write, examined: Examin
     assert told(examined(folder, "bot")) == []
     (found,) = (item for item in examined(folder, "bot").findings if "x9" in item.message)
     assert found.code == "doctor.needs-arguments"
-    assert "there are no files for kind:=x9, which is its default" in found.message
+    assert "there are no files for kind:=x9, which is the default" in found.message
     assert found.fix.endswith("r.xacro kind:=…")
     assert told(examined(folder, "bot", "r.xacro")) == ["xacro.file-missing"]
+
+
+def test_empty_default_in_a_files_name_asks_for_a_value(written: Write, examined: Examine) -> None:
+    macro = '<xacro:macro name="load" params="arm"><xacro:include filename="${arm}/a.xacro"/>'
+    robot = f'<robot name="r" {XACRO}><xacro:arg name="arm" default=""/>{macro}</xacro:macro>\n'
+    robot += '<xacro:load arm="$(arg arm)"/><link name="a"/></robot>'
+    folder = written(**{"urdf__r.xacro": robot})
+    assert told(examined(folder, "bot")) == []
+    (found,) = (item for item in examined(folder, "bot").findings if "arm:=," in item.message)
+    assert found.code == "doctor.needs-arguments"

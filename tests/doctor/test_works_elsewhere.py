@@ -55,3 +55,21 @@ def test_macro_of_a_package_that_is_not_here_is_a_warning(
     folder = written(**{"urdf__r.xacro": f"{text}<xacro:arm/></robot>"})
     found = [i for i in examined(folder, "bot").findings if i.code == "xacro.unknown-macro"]
     assert [item.severity for item in found] == [expected]
+
+
+def test_description_that_only_lacks_such_a_macro_is_a_warning(
+    written: Write, examined: Examine
+) -> None:
+    text = '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><link name="a"/>'
+    text += '<xacro:include filename="$(find arms)/a.xacro"/><xacro:arm/></robot>'
+    launch = '<launch><param name="robot_description" command="xacro $(dirname)/r.xacro"/></launch>'
+    folder = written(**{"launch__r.xacro": text, "launch__r.launch": launch})
+    found = [i for i in examined(folder, "bot").findings if i.severity is Severity.ERROR]
+    assert found == []
+
+
+def test_mecanum_controller_of_ros1_is_a_warning() -> None:
+    message = (
+        "'/s' cannot load controller 'c': ROS 1's mecanum_drive_controller is compiled code of"
+    )
+    assert severity("doctor.controller-fails", message) is Severity.WARNING

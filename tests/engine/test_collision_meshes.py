@@ -107,6 +107,13 @@ def test_hull_that_stands_for_pieces_is_not_kept(tmp_path: Path) -> None:
         assert _same(_made(path), made)
 
 
+def test_hollow_scenery_is_left_out_without_splitting(tmp_path: Path) -> None:
+    path = _bracket(tmp_path / "room.obj")
+    with without_splitting():
+        assert _made(path, scenery=True).pieces == ()
+    assert _made(path, scenery=True).pieces
+
+
 def test_damaged_file_of_pieces_is_made_anew(tmp_path: Path, own_cache: Path) -> None:
     path = _bracket(tmp_path / "bracket.obj")
     made = _made(path)

@@ -186,7 +186,8 @@ def _models_of_file(
     root = read_xml(path, diagnostics)
     if root is None:
         return ()
-    is_xacro = path.suffix == ".xacro" or _has_xacro(root)
+    # Some write robot.xacro.urdf.
+    is_xacro = ".xacro" in path.suffixes or _has_xacro(root)
     if is_xacro:
         # Most files are no xacro, which brings the DOM along.
         from gazelle.description.xacro import expand_xacro

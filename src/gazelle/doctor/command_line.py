@@ -21,6 +21,7 @@ from gazelle.doctor.robots_and_worlds import without_superseded
 from gazelle.doctor.target import Target, find_target, package_at
 from gazelle.doctor.works_elsewhere import as_warnings_of_parts_elsewhere
 from gazelle.documents.files import is_file, is_folder
+from gazelle.simulator.plugins.user.finder import remembering_folders
 from gazelle.workspace import Workspace
 from gazelle.workspace.environment_paths import BUILTIN
 
@@ -63,7 +64,7 @@ def examine(
     if progress is not None:
         examination.say = progress
     check_environment(options.environ, diagnostics=examination.diagnostics)
-    with remembering_documents():
+    with remembering_documents(), remembering_folders():
         kind = _examine(target, examination)
     examination.diagnostics.extend(workspace.diagnostics)
     findings, consequences = causes_first(_findings(examination))

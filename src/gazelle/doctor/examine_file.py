@@ -229,7 +229,7 @@ def _is_left(file: Path, found: Diagnostics, examination: Examination) -> bool:
     if placeholder:
         first = found.errors[0]
         text = f"'{file.name}' needs arguments and is not started: there are no files for "
-        text += f"{placeholder}, which is its default ({first.message})"
+        text += f"{placeholder}, which is the default ({first.message})"
         fix = f"examine it with a value: gazelle doctor {file} {placeholder.partition('=')[0]}=…"
         diagnostics.report("doctor.needs-arguments", text, first.span, fix=fix)
         return True
@@ -255,14 +255,29 @@ def _whole_robot(file: Path, found: Diagnostics, examination: Examination) -> Pa
 
 
 def _placeholder_default(file: Path, found: Diagnostics) -> str:
-    """Return the argument, as name:=value, whose default is the folder of all missing files."""
-    root = read_xml(file, Diagnostics()) if found.errors else None
-    if root is None or any(item.code != "xacro.file-missing" for item in found.errors):
+    """Return an argument, as name:=value, whose default is no robot: files for it are missing.
+
+    It is empty, or the folder of all files that are missing.
+    """
+    missing = found.by_code("xacro.file-missing")
+    root = read_xml(file, Diagnostics()) if missing else None
+    if root is None:
         return ""
+    included = "".join(
+        tag.attributes.get("filename", "")
+        for tag in root.walk()
+        if any(item.span is not None and item.span.line == tag.span.line for item in missing)
+    )
+    is_whole = len(missing) == len(found.errors)
     for tag in root.walk():
-        value = tag.attributes.get("default", "") if tag.name == "xacro:arg" else ""
-        if value and all(f"/{value}/" in item.message for item in found.errors):
-            return f"{tag.attributes.get('name', '')}:={value}"
+        if tag.name != "xacro:arg" or "default" not in tag.attributes:
+            continue
+        name, value = tag.attributes.get("name", ""), tag.attributes["default"].strip()
+        # Macros take it under the same name, as a rule.
+        is_named = f"$(arg {name})" in included or f"${{{name}}}" in included
+        is_folder = is_whole and all(f"/{value}/" in item.message for item in missing)
+        if is_folder if value else is_named:
+            return f"{name}:={value}"
     return ""
 
 

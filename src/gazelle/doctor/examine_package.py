@@ -93,7 +93,7 @@ def _examine_robot(path: Path, examination: Examination) -> None:
 def _is_placeholder(path: Path) -> bool:
     """Tell a robot with nothing in it, which stands where users may have a file of their own."""
     root = read_xml(path, Diagnostics())
-    return root is not None and not root.children and not root.attributes
+    return root is not None and not root.children and "name" not in root.attributes
 
 
 def _files_below(folder: Path) -> Iterator[Path]:

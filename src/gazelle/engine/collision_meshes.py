@@ -419,6 +419,11 @@ def _computed(key: MeshKey) -> Decomposition:
     if share >= CONVEX_SHARE:
         return Decomposition((_piece(hull),), "")
     filled = f"it fills {100 * share:.0f} % of its hull" if share > 0 else "it is not closed"
+    if not is_splitting():
+        # A hull for each of a thousand screws takes as long as splitting does, and robots stand
+        # inside the hull of scenery.
+        is_left_out = key.scenery or not _is_solid(hull)
+        return Decomposition(() if is_left_out else (_piece(hull),), f"{filled}; {_UNSPLIT}")
     pieces: list[Piece] = []
     notes: dict[str, None] = {}
     for component in connected_parts(mesh):
@@ -426,8 +431,6 @@ def _computed(key: MeshKey) -> Decomposition:
         pieces.extend(piece for piece in found if _has_thickness(piece.points_m))
         if note:
             notes.setdefault(note)
-    if _UNSPLIT in notes:
-        return Decomposition(tuple(pieces), f"{filled}; {_UNSPLIT}")
     how = f" ({'; '.join(notes)})" if notes else ""
     count = f"{len(pieces)} convex piece{'s' * (len(pieces) != 1)}"
     return Decomposition(tuple(pieces), f"{filled} and collides as {count}{how}")
@@ -473,8 +476,6 @@ def _component_pieces(mesh: Mesh, scenery: bool) -> tuple[list[Piece], str]:
         if parts.is_exact:
             solids = filter(_is_solid, parts.parts)
             return [Piece(np.asarray(part.vertices_m)) for part in solids], ""
-        if not is_splitting():
-            return [Piece(np.asarray(hull.vertices_m))], _UNSPLIT
     if scenery:
         prisms = surface_pieces(np.asarray(mesh.vertices_m), np.asarray(mesh.faces))
         return [Piece(points) for points in prisms], "its surface as thin solids, for it rests"

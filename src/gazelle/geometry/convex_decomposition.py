@@ -77,6 +77,8 @@ def announcing(say: _Say) -> Iterator[None]:
 def without_splitting() -> Iterator[None]:
     """Have hollow meshes taken as their hulls within a ``with`` block, unless split before.
 
+    Hollow scenery is left out: one would be inside its hull.
+
     For who wants to know what a world is made of, and not to simulate it: splitting takes seconds.
     """
     token = _splits.set(False)

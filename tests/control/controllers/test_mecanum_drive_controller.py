@@ -100,3 +100,9 @@ def test_stop_stops_the_wheels_and_a_missing_joint_is_named():
     assert bench.robot.interface_values.commands.tolist() == [0.0] * 4
     with pytest.raises(ControllerError, match="no 'front_left_wheel_command_joint_name' given"):
         WheeledBench(MecanumDriveController, rolling(*NAMES), {}, ros_version=2)
+
+
+def test_the_controller_of_ros1_is_another_one():
+    with pytest.raises(ControllerError, match="ROS 1's mecanum_drive_controller is compiled code"):
+        WheeledBench(MecanumDriveController, rolling(*NAMES), {}, ros_version=1)
+    WheeledBench(MecanumDriveController, rolling(*NAMES), PARAMETERS, ros_version=1)

@@ -91,6 +91,13 @@ def test_a_later_parameter_file_wins(load: Load, yaml_file: Path, tmp_path: Path
     assert sim.server.controls.manager().update_rate_hz == pytest.approx(50.0)
 
 
+def test_parameter_file_that_is_not_there_is_told_where_it_is_named(load: Load) -> None:
+    sim = load(robot(keys="<parameters>/nowhere/c.yaml</parameters>"))
+    (item,) = sim.diagnostics.by_code("control.parameter-file")
+    assert "'/nowhere/c.yaml' cannot be read: No such file or directory" in item.message
+    assert item.span is not None
+
+
 def test_files_for_nodes_of_another_namespace_are_reported(load: Load, yaml_file: Path) -> None:
     keys = f"<parameters>{yaml_file}</parameters><ros><namespace>left</namespace></ros>"
     text = found(load(robot(keys=keys)), "control.parameters-of-others")

@@ -7,6 +7,7 @@ from typing import Any
 
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
+from gazelle.control.errors import ControllerError
 from gazelle.control.wheels.drive_parameters import frame_rows, limit_rows
 from gazelle.control.wheels.kinematics import MecanumDrive, MecanumSpeeds, PlanarTwist
 from gazelle.control.wheels.odometry import PlanarOdometry, offer_set_odometry
@@ -115,6 +116,11 @@ class MecanumDriveController(Controller):
         super().__init__(context)
         parameters = context.parameters
         joints, read = [], []
+        if context.ros_version == 1 and not parameters.has("front_left_wheel_command_joint_name"):
+            raise ControllerError(
+                "ROS 1's mecanum_drive_controller is compiled code with parameters of its own, "
+                "which is not here; ROS 2's is, with other parameters"
+            )
         for wheel in WHEELS:
             parameters.require(f"{wheel}_wheel_command_joint_name")
             joints.append(parameters.text(f"{wheel}_wheel_command_joint_name"))

@@ -17,7 +17,7 @@ from gazelle.doctor.fixes.by_code import (
 from gazelle.doctor.fixes.edits import Edit, SourceText
 from gazelle.doctor.fixes.malformed import python_closed, xml_closed, xml_escaped, yaml_closed
 from gazelle.doctor.fixes.misspelt import suggestions, with_names_replaced
-from gazelle.doctor.fixes.xml_fixes import as_written, pasted
+from gazelle.doctor.fixes.xml_fixes import as_written, pasted, removed
 
 __all__ = ["Candidate", "candidates", "unreadable"]
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle.description.model import Model
+from gazelle.documents.files import exists
 from gazelle.parameters import Parameter, ParameterTable, Topic
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.control_loop import (
@@ -227,8 +228,10 @@ def _source(
 
     controls = context.host.controls
     named = (*parameters.texts("parameters"), *parameters.ros.parameter_files)
-    found = [_resolved(context, text.strip()) for text in dict.fromkeys(named)]
-    files = [path for path in found if path is not None]
+    found = {text.strip(): _resolved(context, text.strip()) for text in named}
+    files = [
+        path for text, path in found.items() if path is not None and _is_there(path, text, context)
+    ]
     given = (*named, *map(str, controls.files), *controls.overrides)
     if not any(text.strip() for text in given):
         message = f"plug-in '{context.plugin.name}' names no <parameters> file: controllers have"
@@ -244,6 +247,15 @@ def _source(
     )
     _report_strangers(context, source, join_names(namespace, manager))
     return source
+
+
+def _is_there(path: Path, text: str, context: PluginContext) -> bool:
+    """Tell whether there is such a file; one that is not is told where it is named."""
+    if exists(path):
+        return True
+    message = f"parameter file '{path}' cannot be read: No such file or directory"
+    context.report("control.parameter-file", message, about=text)
+    return False
 
 
 def _report_strangers(context: PluginContext, source: FileSource, manager: str) -> None:

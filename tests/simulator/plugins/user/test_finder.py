@@ -7,7 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.simulator.plugins.user.finder import compiled_plugin, python_plugin, stems
+from gazelle.simulator.plugins.user.finder import (
+    compiled_plugin,
+    python_plugin,
+    remembering_folders,
+    stems,
+)
 from gazelle.workspace import Workspace
 
 
@@ -81,3 +86,16 @@ def test_the_line_and_source_of_a_library_are_found(tmp_path: Path) -> None:
     named = compiled_plugin("liblamp.so", workspace)
     assert named is not None
     assert (named.line, named.source) == (2, package / "lamp.cc")
+
+
+def test_folders_are_walked_through_once_while_they_are_remembered(tmp_path: Path) -> None:
+    package = tmp_path / "bot"
+    package.mkdir()
+    manifest = '<package format="2"><name>bot</name><version>1.0.0</version></package>'
+    (package / "package.xml").write_text(manifest, encoding="utf-8")
+    workspace = Workspace.discover(environ={"HOME": str(tmp_path)}, cwd=tmp_path, extra=[tmp_path])
+    with remembering_folders():
+        assert python_plugin("libmine.so", workspace, None, {}) is None
+        (package / "mine.py").write_text("", encoding="utf-8")
+        assert python_plugin("libmine.so", workspace, None, {}) is None
+    assert python_plugin("libmine.so", workspace, None, {}) is not None

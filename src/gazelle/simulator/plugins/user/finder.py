@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -22,6 +24,7 @@ __all__ = [
     "installed_plugin",
     "python_plugin",
     "python_plugin_names",
+    "remembering_folders",
     "stems",
 ]
 
@@ -31,6 +34,20 @@ _SKIPPED = frozenset({"build", "devel", "install", "log", "node_modules", "__pyc
 _SOURCE_ENDINGS = (".cpp", ".cc", ".cxx", ".c")
 _PLUGIN_IMPORT = "gazelle.simulator.plugins.user"
 _PROJECT = re.compile(r"\bproject\s*\(\s*([\w-]+)")
+
+
+_Folders = dict[tuple[Path, tuple[str, ...]], Sequence[Path]]
+_remembered: ContextVar[_Folders | None] = ContextVar("_remembered", default=None)
+
+
+@contextmanager
+def remembering_folders() -> Iterator[None]:
+    """Walk through each package once within a ``with`` block, whose files do not change."""
+    token = _remembered.set({})
+    try:
+        yield
+    finally:
+        _remembered.reset(token)
 
 
 class PythonPlugin(NamedTuple):
@@ -103,16 +120,9 @@ def python_plugin(
 
 def python_plugin_names(workspace: Workspace | None) -> tuple[str, ...]:
     """Return the names of the Python files in a workspace that hold a plug-in."""
-    found = []
-    for package in _own_packages(workspace):
-        for path in _files(package.path, (".py",)):
-            try:
-                text = path.read_text(encoding="utf-8", errors="replace")
-            except OSError:
-                continue
-            if _PLUGIN_IMPORT in text:
-                found.append(path.stem)
-    return tuple(found)
+    return tuple(
+        path.stem for package in _own_packages(workspace) for path in _plugin_files(package.path)
+    )
 
 
 def installed_plugin(filename: str) -> EntryPoint | None:
@@ -149,7 +159,33 @@ def _own_packages(workspace: Workspace | None) -> Iterator[Package]:
         yield from workspace.user_packages
 
 
-def _files(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
+def _files(folder: Path, endings: tuple[str, ...]) -> Sequence[Path]:
+    remembered = _remembered.get()
+    if remembered is None:
+        return tuple(_walked(folder, endings))
+    if (folder, endings) not in remembered:
+        remembered[folder, endings] = tuple(_walked(folder, endings))
+    return remembered[folder, endings]
+
+
+def _plugin_files(folder: Path) -> Sequence[Path]:
+    remembered, key = _remembered.get(), (folder, ("plugins",))
+    if remembered is not None and key in remembered:
+        return remembered[key]
+    found = tuple(path for path in _files(folder, (".py",)) if _PLUGIN_IMPORT in _text(path))
+    if remembered is not None:
+        remembered[key] = found
+    return found
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ""
+
+
+def _walked(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
     for root, folders, names in os.walk(folder):
         folders[:] = sorted(name for name in folders if name not in _SKIPPED and name[0] != ".")
         yield from (Path(root) / name for name in sorted(names) if name.endswith(endings))
