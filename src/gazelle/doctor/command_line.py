@@ -12,13 +12,14 @@ from gazelle.doctor.causes import causes_first
 from gazelle.doctor.examine_file import examine_file, kind_name
 from gazelle.doctor.examine_package import examine_folder, examine_package
 from gazelle.doctor.file_kinds import Kind, kind_of
+from gazelle.doctor.loose_scripts import check_loose_scripts
 from gazelle.doctor.merged_findings import condensed
 from gazelle.doctor.packages import check_environment
 from gazelle.doctor.report import Examination, Options, Report
 from gazelle.doctor.robots_and_worlds import without_superseded
 from gazelle.doctor.target import Target, find_target, package_at
 from gazelle.documents.files import is_file, is_folder
-from gazelle.workspace import Workspace
+from gazelle.workspace import Package, Workspace
 
 __all__ = ["examine"]
 
@@ -58,6 +59,8 @@ def examine(
         examination.say = progress
     check_environment(options.environ, diagnostics=examination.diagnostics)
     kind = _examine(target, examination)
+    for package in target.packages or _owners(target, kind, workspace):
+        check_loose_scripts(package, examination.launch_topics, examination.diagnostics)
     examination.diagnostics.extend(workspace.diagnostics)
     findings, consequences = causes_first(_findings(examination))
     return Report(
@@ -67,6 +70,13 @@ def examine(
         sections=tuple(examination.sections),
         consequences=consequences,
     )
+
+
+def _owners(target: Target, kind: str, workspace: Workspace) -> tuple[Package, ...]:
+    """Return the packages whose launch files are examined."""
+    files = target.files if kind == "launch" else ()
+    found = (package_at(file.parent, workspace) for file in files)
+    return tuple(dict.fromkeys(package for package in found if package is not None))
 
 
 def _workspace_of(

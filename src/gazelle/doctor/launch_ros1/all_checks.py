@@ -166,6 +166,7 @@ def _examine_descriptions(
 def _check(launched: Launched, starts: dict[str, DryStart], examination: Examination) -> None:
     diagnostics = examination.diagnostics
     topics = topics_of(launched, starts)
+    examination.launch_topics += [end for item in topics for end in item.ends()]
     check_descriptions(launched, diagnostics)
     check_nodes(launched, diagnostics)
     check_unsupported_parameters(launched, diagnostics)
