@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from gazelle.nodes.unsupported_parameters import node_of_name, unsupported_parameters
+import pytest
+
+from gazelle.nodes.unsupported_parameters import (
+    misspelt_parameters,
+    node_of_name,
+    unsupported_parameters,
+)
 
 
 def test_slam_and_localisation_by_their_names() -> None:
@@ -44,3 +50,26 @@ def test_nodes_by_the_names_that_files_use() -> None:
     assert node_of_name("local_costmap") == "costmap"
     assert node_of_name("ekf_filter_node") == "robot_localization/ekf_node"
     assert node_of_name("my_driver") == ""
+
+
+@pytest.mark.parametrize(
+    ("node", "values", "wanted"),
+    [
+        ("amcl/amcl", {"min_particels": 1}, ("min_particels", "min_particles")),
+        ("amcl/amcl", {"min_particles": 1, "use_sim_time": True, "something": 1}, None),
+        (
+            "move_base/move_base",
+            {"local_costmap": {"updat_frequency": 1.0}},
+            ("local_costmap.updat_frequency", "update_frequency"),
+        ),
+        # A layer reads what stands above it.
+        ("move_base/move_base", {"local_costmap": {"obstacle_range": 1.0}}, None),
+        ("nobody/knows", {"min_particels": 1}, None),
+    ],
+)
+def test_names_that_a_node_nearly_knows(
+    node: str, values: dict[str, object], wanted: tuple[str, str] | None
+) -> None:
+    found = misspelt_parameters(node, values, 1)
+    assert [item.key for item in found] == ([wanted[0]] if wanted else [])
+    assert all(wanted is not None and f"'{wanted[1]}'" in item.hint for item in found)

@@ -14,6 +14,7 @@ from gazelle.doctor.causes import causes_first
 from gazelle.doctor.examine_file import examine_file, kind_name
 from gazelle.doctor.examine_package import examine_folder, examine_package
 from gazelle.doctor.file_kinds import Kind, kind_of
+from gazelle.doctor.loose_scripts import check_loose_scripts
 from gazelle.doctor.merged_findings import condensed
 from gazelle.doctor.packages import check_environment
 from gazelle.doctor.report import Examination, Options, Report
@@ -22,7 +23,7 @@ from gazelle.doctor.target import Target, find_target, package_at
 from gazelle.doctor.works_elsewhere import as_warnings_of_parts_elsewhere
 from gazelle.documents.files import is_file, is_folder
 from gazelle.simulator.plugins.user.finder import remembering_folders
-from gazelle.workspace import Workspace
+from gazelle.workspace import Package, Workspace
 from gazelle.workspace.environment_paths import BUILTIN
 
 __all__ = ["examine"]
@@ -66,6 +67,8 @@ def examine(
     check_environment(options.environ, diagnostics=examination.diagnostics)
     with remembering_documents(), remembering_folders():
         kind = _examine(target, examination)
+        for package in target.packages or _owners(target, kind, workspace):
+            check_loose_scripts(package, examination.launch_topics, examination.diagnostics)
     examination.diagnostics.extend(workspace.diagnostics)
     findings, consequences = causes_first(_findings(examination))
     return Report(
@@ -75,6 +78,13 @@ def examine(
         sections=tuple(examination.sections),
         consequences=consequences,
     )
+
+
+def _owners(target: Target, kind: str, workspace: Workspace) -> tuple[Package, ...]:
+    """Return the packages whose launch files are examined."""
+    files = target.files if kind == "launch" else ()
+    found = (package_at(file.parent, workspace) for file in files)
+    return tuple(dict.fromkeys(package for package in found if package is not None))
 
 
 def _workspace_of(

@@ -111,6 +111,7 @@ def _check_topics(found: LaunchReading, examination: Examination) -> None:
     known = [examination.simulated[key] for key in keys if key in examination.simulated]
     simulated = [end for ends in known for end in ends] if found.simulates else []
     ends = [*topics.ends, *simulated]
+    examination.launch_topics += ends
     is_whole = topics.is_whole and found.simulates and len(known) == len(keys)
     check_topic_types(ends, examination.diagnostics, ros_version=2)
     check_topic_names(ends, examination.diagnostics, is_whole=is_whole, others=topics.others)

@@ -102,6 +102,7 @@ class Examination:
         diagnostics: receives every finding.
         sections: tables of the report, in the order made.
         seen: files that have been examined, alone or as part of something else.
+        launch_topics: what is known of the topics of all launches.
         simulated: topics of the simulator with a robot or world, by file and its arguments.
         is_wide: a whole package is looked at, and nobody has given arguments for its files.
         say: told what is being looked at, for a person who waits.
@@ -112,6 +113,7 @@ class Examination:
     diagnostics: Diagnostics = field(default_factory=Diagnostics)
     sections: list[Section] = field(default_factory=list)
     seen: set[Path] = field(default_factory=set)
+    launch_topics: list[TopicEnd] = field(default_factory=list)
     simulated: dict[tuple[Path, frozenset[tuple[str, str]]], tuple[TopicEnd, ...]] = field(
         default_factory=dict
     )

@@ -12,7 +12,15 @@ from typing import NamedTuple
 from gazelle.compat.python2 import is_python2, translated
 from gazelle.diagnostics import SourceSpan
 
-__all__ = ["ScriptTopics", "TopicEnd", "TopicUse", "read_script"]
+__all__ = [
+    "ScriptTopics",
+    "TopicEnd",
+    "TopicUse",
+    "module_texts",
+    "parsed_script",
+    "read_script",
+    "stands_alone",
+]
 
 _PUBLISHERS = frozenset({"Publisher", "create_publisher"})
 _SUBSCRIBERS = frozenset({"Subscriber", "create_subscription", "wait_for_message"})
@@ -107,16 +115,56 @@ def read_script(path: Path) -> ScriptTopics:
         return ScriptTopics(is_complete=False)
 
 
+def module_texts(tree: ast.Module) -> dict[str, str]:
+    """Return the texts that names of the module stand for, each bound once."""
+    found: dict[str, str | None] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                if isinstance(target, ast.Name):
+                    value = node.value
+                    text = value.value if isinstance(value, ast.Constant) else None
+                    is_new = target.id not in found and isinstance(text, str)
+                    found[target.id] = text if is_new else None  # type: ignore[assignment]
+    return {name: text for name, text in found.items() if text is not None}
+
+
+def parsed_script(source: bytes) -> ast.Module:
+    """Return the syntax tree of a script, which may be of Python 2.
+
+    Raises:
+        SyntaxError: it is no Python.
+    """
+    text = source.decode("utf-8", "replace")
+    return ast.parse(translated(text) if is_python2(source) else text)
+
+
+def stands_alone(tree: ast.Module, path: Path) -> bool:
+    """Tell whether no other file of the user's can open topics for this one."""
+    names = _imports(tree)
+    uses_ros = any(name.partition(".")[0] in _ROS_MODULES for name in names)
+    folders = (path.parent, path.parent.parent, path.parent.parent / "src")
+    own = any(
+        name.startswith(".")
+        or any(
+            (folder / name.partition(".")[0]).is_dir()
+            or (folder / f"{name.partition('.')[0]}.py").is_file()
+            for folder in folders
+        )
+        for name in names
+    )
+    return uses_ros and not own
+
+
 @lru_cache(maxsize=64)
 def _read(path: Path, source: bytes) -> ScriptTopics:
-    text = source.decode("utf-8", "replace")
-    tree = ast.parse(translated(text) if is_python2(source) else text)
-    reader = _Reader(path, _constants(tree), dict(_imported(tree)))
+    tree = parsed_script(source)
+    reader = _Reader(path, module_texts(tree), dict(_imported(tree)))
     reader.visit(tree)
     return ScriptTopics(
         tuple(reader.uses),
         reader.sends_transforms,
-        reader.is_complete and _stands_alone(tree, path),
+        reader.is_complete and stands_alone(tree, path),
         frozenset(_texts(tree)) - {use.name for use in reader.uses},
     )
 
@@ -207,20 +255,6 @@ def _dotted(node: ast.expr | None) -> str:
     return node.id if isinstance(node, ast.Name) else ""
 
 
-def _constants(tree: ast.Module) -> dict[str, str]:
-    """Return the texts that names of the module stand for, each bound once."""
-    found: dict[str, str | None] = {}
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Assign):
-            for target in node.targets:
-                if isinstance(target, ast.Name):
-                    value = node.value
-                    text = value.value if isinstance(value, ast.Constant) else None
-                    is_new = target.id not in found and isinstance(text, str)
-                    found[target.id] = text if is_new else None  # type: ignore[assignment]
-    return {name: text for name, text in found.items() if text is not None}
-
-
 def _texts(tree: ast.Module) -> Iterator[str]:
     said = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
     for node in ast.walk(tree):
@@ -248,20 +282,3 @@ def _imports(tree: ast.Module) -> list[str]:
         elif isinstance(node, ast.ImportFrom):
             names.append("." * node.level + (node.module or ""))
     return names
-
-
-def _stands_alone(tree: ast.Module, path: Path) -> bool:
-    """Tell whether no other file of the user's can open topics for this one."""
-    names = _imports(tree)
-    uses_ros = any(name.partition(".")[0] in _ROS_MODULES for name in names)
-    folders = (path.parent, path.parent.parent, path.parent.parent / "src")
-    own = any(
-        name.startswith(".")
-        or any(
-            (folder / name.partition(".")[0]).is_dir()
-            or (folder / f"{name.partition('.')[0]}.py").is_file()
-            for folder in folders
-        )
-        for name in names
-    )
-    return uses_ros and not own

@@ -45,7 +45,8 @@ def check_topic_names(
     diagnostics: Diagnostics,
     *,
     is_whole: bool,
-    others: Iterable[str],
+    others: Iterable[str] = (),
+    where: str = "in this launch",
     of_namespaces: bool = True,
 ) -> None:
     """Report names in scripts that nobody else uses, where nearly the same name would have met.
@@ -55,6 +56,7 @@ def check_topic_names(
         diagnostics: receives the findings.
         is_whole: there are no more.
         others: topics that nodes of which no more is known may have.
+        where: the nodes are, in words.
         of_namespaces: also those that differ in their namespaces only.
     """
     taken = frozenset(others)
@@ -67,7 +69,7 @@ def check_topic_names(
         near = _meant(end, ends, is_whole)
         is_same = near.rpartition("/")[2] == end.topic.rpartition("/")[2]
         if near and (of_namespaces or not is_same):
-            _report_name(end, end.use, near, diagnostics, is_whole)
+            _report_name(end, end.use, near, diagnostics, where)
 
 
 def is_typo(name: str, other: str) -> bool:
@@ -144,13 +146,10 @@ def _named(end: TopicEnd) -> str:
 
 
 def _report_name(
-    end: TopicEnd, use: TopicUse, near: str, diagnostics: Diagnostics, is_whole: bool
+    end: TopicEnd, use: TopicUse, near: str, diagnostics: Diagnostics, where: str
 ) -> None:
-    if end.publishes:
-        verb, lacks = "publishes", "listens to" if is_whole else "is known to listen to"
-    else:
-        verb, lacks = "listens to", "publishes" if is_whole else "is known to publish"
-    text = f"'{end.node}' {verb} '{end.topic}', which nobody in this launch {lacks}; there is "
+    verb, does = ("publishes", "listen to") if end.publishes else ("listens to", "publish")
+    text = f"'{end.node}' {verb} '{end.topic}', which nobody {where} is known to {does}; there is "
     text += f"'{near}'"
     written = _as_written(near, end.topic, use.name)
     fix = f"did you mean '{written}'?"

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from gazelle.graph.dynamic_reconfigure import DynamicParameter, ReconfigureServer
 
 __all__ = [
+    "OF_EVERY_NODE",
     "log_findings",
     "namespace_parameters",
     "node_parameters",
@@ -44,9 +45,10 @@ _SIM_TIME = "use_sim_time"
 _RECONFIGURE_TYPES = {"number": "double", "integer": "int", "flag": "bool", "text": "str"}
 
 # Nav2's launch files give autostart to all nodes of a container; lifecycle_manager reads it.
-_EVERYWHERE = frozenset(
+OF_EVERY_NODE = frozenset(
     {"use_sim_time", "bond_disable_heartbeat_timeout", "qos_overrides", "autostart"}
 )
+"""Parameters that every node may be given."""
 
 
 def log_findings(
@@ -239,7 +241,7 @@ def node_reader(
         diagnostics: receives what is wrong.
         ros_version: of ROS, whose defaults count; 0 where the table is of one generation.
     """
-    owner = ParameterOwner(name, managed=_EVERYWHERE)
+    owner = ParameterOwner(name, managed=OF_EVERY_NODE)
     return ParameterReader(table, TreeSource(tree), owner, diagnostics, ros_version=ros_version)
 
 
@@ -284,7 +286,7 @@ def namespace_parameters(
     store, ros_version = node.parameters, arguments.ros_version
     beside = {row.key: store.get(row.key) for row in table.rows if store.has(row.key)}
     source = TreeSource(beside, full_name=node.resolve_name)
-    owner = ParameterOwner(node.name, managed=_EVERYWHERE)
+    owner = ParameterOwner(node.name, managed=OF_EVERY_NODE)
     try:
         yield ParameterReader(table, source, owner, found, ros_version=ros_version)
         places = {row.key: node.resolve_name(row.key) for row in table.rows if ros_version == 1}

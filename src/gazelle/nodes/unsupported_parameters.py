@@ -1,4 +1,4 @@
-"""Which parameters of a built-in node are known and change nothing.
+"""Which parameters of a built-in node change nothing: known ones, and names that were misspelt.
 
 Nodes tell it themselves when they start; this tells it of files that nobody has started.
 """
@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import Any, Literal, NamedTuple
 
+from gazelle.diagnostics import did_you_mean
 from gazelle.navigation.controllers import CONTROLLERS
 from gazelle.navigation.costmap.costmap_parameters import (
     InflationOptions,
@@ -24,11 +25,18 @@ from gazelle.nodes.move_base.local_planner import local_planner_tables
 from gazelle.nodes.move_base.parameters import CLEAR, ROTATE, SLOW
 from gazelle.nodes.nav2 import parameters as nav2
 from gazelle.nodes.navigation.costmap_from_parameters import costmap_table, layer_table
+from gazelle.nodes.parameters import OF_EVERY_NODE
 from gazelle.nodes.robot_localization.parameters import EKF, ekf_table
-from gazelle.parameters import ParameterTable
+from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.trees import flattened, nested, values_only
 
-__all__ = ["UnsupportedParameter", "node_of_name", "unsupported_parameters"]
+__all__ = [
+    "MisspeltParameter",
+    "UnsupportedParameter",
+    "misspelt_parameters",
+    "node_of_name",
+    "unsupported_parameters",
+]
 
 RosVersion = Literal[1, 2]
 
@@ -54,6 +62,13 @@ class UnsupportedParameter(NamedTuple):
     reason: str
 
 
+class MisspeltParameter(NamedTuple):
+    """A name that a node does not know, with dots, and what it may have been meant for."""
+
+    key: str
+    hint: str
+
+
 def unsupported_parameters(
     node: str, values: Mapping[str, Any], ros_version: RosVersion
 ) -> tuple[UnsupportedParameter, ...]:
@@ -65,11 +80,36 @@ def unsupported_parameters(
         ros_version: of ROS.
     """
     tree = nested(values)
-    if node in EKF.types:
-        table: ParameterTable | None = ekf_table(tree)
-    else:
-        table = costmap_table(ros_version) if node == "costmap" else _table(node, ros_version)
-    return () if table is None else tuple(_walk(table, tree, "", ros_version))
+    table = _table_of(node, tree, ros_version)
+    if table is None:
+        return ()
+    return tuple(
+        UnsupportedParameter(key, row.meaning)
+        for _, key, row, value in _walk(table, tree, "", ros_version)
+        if row is not None and row.asks_in_vain(value)
+    )
+
+
+def misspelt_parameters(
+    node: str, values: Mapping[str, Any], ros_version: RosVersion
+) -> tuple[MisspeltParameter, ...]:
+    """Return the parameters of a node that it does not know, and nearly: others may be a plug-in's.
+
+    Args:
+        node: as for `unsupported_parameters`.
+        values: its parameters by their names below the node.
+        ros_version: of ROS.
+    """
+    tree = nested(values)
+    table = _table_of(node, tree, ros_version)
+    if table is None:
+        return ()
+    found = (
+        MisspeltParameter(key, did_you_mean(key.rpartition(".")[2], own.keys()))
+        for own, key, row, _ in _walk(table, tree, "", ros_version)
+        if row is None and not _is_of_every_node(key) and not _is_of_a_plugin(key, ros_version)
+    )
+    return tuple(item for item in found if item.hint)
 
 
 def node_of_name(name: str) -> str:
@@ -84,9 +124,26 @@ def node_of_name(name: str) -> str:
     return found or next((node for node in _places(2) if node.rpartition("/")[2] == own), "")
 
 
+def _table_of(node: str, tree: Mapping[str, Any], ros_version: RosVersion) -> ParameterTable | None:
+    if node in EKF.types:
+        return ekf_table(tree)
+    return costmap_table(ros_version) if node == "costmap" else _table(node, ros_version)
+
+
+def _is_of_every_node(key: str) -> bool:
+    return key.partition(".")[0] in OF_EVERY_NODE
+
+
+def _is_of_a_plugin(key: str, ros_version: RosVersion) -> bool:
+    """Tell whether a plug-in has such a parameter: layers of costmaps read those above them."""
+    name = key.rpartition(".")[2]
+    return any(table.row_for(name) is not None for table in _plugins(ros_version).values())
+
+
 def _walk(
     table: ParameterTable, tree: Mapping[str, Any], prefix: str, ros_version: RosVersion
-) -> Iterator[UnsupportedParameter]:
+) -> Iterator[tuple[ParameterTable, str, Parameter | None, Any]]:
+    """Yield every value with the table it is of, its name and its row."""
     kinds = _kinds(tree)
     for key, value in tree.items():
         if isinstance(value, Mapping):
@@ -96,8 +153,8 @@ def _walk(
                 continue
         for name, leaf in values_only(flattened({key: value})):
             row = table.row_for(name)
-            if row is not None and row.asks_in_vain(leaf):
-                yield UnsupportedParameter(f"{prefix}{name}", row.meaning)
+            if row is not None or not isinstance(value, Mapping):
+                yield table, f"{prefix}{name}", row, leaf
 
 
 def _below(

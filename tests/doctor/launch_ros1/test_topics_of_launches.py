@@ -135,7 +135,8 @@ def test_misspelt_topic_is_told_at_its_place(
     assert item.code == "doctor.topic-misspelt"
     node = f"/{ns}/look" if ns else "/look"
     assert item.message == (
-        f"'{node}' listens to '{wrong}', which nobody in this launch publishes; there is '/scan'"
+        f"'{node}' listens to '{wrong}', which nobody in this launch is known to publish; there is "
+        "'/scan'"
     )
     assert _place(item) == "look.py:7:18"
     assert item.fix == f"did you mean '{fix}'?"
@@ -150,7 +151,9 @@ def test_misspelt_topic_of_a_publisher(written: Write, examined: Examine) -> Non
     )
     told = _told(examined(folder, "bot", "bot.launch"))
     assert sorted(map(_place, told)) == ["hear.py:7:18", "talk.py:7:17"]
-    assert "which nobody in this launch listens to; there is '/commands'" in told[0].message
+    assert (
+        "which nobody in this launch is known to listen to; there is '/commands'" in told[0].message
+    )
 
 
 @pytest.mark.parametrize(
@@ -219,3 +222,57 @@ def test_remap_that_is_used_is_not_told(written: Write, examined: Examine) -> No
     folder = _launch(written, _node("look", inside), look=look)
     report = examined(folder, "bot", "bot.launch")
     assert [one for one in report.findings if one.code == "doctor.remap-unused"] == []
+
+
+@pytest.mark.parametrize("words", [("bot", "bot.launch"), ("bot",)])
+@pytest.mark.parametrize(
+    ("code", "place", "words_told"),
+    [
+        (
+            "rospy.Subscriber('scna', LaserScan, print)",
+            "hand.py:7:18",
+            "'hand.py' listens to '/scna', which nobody here is known to publish; there is '/scan'",
+        ),
+        (
+            "rospy.Subscriber('scan', Image, print)",
+            "hand.py:7:26",
+            "'hand.py' listens to '/scan' as sensor_msgs/Image, and '/gazebo' publishes it as "
+            "sensor_msgs/LaserScan: no message arrives",
+        ),
+    ],
+)
+def test_script_that_is_run_by_hand_is_compared_with_the_launch(
+    written: Write,
+    examined: Examine,
+    words: tuple[str, ...],
+    code: str,
+    place: str,
+    words_told: str,
+) -> None:
+    folder = _launch(written, "", hand=code)
+    (item,) = _told(examined(folder, *words))
+    assert (item.message, _place(item)) == (words_told, place)
+    assert str(item.severity) == "warning"
+
+
+def test_scripts_that_are_run_by_hand_are_compared_with_each_other(
+    written: Write, examined: Examine
+) -> None:
+    talk = "rospy.Publisher('chatter', String, queue_size=1)"
+    folder = _launch(written, "", talk=talk, hear="rospy.Subscriber('chater', String, print)")
+    told = _told(examined(folder, "bot"))
+    assert sorted(map(_place, told)) == ["hear.py:7:18", "talk.py:7:17"]
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "rospy.Subscriber('scan', LaserScan, print)",
+        "rospy.Publisher('cmd_vel', String, queue_size=1)",
+        "rospy.Subscriber('front_scan', LaserScan, print)",
+    ],
+)
+def test_script_that_is_run_by_hand_may_have_topics_of_its_own(
+    written: Write, examined: Examine, code: str
+) -> None:
+    assert _told(examined(_launch(written, "", hand=code), "bot")) == []

@@ -133,7 +133,8 @@ def test_misspelt_topic_is_told_at_its_place(told: Told) -> None:
     (item,) = told(_node("look"), HEAR.format("LaserScan", "/scna"))
     assert item.code == "doctor.topic-misspelt"
     assert item.message == (
-        "'/look' listens to '/scna', which nobody in this launch publishes; there is '/scan'"
+        "'/look' listens to '/scna', which nobody in this launch is known to publish; there is "
+        "'/scan'"
     )
     assert (_place(item), item.fix) == ("look.py:10:45", "did you mean '/scan'?")
 
@@ -148,3 +149,8 @@ def test_misspelt_topic_beside_nodes_of_which_nothing_is_known(told: Told) -> No
 @pytest.mark.parametrize("look", [HEAR.format("LaserScan", "scan"), HEAR.format("Image", "eye")])
 def test_topics_that_are_right_are_not_told(told: Told, look: str) -> None:
     assert told(_node("look"), look) == []
+
+
+def test_script_that_is_run_by_hand_is_compared_with_the_launch(told: Told) -> None:
+    (item,) = told("", HEAR.format("LaserScan", "scna"))
+    assert item.message.startswith("'look.py' listens to '/scna', which nobody here is known to")

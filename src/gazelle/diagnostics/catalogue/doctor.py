@@ -243,6 +243,13 @@ _LAUNCHES = (
         "remap one of the names, or put both nodes into one namespace",
     ),
     Entry(
+        "doctor.parameter-unread",
+        "warning",
+        "A node is given a parameter that its script never reads",
+        "It has no effect, and the script takes its default. ROS says nothing of it.",
+        "write the name that the script reads, or take it out",
+    ),
+    Entry(
         "doctor.topic-misspelt",
         "warning",
         "A script uses a topic that nobody else has, and nearly the same name is there",

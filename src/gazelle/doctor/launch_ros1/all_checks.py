@@ -22,6 +22,7 @@ from gazelle.doctor.launch_ros1.name_checks import check_descriptions, check_rem
 from gazelle.doctor.launch_ros1.node_checks import (
     check_clock,
     check_nodes,
+    check_script_parameters,
     check_unsupported_parameters,
     nodes_section,
 )
@@ -139,9 +140,11 @@ def _examine_descriptions(
 def _check(launched: Launched, starts: dict[str, DryStart], examination: Examination) -> None:
     diagnostics = examination.diagnostics
     topics = topics_of(launched, starts)
+    examination.launch_topics += [end for item in topics for end in item.ends()]
     check_descriptions(launched, diagnostics)
     check_nodes(launched, diagnostics)
     check_unsupported_parameters(launched, diagnostics)
+    check_script_parameters(launched, diagnostics)
     check_clock(launched, starts, diagnostics)
     check_remaps(launched, topics, diagnostics)
     check_topics(launched, topics, diagnostics)

@@ -6,13 +6,26 @@ import shlex
 from collections.abc import Mapping
 from difflib import SequenceMatcher
 
-from gazelle.diagnostics import Diagnostics
+from gazelle.description.xml import attribute_span
+from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.doctor.dry_start import DryStart
 from gazelle.doctor.launch_ros1.launched_nodes import Launched, LaunchedNode, Role
 from gazelle.doctor.report import Section
-from gazelle.nodes.unsupported_parameters import unsupported_parameters
+from gazelle.doctor.script_parameters import (
+    ScriptParameters,
+    read_script_parameters,
+    report_unread,
+)
+from gazelle.nodes.unsupported_parameters import misspelt_parameters, unsupported_parameters
+from gazelle.parameters.trees import flattened
 
-__all__ = ["check_clock", "check_nodes", "check_unsupported_parameters", "nodes_section"]
+__all__ = [
+    "check_clock",
+    "check_nodes",
+    "check_script_parameters",
+    "check_unsupported_parameters",
+    "nodes_section",
+]
 
 _NAME = "/use_sim_time"
 _WORD = "use_sim_time"
@@ -66,7 +79,7 @@ def check_nodes(launched: Launched, diagnostics: Diagnostics) -> None:
 
 
 def check_unsupported_parameters(launched: Launched, diagnostics: Diagnostics) -> None:
-    """Report parameters of built-in nodes that are known and change nothing here."""
+    """Report parameters of built-in nodes that change nothing here, or are misspelt."""
     for node in launched.nodes:
         builtin = node.executable.builtin if node.executable is not None else None
         values = launched.parameters.get(node.full_name) if _has_own(launched, node) else {}
@@ -74,9 +87,29 @@ def check_unsupported_parameters(launched: Launched, diagnostics: Diagnostics) -
             continue
         for item in unsupported_parameters(f"{builtin.package}/{builtin.executable}", values, 1):
             text = f"'{node.full_name}': parameter '{item.key}' has no effect here: {item.reason}"
-            name = f"{node.full_name}/{item.key.replace('.', '/')}"
-            span = launched.spans.get(name, node.spec.span)
+            span = _parameter_span(node, item.key, launched)
             diagnostics.report("parameter.idle", text, span)
+        for wrong in misspelt_parameters(f"{builtin.package}/{builtin.executable}", values, 1):
+            text = f"'{node.full_name}': parameter '{wrong.key}' is not known; it has no effect"
+            span = _parameter_span(node, wrong.key, launched)
+            place = attribute_span(span, "name") if span is not None else None
+            diagnostics.report("parameter.unknown", text, place, fix=wrong.hint)
+
+
+def check_script_parameters(launched: Launched, diagnostics: Diagnostics) -> None:
+    """Report parameters of the user's scripts that these never read."""
+    for node in launched.of_role(Role.SCRIPT):
+        values = launched.parameters.get(node.full_name) if _has_own(launched, node) else {}
+        known = read_script_parameters(node.file) if node.file is not None else ScriptParameters()
+        if not known.is_complete or not isinstance(values, dict):
+            continue
+        for key, _ in flattened(values):
+            name = key.replace(".", "/")
+            full = f"{node.full_name}/{name}"
+            span = launched.spans.get(full)
+            if span is not None and not known.reads(full, node.resolve):
+                place = attribute_span(span, "name")
+                report_unread(node.full_name, name, known, node.spec.type, place, diagnostics)
 
 
 def nodes_section(launched: Launched) -> Section:
@@ -156,6 +189,11 @@ def _check_pause(
             node = next(item for item in launched.nodes if item.full_name == name)
             text = f"'{name}' starts paused and nothing in this launch unpauses it"
             diagnostics.report("doctor.paused", text, node.spec.span)
+
+
+def _parameter_span(node: LaunchedNode, key: str, launched: Launched) -> SourceSpan | None:
+    name = f"{node.full_name}/{key.replace('.', '/')}"
+    return launched.spans.get(name, node.spec.span)
 
 
 def _has_own(launched: Launched, node: LaunchedNode) -> bool:

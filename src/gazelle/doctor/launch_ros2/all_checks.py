@@ -17,6 +17,7 @@ from gazelle.doctor.launch_ros2.node_checks import (
     check_spawners,
     starts_simulator,
 )
+from gazelle.doctor.launch_ros2.parameter_checks import check_node_parameters
 from gazelle.doctor.launch_ros2.reference_checks import (
     check_commands,
     check_packages,
@@ -74,6 +75,7 @@ def check_launch(
     parameter_files = _named(files, (".yaml", ".yml"))
     check_spawners(files, parameter_files, workspace, diagnostics)
     check_clocks(files, diagnostics)
+    check_node_parameters(files, workspace, diagnostics)
     check_commands(files, workspace, diagnostics)
     return LaunchReading(
         robots=tuple(robots_of(files)),

@@ -16,7 +16,7 @@ from gazelle.node_specs.parameter_substitution import expanded, holds
 from gazelle.node_specs.spec import Direction, NodeRole, NodeSpec
 from gazelle.workspace import Workspace
 
-__all__ = ["has_one_namespace", "may_be_simulated", "topics_of_launch"]
+__all__ = ["has_one_namespace", "may_be_simulated", "program_of", "topics_of_launch"]
 
 # What puts nodes into namespaces, or renames their topics, from outside of them.
 _AROUND = re.compile(
@@ -55,7 +55,7 @@ def topics_of_launch(files: Sequence[Followed], workspace: Workspace) -> LaunchT
     others: list[str] = []
     is_whole = all(item.has_all for item in files) and not _starts_others(files, workspace)
     for node in _nodes(files):
-        found = _found(node, workspace)
+        found = program_of(node, workspace)
         own, is_known = _ends(node, found)
         ends += own
         if not is_known:
@@ -82,7 +82,8 @@ def _starts_others(files: Sequence[Followed], workspace: Workspace) -> bool:
     return False
 
 
-def _found(node: LaunchedNode, workspace: Workspace) -> Executable | None:
+def program_of(node: LaunchedNode, workspace: Workspace) -> Executable | None:
+    """Return what runs a node, None where that is not known."""
     if node.package is None or node.executable is None:
         return None
     try:

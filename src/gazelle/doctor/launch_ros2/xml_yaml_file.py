@@ -8,7 +8,7 @@ import shlex
 from collections.abc import Mapping
 from pathlib import Path, PurePath
 
-from gazelle.description.xml import Tag, read_xml
+from gazelle.description.xml import Tag, attribute_span, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.launch_ros2.launch_file import (
     Argument,
@@ -192,6 +192,11 @@ class _Reader:
                 Parameters(values, tuple(files), complete),
                 tuple(words),
                 tag.span,
+                places={
+                    name: attribute_span(item.span, "name")
+                    for item in tag.find_all("param")
+                    if (name := item.attributes.get("name", ""))
+                },
                 remappings=self._remappings(tag),
             )
         )

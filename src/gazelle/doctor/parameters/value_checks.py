@@ -8,9 +8,13 @@ from collections.abc import Collection, Iterator
 from gazelle.diagnostics import Diagnostics, Severity, SourceSpan
 from gazelle.doctor.parameters.parameter_file import MARK, Document, Layout, plain, scalars
 from gazelle.documents.yaml import YamlMapping, YamlNode, YamlScalar, YamlSequence, duplicates
-from gazelle.nodes.unsupported_parameters import node_of_name, unsupported_parameters
+from gazelle.nodes.unsupported_parameters import (
+    misspelt_parameters,
+    node_of_name,
+    unsupported_parameters,
+)
 
-__all__ = ["check_idle", "check_values"]
+__all__ = ["check_idle", "check_values", "key_span", "nodes_in"]
 
 _ADDED_UP = "rcl adds the two up, programs in Python see the last one only"
 # PyYAML's own tables (YAML 1.1 without y and n), and rcl_yaml_param_parser's, which has them.
@@ -26,20 +30,25 @@ _KINDS = {"bool": "bool", "int": "integer", "float": "double", "str": "string"}
 
 
 def check_idle(document: Document, diagnostics: Diagnostics) -> None:
-    """Report what the nodes of a file read and do not use, each at its line.
+    """Report what the nodes of a file read and do not use, or nearly read, each at its line.
 
     Args:
         document: a file of ROS 2: names of nodes, ``ros__parameters``, parameters.
-        diagnostics: receives ``parameter.idle``.
+        diagnostics: receives ``parameter.idle`` and ``parameter.unknown``.
     """
-    for path, values in _nodes(document.root, ()):
+    for path, values in nodes_in(document.root):
         node = node_of_name(path[-1])
         found = plain(values)
         if not node or not isinstance(found, dict):
             continue
+        owner = f"/{'/'.join(path)}"
         for item in unsupported_parameters(node, found, 2):
-            text = f"/{'/'.join(path)}: parameter '{item.key}' has no effect here: {item.reason}"
-            diagnostics.report("parameter.idle", text, _span(values, item.key))
+            text = f"{owner}: parameter '{item.key}' has no effect here: {item.reason}"
+            diagnostics.report("parameter.idle", text, key_span(values, item.key))
+        for wrong in misspelt_parameters(node, found, 2):
+            text = f"{owner}: parameter '{wrong.key}' is not known; it has no effect"
+            span = key_span(values, wrong.key)
+            diagnostics.report("parameter.unknown", text, span, fix=wrong.hint)
 
 
 def check_values(
@@ -74,15 +83,18 @@ def check_values(
         _check_keys(document.root, diagnostics)
 
 
-def _nodes(node: YamlMapping, above: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], YamlNode]]:
+def nodes_in(
+    node: YamlMapping, above: tuple[str, ...] = ()
+) -> Iterator[tuple[tuple[str, ...], YamlNode]]:
+    """Yield the nodes of a file of ROS 2, the parts of their names, with their parameters."""
     for key, value in node.pairs:
         if key.text == MARK and above:
             yield above, value
         elif isinstance(value, YamlMapping):
-            yield from _nodes(value, (*above, key.text.strip("/")))
+            yield from nodes_in(value, (*above, key.text.strip("/")))
 
 
-def _span(node: YamlNode, name: str) -> SourceSpan:
+def key_span(node: YamlNode, name: str) -> SourceSpan:
     """Return the place of a key; levels may be written as mappings or with dots."""
     place = node
     words = name.split(".")
