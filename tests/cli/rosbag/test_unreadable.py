@@ -59,7 +59,7 @@ def shown(
         (-300, "a.bag", 0, "messages:    3", ("a.bag: warning: ", "bag.unindexed",
          "rosbag reindex a.bag", "bag unindexed")),
         (-300, "a.bag.active", 0, "messages:    3", ("bag.unindexed", "rosbag reindex")),
-        (20, "a.bag", 0, "version: 2.0", ("bag.unindexed", "0 messages can be read")),
+        (20, "a.bag", 1, "version: 2.0", ("bag.unindexed", "0 messages can be read")),
         (5, "a.bag", 1, "", ("ERROR reading a.bag", "This does not appear to be a bag file")),
         (0, "a.bag", 1, "", ("ERROR reading a.bag", "This does not appear to be a bag file")),
     ],

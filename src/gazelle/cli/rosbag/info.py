@@ -136,15 +136,16 @@ def run(argv: list[str]) -> int:
         parser.error("You must specify at least 1 bag file.")
     if options.key and not options.yaml:
         parser.error("You can only specify key when printing in YAML format.")
+    is_readable = True
     for index, path in enumerate(args):
         try:
-            _show(path, options.key, yaml=options.yaml, rates=options.freq)
+            is_readable &= _show(path, options.key, yaml=options.yaml, rates=options.freq)
         except BagError as error:
             print(f"ERROR reading {path}: {error}", file=sys.stderr)
             return 1
         if index < len(args) - 1:
             print("---")
-    return 0
+    return 0 if is_readable else 1
 
 
 def _times(summary: Summary) -> list[tuple[str, str]]:
@@ -284,7 +285,8 @@ def _known_sum(name: str) -> str:
         return "unknown"
 
 
-def _show(path: str, key: str | None, *, yaml: bool, rates: bool) -> None:
+def _show(path: str, key: str | None, *, yaml: bool, rates: bool) -> bool:
+    """Print what is in a bag; False when it was cut off and nothing of it can be read."""
     bag = open_bag(path)
     report = _report_of(bag, path, rates=rates)
     if not yaml:
@@ -297,3 +299,4 @@ def _show(path: str, key: str | None, *, yaml: bool, rates: bool) -> None:
     sys.stdout.flush()
     warn_of_unindexed(bag)
     bag.close()
+    return bag.summary.is_indexed or bag.summary.messages > 0
