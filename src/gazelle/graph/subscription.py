@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import threading
-import traceback
 from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gazelle.errors import GazelleError
 from gazelle.graph import type_support
+from gazelle.graph.callback_errors import CallbackErrors
 from gazelle.graph.callback_queue import Bound, CallbackQueue
 from gazelle.graph.errors import coded
 from gazelle.graph.key_expressions import Attachment, Entity, token, topic_selector, type_in_key
@@ -171,6 +171,7 @@ class Subscription:
         self._takes_any = message_class is None
         self._with_info = delivery.with_info
         self._on_error = on_error
+        self._errors = CallbackErrors()
         self._on_warning = on_warning
         self._count_seq = type_support.is_ros1_view(message_class)
         self._refused: set[str] = set()
@@ -247,8 +248,10 @@ class Subscription:
                 self._hand_local(message, attachment)
             else:
                 self._take_remote(sample)
-        except Exception:  # noqa: BLE001 - a user's callback may raise anything
-            self._on_error(f"bad callback: {self._callback}\n{traceback.format_exc()}")
+        except Exception as error:  # noqa: BLE001 - a user's callback may raise anything
+            text = self._errors.text(f"bad callback: {self._callback}", error)
+            if text:
+                self._on_error(text)
 
     def _take_remote(self, sample: Any) -> None:
         key = str(sample.key_expr)

@@ -19,6 +19,7 @@ from gazelle.compat.rospy.state import STATE
 from gazelle.errors import GazelleError
 from gazelle.graph import MessageInfo, Node, RawMessage
 from gazelle.graph import Publisher as _Publisher
+from gazelle.graph.callback_errors import CallbackErrors
 from gazelle.graph.callback_queue import CallbackQueue
 from gazelle.interfaces import (
     AnyMsg,
@@ -228,6 +229,7 @@ class Subscriber(Topic):
         self.callback = callback
         self.callback_args = callback_args
         self._headers: dict[bytes, dict[str, str]] = {}
+        self._errors = CallbackErrors()
         STATE.when_ready(lambda node: self._open(node, name, queue_size or 0))
 
     def _open(self, node: Node, name: str, queue_size: int) -> None:
@@ -268,9 +270,8 @@ class Subscriber(Topic):
                 self.callback(message)
         except ROSInterruptException:
             return
-        except Exception:  # noqa: BLE001 - a user's callback may raise anything
-            sys.stderr.write(f"[ERROR] bad callback: {self.callback}\n")
-            traceback.print_exc()
+        except Exception as error:  # noqa: BLE001 - a user's callback may raise anything
+            sys.stderr.write(self._errors.text(f"[ERROR] bad callback: {self.callback}", error))
 
     def _header(self, info: MessageInfo, sent_class: type[Ros1Message]) -> dict[str, str]:
         """Return what a publisher of ROS 1 says when it is connected, as far as it is known."""
