@@ -31,6 +31,8 @@ _ARM = 100
 _CODE = """
 import json, resource, sys, time
 start_s = time.process_time()
+from gazelle.process_lifetime import collect_garbage_rarely
+collect_garbage_rarely()  # as the command does
 from gazelle.doctor import examine
 imported_s = time.process_time()
 report = examine(sys.argv[1:])

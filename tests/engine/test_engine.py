@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -345,3 +346,13 @@ def test_joint_limits_that_meet_lock_the_joint(build):
 def test_two_models_of_one_name_are_one_clear_error(build):
     with pytest.raises(EngineError, match="two models are named 'ball'; names in a world are"):
         build.engine(build.ball(), build.ball())
+
+
+def test_worlds_of_thousands_of_models_can_be_stepped(build):
+    shelves = [
+        replace(build.block(f"b{at}", Pose((at % 50, at // 50, 0.5))), static=True)
+        for at in range(2000)
+    ]
+    engine = build.engine(build.ground(), *shelves, build.block(pose=Pose((-2, 0, 0.1))))
+    engine.step(2)
+    assert engine.time_ns == 2 * engine.step_ns

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from gazelle.description.checks import SUPERSEDED_CODES, check_description
+from gazelle.description.checks.source_elements import CheckedSource
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model, PluginTag, World
 from gazelle.description.robot_description import TEXT_FILES_VARIABLE
@@ -43,9 +44,10 @@ def texts_known(files: Sequence[str]) -> Iterator[None]:
 
 def examine_models(world: World, examination: Examination) -> None:
     """Check every model of a world that can move."""
+    source = CheckedSource()
     for model in world.models:
         if not model.static:
-            check_description(model, diagnostics=examination.diagnostics)
+            check_description(model, diagnostics=examination.diagnostics, source=source)
             _check_frame_names(model, examination.diagnostics)
 
 

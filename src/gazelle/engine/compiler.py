@@ -41,7 +41,11 @@ SLEEP_TOLERANCE_M_S = 2e-5
 FRICTION_RATIO = 1000.0
 """Friction is so many times stiffer than the normal direction: bodies do not creep on slopes."""
 
-
+# MuJoCo's own estimate of its memory does not count the pairs of bodies that may touch: with some
+# thousand bodies the process would end at the first step.
+_MANY_BODIES = 1000
+_ARENA_BYTES = 64_000_000
+_BYTES_PER_PAIR = 16
 _STOPPED_AT_ONCE = 1000.0
 """Speed that friction at least takes from a joint in a step, rad/s or m/s."""
 
@@ -131,6 +135,9 @@ def assemble_world(
     builder = SpecBuilder(world, spec, diagnostics, step_s, extras.slipping)
     for model in world.models:
         builder.add_model(model)
+    count = sum(len(model.links) for model in world.models)
+    if count > _MANY_BODIES:
+        spec.memory = _ARENA_BYTES + _BYTES_PER_PAIR * count**2 // 2
     for model in world.models:
         tree = builder.trees[model.name]
         for joint in () if model.static else tree.loops:

@@ -32,6 +32,7 @@ def check_description(
     *,
     diagnostics: Diagnostics,
     root: Tag | None = None,
+    source: CheckedSource | None = None,
     step_s: float = 1e-3,
 ) -> None:
     """Report everything that is suspicious about a model, none of which a reader says.
@@ -43,16 +44,21 @@ def check_description(
         model: as a reader made it.
         diagnostics: receives the findings; what is wrong with mesh files is left to the engine.
         root: the element it was read from, after xacro; the files are read again when None.
+        source: finds elements where there is no root; one for all models of a world looks
+            through each of their files once.
         step_s: of the physics.
     """
     # Numbers out of this world overflow; comparisons with what comes out are false.
     with np.errstate(all="ignore"):
-        _check(model, diagnostics, root, step_s)
+        if root is not None or source is None:
+            source = CheckedSource((model,), {} if root is None else links_below(root))
+        _check(model, diagnostics, root, source, step_s)
 
 
-def _check(model: Model, diagnostics: Diagnostics, root: Tag | None, step_s: float) -> None:
+def _check(
+    model: Model, diagnostics: Diagnostics, root: Tag | None, source: CheckedSource, step_s: float
+) -> None:
     discarded = Diagnostics()
-    source = CheckedSource((model,), {} if root is None else links_below(root))
     records = records_of((model,), source.find_tag, discarded)
     for finding in check_inertia(records):
         item = finding.diagnostic
