@@ -61,8 +61,9 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
         examination.diagnostics.report("doctor.nothing", text, SourceSpan(str(folder)))
     pieces = _included_names(path for path, kind in files if _is_robot(path, kind))
     included = _included_names(path for path, kind in kinds if kind is Kind.LAUNCH)
-    # Files that others include are examined as those include them, with their arguments.
-    kinds.sort(key=lambda item: item[0].name in included)
+    # Files that others include are examined as those include them, with their arguments; a
+    # model.config says which file is the model.
+    kinds.sort(key=lambda item: (item[0].name in included, item[0].name != "model.config"))
     for wanted in _ORDER:
         for path, kind in kinds:
             if kind is not wanted or path.resolve() in examination.seen:
