@@ -158,9 +158,9 @@ def _examined(folder: Path) -> tuple[float, list[dict[str, Any]]]:
     from gazelle.diagnostics import grouped
     from gazelle.doctor import Options, examine
 
-    began = time.perf_counter()
+    began = time.process_time()
     report = examine([f"{folder}/"], options=Options(environ=dict(os.environ)), cwd=folder)
-    seconds = time.perf_counter() - began
+    seconds = time.process_time() - began
     return seconds, [
         {
             "code": item.code,
@@ -209,7 +209,7 @@ def _print(
     print(f"  false alarms    {len(false)}")
     print(f"  unjudged        {len(open_ones)}")
     print(f"warnings, median  {statistics.median(warnings):g} a package, {max(warnings)} at most")
-    print(f"slowest           {slowest['seconds']:.1f} s, {slowest['path']}")
+    print(f"slowest           {slowest['seconds']:.1f} s of CPU, {slowest['path']}")
 
 
 def _print_kinds(results: Sequence[Mapping[str, Any]]) -> None:

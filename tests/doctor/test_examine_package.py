@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from tests.doctor.conftest import Examine, Write, codes
 
-from gazelle.doctor import Report
+from gazelle.doctor import Report, examine
+from gazelle.workspace import Workspace
 
 XACRO = 'xmlns:xacro="http://ros.org/wiki/xacro"'
 MACRO = '<xacro:macro name="eye" params="at"><link name="${at}_eye"/></xacro:macro>'
@@ -63,3 +66,16 @@ def test_empty_default_in_a_files_name_asks_for_a_value(written: Write, examined
     assert told(examined(folder, "bot")) == []
     (found,) = (item for item in examined(folder, "bot").findings if "arm:=," in item.message)
     assert found.code == "doctor.needs-arguments"
+
+
+def test_model_is_looked_at_once_for_its_config_and_its_file(
+    written: Write, examined: Examine
+) -> None:
+    config = '<model><name>m</name><sdf version="1.6">m.sdf</sdf></model>'
+    model = '<sdf version="1.6"><model name="m"><link name="l"><visul/></link></model></sdf>'
+    folder = written(**{"models__m__model.config": config, "models__m__m.sdf": model})
+    workspace = Workspace.discover(environ={"HOME": str(folder)}, cwd=folder)
+    seen: list[str] = []
+    examine(("bot",), workspace=workspace, progress=seen.append, cwd=folder)
+    assert [Path(text).name for text in seen if "models" in text] == ["model.config"]
+    assert "xml.unknown-tag" in told(examined(folder, "bot"))

@@ -15,10 +15,10 @@ from gazelle.geometry import (
     inertia_matrix,
     inertia_problems,
     is_legal_inertia,
-    least_principal_moment,
     legalised_inertia,
     sphere_mass_properties,
 )
+from gazelle.geometry.mass_properties import least_principal_moment
 
 SIZE = st.floats(0.1, 5)
 ANGLE = st.floats(-3, 3)

@@ -153,6 +153,10 @@ def _examine_robot(
         diagnostics=found,
         mappings=examination.options.arguments if mappings is None else mappings,
     )
+    for model in models:
+        if model.file is not None:
+            # That which a model.config names.
+            examination.see(model.file)
     if _is_left(file, found, examination):
         return
     whole = _whole_robot(file, found, examination)

@@ -66,8 +66,9 @@ def examine_folder(folder: Path, examination: Examination, *, needs_files: bool 
         if kind is Kind.ROBOT or (kind is None and path.suffix in _ROBOTS)
     )
     included = included_names(path for path, kind in kinds if kind is Kind.LAUNCH)
-    # Files that others include are examined as those include them, with their arguments.
-    kinds.sort(key=lambda item: item[0].name in included)
+    # Files that others include are examined as those include them, with their arguments; a
+    # model.config says which file is the model.
+    kinds.sort(key=lambda item: (item[0].name in included, item[0].name != "model.config"))
     for wanted in _ORDER:
         for path, kind in kinds:
             if kind is not wanted or path.resolve() in examination.seen:

@@ -19,7 +19,6 @@ from gazelle.geometry.mass_properties import (
     inertia_matrix,
     inertia_problems,
     is_legal_inertia,
-    least_principal_moment,
     legalised_inertia,
 )
 from gazelle.geometry.mesh import Mesh, MeshError, MeshMaterial, MeshNote, MeshPart
@@ -113,7 +112,6 @@ __all__ = [
     "is_closed",
     "is_legal_inertia",
     "is_splitting",
-    "least_principal_moment",
     "legalised_inertia",
     "load_mesh",
     "load_mesh_reported",

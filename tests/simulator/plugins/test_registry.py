@@ -65,7 +65,7 @@ def test_an_unknown_plug_in_is_named_once_with_its_place(load: Callable[..., Sim
     sim = load(f"<robot name='r'>{LINK}{plugin}</robot>", world=None)
     (found,) = sim.diagnostics.by_code("plugin.unknown")
     assert "plug-in 'libgazebo_ros_diff_driv.so' (name 'mine') of model 'r'" in found.message
-    assert "did you mean 'gazebo_ros_diff_drive'" in found.fix
+    assert "did you mean 'libgazebo_ros_diff_drive.so'" in found.fix
     assert found.phrase == "Failed to load plugin"
     assert found.span is not None
     assert found.span.line == 2
@@ -77,8 +77,8 @@ def test_an_unknown_plug_in_is_named_once_with_its_place(load: Callable[..., Sim
     [
         ("libgazebo_ros_time.so", "docs/plugins.md"),
         ("libLinkPlot3DPlugin.so", "docs/plugins.md"),
-        ("libgazebo_ros_difdrive.so", "did you mean 'gazebo_ros_diff_drive'?"),
-        ("libbaxter_gazebo_ros_control.so", "did you mean 'gazebo_ros_control' or "),
+        ("libgazebo_ros_difdrive.so", "did you mean 'libgazebo_ros_diff_drive.so'?"),
+        ("libbaxter_gazebo_ros_control.so", "did you mean 'libgazebo_ros_control.so' or "),
     ],
 )
 def test_only_names_that_are_alike_are_offered(

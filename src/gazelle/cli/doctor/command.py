@@ -5,19 +5,16 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from gazelle.cli.doctor.progress import progress
 from gazelle.diagnostics import Severity
 from gazelle.errors import GazelleError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from gazelle.doctor import Report
 
-__all__ = ["main", "progress"]
+__all__ = ["main"]
 
 _NOTHING_EXAMINED = 2
 _EPILOG = """what TARGET may be:
@@ -113,15 +110,3 @@ def _parser() -> argparse.ArgumentParser:
     add("-v", "--verbose", action="store_true", help="notices whole, what follows, and tables")
     add("-q", "--quiet", action="store_true", help="warnings and errors only, a line each")
     return parser
-
-
-@contextmanager
-def progress() -> Iterator[Callable[[str], None] | None]:
-    """Show on the terminal what is being looked at; programs that read are left in peace."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-
-    with Console(file=sys.stderr).status("examining") as status:
-        yield status.update

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TextIO
 
+from gazelle.cli.doctor.progress import progress
 from gazelle.diagnostics import Severity
 
 if TYPE_CHECKING:
@@ -36,7 +37,6 @@ def fix(target: Sequence[str], options: Options, *, only_certain: bool, is_agree
     Raises:
         GazelleError: see `gazelle.doctor.fixes.plan_fixes`.
     """
-    from gazelle.cli.doctor.command import progress
     from gazelle.doctor.fixes import plan_fixes, write_fixes
 
     with progress() as say:

@@ -19,12 +19,8 @@ from gazelle.description.checks.inertia_units import (
 )
 from gazelle.description.checks.written_inertials import JointRecord, LinkRecord
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan
-from gazelle.geometry import (
-    MassProperties,
-    inertia_problems,
-    least_principal_moment,
-    legalised_inertia,
-)
+from gazelle.geometry import MassProperties, inertia_problems, legalised_inertia
+from gazelle.geometry.mass_properties import least_principal_moment
 
 __all__ = [
     "SUPERSEDED_CODES",
