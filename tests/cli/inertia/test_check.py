@@ -40,11 +40,11 @@ def test_clean_robot_ends_with_0_and_a_table(folder: Path, capsys) -> None:
 
 
 def test_errors_end_with_2_and_show_place_fix_and_phrase(folder: Path, capsys) -> None:
-    (folder / "r.urdf").write_text(urdf("0.02"), encoding="utf-8")
+    (folder / "r.urdf").write_text(urdf("-0.02"), encoding="utf-8")
     assert check("r.urdf") == 2
     out = capsys.readouterr().out
     assert "r.urdf:5:7: error: no body has the inertia of link 'a'" in out
-    assert "[inertia.triangle]" in out
+    assert "[inertia.not-positive]" in out
     assert 'iyy="0.1"' in out
     assert "A link named ... has invalid inertia." in out
     assert "urdf.bad-inertia" not in out
@@ -58,21 +58,21 @@ def test_warnings_end_with_1(folder: Path) -> None:
 
 
 def test_fix_prints_only_the_patch_and_says_how_to_apply_it(folder: Path, capsys) -> None:
-    (folder / "r.urdf").write_text(urdf("0.02"), encoding="utf-8")
+    (folder / "r.urdf").write_text(urdf("-0.02"), encoding="utf-8")
     assert check("r.urdf", "--fix") == 2
     captured = capsys.readouterr()
     assert captured.out.startswith("--- r.urdf\n+++ r.urdf\n")
     assert "changes a; apply with: patch -p0 < THE_PATCH" in captured.err
-    assert "inertia.triangle" in captured.err
+    assert "inertia.not-positive" in captured.err
 
 
 def test_patch_goes_to_a_file(folder: Path, capsys) -> None:
-    (folder / "r.urdf").write_text(urdf("0.02"), encoding="utf-8")
+    (folder / "r.urdf").write_text(urdf("-0.02"), encoding="utf-8")
     assert check("r.urdf", "--fix", "--output", "fix.patch") == 2
     assert (folder / "fix.patch").read_text(encoding="utf-8").startswith("--- r.urdf\n")
     captured = capsys.readouterr()
     assert "patch -p0 < fix.patch" in captured.err
-    assert "[inertia.triangle]" in captured.out
+    assert "[inertia.not-positive]" in captured.out
 
 
 def test_nothing_to_patch(folder: Path, capsys) -> None:
@@ -84,13 +84,13 @@ def test_nothing_to_patch(folder: Path, capsys) -> None:
 
 
 def test_json_has_links_and_findings(folder: Path, capsys) -> None:
-    (folder / "r.urdf").write_text(urdf("0.02"), encoding="utf-8")
+    (folder / "r.urdf").write_text(urdf("-0.02"), encoding="utf-8")
     check("r.urdf", "--json")
     found = json.loads(capsys.readouterr().out)
     (link,), (finding,) = found["links"], found["findings"]
-    assert (link["link"], link["mass_kg"], link["verdict"]) == ("a", 12.0, "triangle")
+    assert (link["link"], link["mass_kg"], link["verdict"]) == ("a", 12.0, "not-positive")
     assert link["density_kg_m3"] == pytest.approx(2000.0)
-    assert (finding["code"], finding["severity"]) == ("inertia.triangle", "error")
+    assert (finding["code"], finding["severity"]) == ("inertia.not-positive", "error")
     assert (finding["line"], finding["column"]) == (5, 7)
     assert "<inertial>" in finding["fix"]
 
