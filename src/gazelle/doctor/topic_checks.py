@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from difflib import SequenceMatcher
 
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.doctor.packages.dependency_checks import is_slip
@@ -13,6 +14,7 @@ __all__ = ["check_topic_names", "check_topic_types", "is_typo", "same_type"]
 
 # What a script says counts less than what a simulator or a built-in node does.
 _SURE = 100
+_SURELY = 0.85
 _SHOWN = 3
 _SHORT = 5
 _SHORT_WORD = 3
@@ -59,7 +61,7 @@ def check_topic_names(
         where: the nodes are, in words.
         of_namespaces: also those that differ in their namespaces only.
     """
-    taken = frozenset(others)
+    taken, told = frozenset(others), set()
     for end in ends:
         is_met = any(one.topic == end.topic and one.publishes != end.publishes for one in ends)
         if end.use is None or is_met or (end.topic in taken and not is_whole):
@@ -68,7 +70,10 @@ def check_topic_names(
             continue
         near = _meant(end, ends, is_whole)
         is_same = near.rpartition("/")[2] == end.topic.rpartition("/")[2]
-        if near and (of_namespaces or not is_same):
+        # Two scripts that miss each other are one mistake.
+        is_told = (near, end.topic) in told
+        told.add((end.topic, near))
+        if near and not is_told and (of_namespaces or not is_same):
             _report_name(end, end.use, near, diagnostics, where)
 
 
@@ -173,12 +178,24 @@ def _meant(end: TopicEnd, ends: Sequence[TopicEnd], is_whole: bool) -> str:
     slips = sorted({one.topic for one in alike if is_typo(end.topic, one.topic)})
     if slips:
         return slips[0]
-    if end.publishes or not is_whole:
+    if not is_whole:
         return ""
     served = {one.topic for one in ends if one.publishes == end.publishes}
-    free = [one.topic for one in alike if one.topic not in served and one.type and end.type]
+    last = end.topic.rpartition("/")[2]
+    unmet = [one for one in fitting if one.topic not in served and one.type and end.type]
+    same = {one.topic for one in unmet if one.topic.rpartition("/")[2] == last}
+    if len(same) == 1:
+        return same.pop()
+    free = [one.topic for one in unmet if one in alike]
     near = nearest_names(end.topic, free, count=1)
-    return near[0] if near else ""
+    # What a script sends may be for somebody outside; two ends that lack each other are near.
+    if not near or (end.publishes and _likeness(end.topic, near[0]) < _SURELY):
+        return ""
+    return near[0]
+
+
+def _likeness(one: str, other: str) -> float:
+    return SequenceMatcher(None, one, other).ratio()
 
 
 def _may_be(one: TopicEnd, end: TopicEnd, is_whole: bool) -> bool:

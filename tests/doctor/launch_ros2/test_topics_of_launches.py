@@ -154,3 +154,16 @@ def test_topics_that_are_right_are_not_told(told: Told, look: str) -> None:
 def test_script_that_is_run_by_hand_is_compared_with_the_launch(told: Told) -> None:
     (item,) = told("", HEAR.format("LaserScan", "scna"))
     assert item.message.startswith("'look.py' listens to '/scna', which nobody here is known to")
+
+
+def test_topic_that_is_in_another_namespace(told: Told) -> None:
+    (item,) = told(_node("look"), HEAR.format("LaserScan", "robot/scan"))
+    assert item.code == "doctor.topic-misspelt"
+    assert item.fix == "did you mean 'scan'?"
+
+
+def test_two_scripts_that_miss_each_other_by_a_letter(told: Told) -> None:
+    nodes = _node("look") + _node("talk")
+    (item,) = told(nodes, HEAR.format("String", "cmd_val"), TALK.format("String", "cmd_vel"))
+    assert item.code == "doctor.topic-misspelt"
+    assert told(nodes, HEAR.format("String", "plan"), TALK.format("String", "state")) == []
