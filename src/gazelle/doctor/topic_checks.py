@@ -61,7 +61,7 @@ def check_topic_names(
         where: the nodes are, in words.
         of_namespaces: also those that differ in their namespaces only.
     """
-    taken, told = frozenset(others), set()
+    taken = frozenset(others)
     for end in ends:
         is_met = any(one.topic == end.topic and one.publishes != end.publishes for one in ends)
         if end.use is None or is_met or (end.topic in taken and not is_whole):
@@ -70,10 +70,7 @@ def check_topic_names(
             continue
         near = _meant(end, ends, is_whole)
         is_same = near.rpartition("/")[2] == end.topic.rpartition("/")[2]
-        # Two scripts that miss each other are one mistake.
-        is_told = (near, end.topic) in told
-        told.add((end.topic, near))
-        if near and not is_told and (of_namespaces or not is_same):
+        if near and (of_namespaces or not is_same):
             _report_name(end, end.use, near, diagnostics, where)
 
 
