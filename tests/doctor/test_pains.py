@@ -11,7 +11,7 @@ from gazelle.doctor import Report
 BROKEN = [
     ("03_uris", "robot", "urdf.mesh-missing", "warning", "robot.urdf:106",
      "did you mean 'package://pain_03_uris/meshes/flag.stl'?", ""),
-    ("03_uris", "world", "doctor.world-missing", "error", "empty_world.launch:39",
+    ("03_uris", "world", "doctor.world-missing", "error", "world.launch:2",
      "yard.world' not found", "did you mean 'field.world'?"),
     ("07_xacro", "robot", "doctor.description-not-expanded", "error", "robot.launch:5",
      "holds xacro that nobody has expanded", "(find xacro)/xacro FILE"),
