@@ -72,7 +72,7 @@ class Reading:
             return [
                 text
                 for field in fields(first)
-                if field.name not in _IGNORED
+                if field.compare and field.name not in _IGNORED
                 for text in self.differences(
                     getattr(first, field.name), getattr(second, field.name), f"{place}.{field.name}"
                 )
