@@ -119,12 +119,7 @@ class Reading:
         return found
 
 
-_IGNORED = frozenset(
-    {
-        "estimated", "file", "inertial_tag", "raw_text", "shape_span", "source_format", "span",
-        "type_span",
-    }
-)  # fmt: skip
+_IGNORED = frozenset({"span", "type_span", "file", "source_format", "estimated", "raw_text"})
 
 
 def _plain(tag: Tag) -> tuple[Any, ...]:
