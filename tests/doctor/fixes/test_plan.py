@@ -91,6 +91,16 @@ def test_many_mistakes_go_in_one_plan(tmp_path: Path, examined: Examine) -> None
     assert codes(examined(tmp_path, "bot1")) == []
 
 
+def test_two_tags_that_are_left_open_in_one_file(tmp_path: Path) -> None:
+    package = _package(1, tmp_path / "src")
+    text = (package / ROBOT1).read_text("utf-8")
+    _spoil(package / ROBOT1, '<parent link="base_footprint"/>', '<parent link="base_footprint">')
+    _spoil(package / ROBOT1, '<child link="caster_link"/>', '<child link="caster_link">')
+    plan = _plan(tmp_path, "bot1", only_certain=False)
+    assert [item.finding.code for item in plan.mended] == ["xml.malformed", "xml.malformed"]
+    assert plan.texts[str(package / ROBOT1)][1] == text
+
+
 def test_diff_names_files_as_git_takes_them(tmp_path: Path) -> None:
     package = _package(1, tmp_path / "src")
     _spoil(package / LAUNCH1, "$(arg gui)", "$(arg giu)")

@@ -15,6 +15,7 @@ __all__ = ["Mended", "Ward", "mend"]
 
 # Codes of readers: what a robot is kept away by.
 _READING = ("launch.", "urdf.", "xacro.", "xml.")
+_MAX_FINDINGS = 300
 _CLAUSE = re.compile(r"[:;] ")
 _NUMBER = re.compile(r"\d+")
 
@@ -63,10 +64,10 @@ def mend(
     """
     mended: list[Mended] = []
     hopeless: set[tuple[str, str, str]] = set()
-    while True:
+    for _ in range(_MAX_FINDINGS):
         left = [item for item in findings if wanted(item) and _kind(item) not in hopeless]
         if not left:
-            return mended
+            break
         item = max(left, key=lambda one: one.severity)
         say(item.message.partition("\n")[0])
         found = _tried(ward, item, findings, only_certain=only_certain)
@@ -75,6 +76,7 @@ def mend(
             continue
         candidate, findings = found
         mended.append(Mended(item, candidate))
+    return mended
 
 
 def _tried(
@@ -99,7 +101,7 @@ def _tried(
         come = _come(known, after)
         if come and not _may_come(come, finding, candidate):
             continue
-        if any(_is_alike(item, finding) for item in come):
+        if any(_is_alike(item, finding, candidate) for item in come):
             continue
         errors = sum(item.severity is Severity.ERROR for item in come)
         order = errors, len(come)
@@ -125,9 +127,12 @@ def _may_come(come: Sequence[Diagnostic], finding: Diagnostic, candidate: Candid
     return is_read or (unreadable(finding.code) and candidate.is_certain)
 
 
-def _is_alike(item: Diagnostic, finding: Diagnostic) -> bool:
-    same_file = item.span and finding.span and item.span.file == finding.span.file
-    return bool(same_file) and item.code == finding.code
+def _is_alike(item: Diagnostic, finding: Diagnostic, candidate: Candidate) -> bool:
+    """Tell the same mistake in other words from another one of its kind further down the file."""
+    if item.code != finding.code or item.span is None or finding.span is None:
+        return False
+    is_below = item.span.line > finding.span.line and candidate.is_certain
+    return item.span.file == finding.span.file and not is_below
 
 
 def _come(known: Counter[tuple[str, str, str]], after: Iterable[Diagnostic]) -> list[Diagnostic]:
