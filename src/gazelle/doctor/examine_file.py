@@ -268,20 +268,19 @@ def _placeholder_default(file: Path, found: Diagnostics) -> str:
     root = read_xml(file, Diagnostics()) if missing else None
     if root is None:
         return ""
-    included = "".join(
-        tag.attributes.get("filename", "")
-        for tag in root.walk()
-        if any(item.span is not None and item.span.line == tag.span.line for item in missing)
-    )
+    # What leads to the missing files: includes, and calls of macros that include.
+    spans = [item.span for item in missing if item.span is not None]
+    places = [place for span in spans for place in (span, *span.via)]
+    lines = {place.line for place in places if Path(place.file) == file}
+    leading = [tag for tag in root.walk() if tag.span.line in lines]
+    words = " ".join(text for tag in leading for text in tag.attributes.values())
     is_whole = len(missing) == len(found.errors)
     for tag in root.walk():
         if tag.name != "xacro:arg" or "default" not in tag.attributes:
             continue
         name, value = tag.attributes.get("name", ""), tag.attributes["default"].strip()
-        # Macros take it under the same name, as a rule.
-        is_named = f"$(arg {name})" in included or f"${{{name}}}" in included
         is_folder = is_whole and all(f"/{value}/" in item.message for item in missing)
-        if is_folder if value else is_named:
+        if is_folder if value else f"$(arg {name})" in words:
             return f"{name}:={value}"
     return ""
 
