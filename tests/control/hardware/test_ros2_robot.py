@@ -180,9 +180,8 @@ def test_a_wrong_state_of_a_sensor_is_reported() -> None:
     )
 
 
-def test_interface_that_stands_twice_is_left_out_the_second_time() -> None:
+def test_joint_that_stands_twice_in_a_block_is_left_out_the_second_time() -> None:
     rig = ros2_rig(rotor("a"), rotor("b"), block(joint("a"), joint("a"), joint("b")))
     assert "a/position" in rig.robot.interface_values.command_index
     text = message(rig, "control.ros2-control-twice")
-    assert text.startswith("<joint> 'a' of hardware 'hw' has 'a/")
-    assert "which another element has already; it is left out" in text
+    assert text.startswith("<joint> 'a' stands twice in hardware 'hw'; the second one is left out")

@@ -75,45 +75,26 @@ class HardwareTag:
 
 def read_hardware_tags(model: Model, diagnostics: Diagnostics) -> tuple[HardwareTag, ...]:
     """Return the blocks of a model, in the order of the file; what is wrong is reported."""
-    taken: set[tuple[str, str, str]] = set()
     return tuple(
-        _each_once(_read_block(tag, diagnostics), taken, diagnostics) for tag in model.ros2_controls
+        _each_once(_read_block(tag, diagnostics), diagnostics) for tag in model.ros2_controls
     )
 
 
-def _each_once(
-    block: HardwareTag, taken: set[tuple[str, str, str]], diagnostics: Diagnostics
-) -> HardwareTag:
-    """Leave out interfaces that another element has: the resource manager throws at them."""
-    parts: list[PartTag] = []
-    own: set[tuple[str, str]] = set()
+def _each_once(block: HardwareTag, diagnostics: Diagnostics) -> HardwareTag:
+    """Leave out parts that stand in a block again: the resource manager throws at them.
+
+    Another block may have the same joints: that of other hardware, of which one is started.
+    """
+    parts: dict[tuple[str, str], PartTag] = {}
     for part in block.parts:
-        is_known = (part.kind, part.name) in own
-        own.add((part.kind, part.name))
-        commands = _new("command", part, part.commands, taken)
-        states = _new("state", part, part.states, taken)
-        late = [*(set(part.commands) - set(commands)), *(set(part.states) - set(states))]
-        if late:
-            names = ", ".join(sorted({f"'{part.name}/{item.name}'" for item in late}))
-            text = f"<{part.kind}> '{part.name}' of hardware '{block.name}' has {names}, which "
-            text += "another element has already; it is left out (real ROS 2: already exists)"
-            diagnostics.report("control.ros2-control-twice", text, part.span)
-        if is_known:
+        key = part.kind, part.name
+        if key not in parts:
+            parts[key] = part
             continue
-        parts.append(replace(part, commands=commands, states=states))
-    return replace(block, parts=tuple(parts))
-
-
-def _new(
-    role: str, part: PartTag, items: tuple[InterfaceTag, ...], taken: set[tuple[str, str, str]]
-) -> tuple[InterfaceTag, ...]:
-    found = []
-    for item in items:
-        key = role, part.name, item.name
-        if key not in taken:
-            taken.add(key)
-            found.append(item)
-    return tuple(found)
+        text = f"<{part.kind}> '{part.name}' stands twice in hardware '{block.name}'; the second "
+        text += "one is left out (real ROS 2: its interfaces already exist)"
+        diagnostics.report("control.ros2-control-twice", text, part.span)
+    return replace(block, parts=tuple(parts.values()))
 
 
 def _read_block(block: Ros2ControlTag, diagnostics: Diagnostics) -> HardwareTag:

@@ -423,8 +423,8 @@ _ROS2 = (
     Entry(
         "control.ros2-control-twice",
         "error",
-        "A joint's interface stands twice in <ros2_control>",
-        "Each interface of a joint belongs to one element of one block.",
+        "A joint stands twice in a block of <ros2_control>",
+        "Each joint has one element in a block, with all its interfaces.",
         "give one of the two elements the name that it was to have",
         "already exists",
     ),
