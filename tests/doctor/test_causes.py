@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from gazelle.cli.doctor import main
-from gazelle.diagnostics import Diagnostic, Severity
+from gazelle.diagnostics import Diagnostic, Severity, SourceSpan
 from gazelle.doctor.causes import causes_first
 
 LAUNCH = """<launch>
@@ -57,6 +58,45 @@ def test_the_worst_of_several_causes_counts() -> None:
     late = error("inertia.box", "'arm' is heavy", Severity.WARNING)
     assert causes_first([quiet, late, loud]) == ((quiet, loud), (late,))
     assert causes_first([quiet, late]) == ((quiet, late), ())
+
+
+@pytest.mark.parametrize(
+    ("cause", "late"),
+    [
+        (
+            error("xml.missing-attribute", "<node> lacks 'name'"),
+            error("xml.unknown-attribute", "attribute 'naem' is not known"),
+        ),
+        (
+            Diagnostic("package.import-missing", Severity.ERROR, "no msg 'Poes'", None,
+                       "did you mean 'Pose'?"),
+            error("package.python-name", "name 'Pose' is not defined", Severity.WARNING),
+        ),
+        (
+            error("package.names", "<name> of the manifest is 'bto'; that of its folder is 'bot'"),
+            error("urdf.mesh-missing", "'package://bot/a.stl' not found", Severity.WARNING),
+        ),
+        (
+            error("doctor.description-not-expanded", "'/robot_description' is '/w/r.urdf.xacro'"),
+            Diagnostic("xml.bad-number", Severity.ERROR, "'${x}' is no number",
+                       SourceSpan("/w/r.urdf.xacro", 3)),
+        ),
+    ],
+    ids=["a line", "what a fix asks for", "a name", "a file"],
+)  # fmt: skip
+def test_findings_of_one_mistake_are_one(cause: Diagnostic, late: Diagnostic) -> None:
+    place = SourceSpan("f.launch", 7)
+    both = [replace(item, span=item.span or place) for item in (late, cause)]
+    assert causes_first(both) == ((both[1],), (both[0],))
+
+
+def test_a_cause_is_told_as_severely_as_what_follows() -> None:
+    cause = Diagnostic(
+        "parameter.unknown", Severity.WARNING, "no key 'jonit'", None, "did you mean 'joint'?"
+    )
+    late = error("doctor.controller-fails", "no 'joint' given")
+    (told,), consequences = causes_first([late, cause])
+    assert (told, consequences) == (replace(cause, severity=Severity.ERROR), (late,))
 
 
 def test_report_says_how_many_follow(

@@ -31,6 +31,7 @@ class _Rule(NamedTuple):
         by_name: the consequence names what the cause has in quotes: a joint, a controller, a
             package.
         by_file: the cause names the file that the consequence is in.
+        by_line: both are in one line.
         is_milder: the cause may be less severe than what follows from it.
         by_fix: the consequence lacks what the cause's fix asks for: ``no 'joint' given``.
         asks: the cause's fix asks for this name; ``?`` for any.
@@ -40,6 +41,7 @@ class _Rule(NamedTuple):
     causes: tuple[str, ...]
     by_name: bool = False
     by_file: bool = False
+    by_line: bool = False
     is_milder: bool = False
     by_fix: bool = False
     asks: str = ""
@@ -94,6 +96,18 @@ _RULES = (
         by_name=True,
     ),
     _Rule("launch_ros2.not-installed", ("package.not-installed",)),
+    _Rule(
+        "xml.unknown-attribute",
+        ("urdf.geometry-incomplete", "urdf.inertial-incomplete", "xml.missing-attribute"),
+        by_line=True,
+    ),
+    _Rule("sdf.bad-geometry", ("xml.unknown-tag",), by_line=True, asks="?"),
+    _Rule("package.python-name", ("package.import-missing",), by_fix=True),
+    _Rule("doctor.topic-type", ("package.import-missing",), by_name=True),
+    _Rule("xacro.unknown-macro", ("xacro.file-missing",)),
+    _Rule("xacro.undefined-name", ("xacro.file-missing",)),
+    _Rule("control.parameter-file", ("launch.bad-yaml",), by_line=True),
+    _Rule("doctor.controller-fails", ("control.parameter-file", "launch.bad-yaml")),
     _Rule("inertia.density", ("robot.size-unit",), by_name=True),
     _Rule("inertia.units", ("robot.size-unit",), by_name=True),
     _Rule("launch.arg-undeclared", ("xml.unknown-tag",), is_milder=True, asks="arg"),
@@ -126,7 +140,8 @@ _RULES = (
         _Rule(code, ("package.names",), by_name=True, is_milder=True)
         for code in (
             "doctor.packages-elsewhere", "doctor.world-missing", "launch.include-missing",
-            "launch.package-missing", "launch_ros2.package-missing", "package.install-place",
+            "launch.package-missing", "launch_ros2.package-missing", "package.index-marker",
+            "package.install-place",
             "package.scripts-folder", "urdf.collision-mesh-missing", "urdf.mesh-missing",
             "xacro.file-missing", "xacro.package-missing", "xml.unreadable",
         )
@@ -215,8 +230,18 @@ class _Causes:
                 in_file = not rule.by_file or (
                     item.span is not None and item.span.file in cause.message
                 )
-                if cause is not item and is_bad and in_file:
+                if cause is not item and is_bad and in_file and self._in_line(item, cause):
                     yield cause
+
+    def _in_line(self, item: Diagnostic, cause: Diagnostic) -> bool:
+        if not self.rule.by_line:
+            return True
+        one, other = item.span, cause.span
+        return (
+            one is not None
+            and other is not None
+            and (one.file, one.line) == (other.file, other.line)
+        )
 
     def _names(self, item: Diagnostic) -> set[str]:
         if self.rule.by_name:

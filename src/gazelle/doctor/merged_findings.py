@@ -59,6 +59,7 @@ def condensed(findings: Sequence[Diagnostic], packages: Iterable[str] = ()) -> l
     kept = _models(kept)
     kept = _disagreements(kept)
     kept = _unincluded(kept)
+    kept = _of_one_place(kept)
     for code in _PLUGIN_CODES:
         kept = _by_name(kept, code, _LIBRARY, "the same library")
     return [_with_few_places(item) for item in kept]
@@ -203,6 +204,19 @@ def _unincluded(findings: list[Diagnostic]) -> list[Diagnostic]:
             text = f"unknown macro names: {_listed(list(names))}; no file with them is included"
             one = replace(group[0], message=text, fix=fix)
             findings = _replaced(findings, group, one)
+    return findings
+
+
+def _of_one_place(findings: list[Diagnostic]) -> list[Diagnostic]:
+    """Say once of a macro's line what is true of all that it makes: both wheels wobble."""
+    groups: dict[tuple[str, int, str], list[Diagnostic]] = {}
+    for item in findings:
+        if item.code == "robot.wheel-axis" and item.span is not None and item.span.via:
+            groups.setdefault((item.span.file, item.span.line, item.fix), []).append(item)
+    for group in groups.values():
+        if len(group) > 1:
+            text = f"{group[0].message}\n  the same {_times(len(group) - 1)}"
+            findings = _replaced(findings, group, replace(group[0], message=text))
     return findings
 
 

@@ -142,9 +142,10 @@ def _check_names(source: SourcePackage, root: Tag, diagnostics: Diagnostics) -> 
         and (source.has_build_file or is_slip(name, folder))
     ):
         and_file = f" and of {source.build_file.name}" if source.has_build_file else ""
-        text = f"the manifest's <name> '{name}' is not that of its folder{and_file}, '{built}'"
+        text = f"<name> of the manifest is '{name}'; that of its folder{and_file} is '{built}'"
         hint = f"did you mean '{built}'?"
         diagnostics.report("package.names", text, tag.span, fix=hint, severity=Severity.ERROR)
+        return
     if lists is not None and lists.project and lists.project != name and _is_ros(source):
         tool = "ament_package_xml()" if source.is_ros2 else "catkin_package()"
         text = f"project({lists.project}) and the manifest's <name>{name}</name> differ ({tool} "
