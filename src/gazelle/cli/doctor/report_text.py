@@ -14,7 +14,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from gazelle.cli.doctor.tables import table_lines, table_title
+from gazelle.cli.doctor.report_tables import table_lines, table_title
 from gazelle.diagnostics import Diagnostic, Severity, SourceSpan
 from gazelle.diagnostics.collection import grouped, groups
 from gazelle.diagnostics.render import SourceLines, styled

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.cli.doctor.tables import table_lines, table_title
+from gazelle.cli.doctor.report_tables import table_lines, table_title
 from gazelle.doctor import Section
 
 PLACE = "use_gui moved (launch/slam_robot_gazebo.launch:3)"
