@@ -82,6 +82,12 @@ def test_fix_does_not_go_with_json(launch: Path, capsys: pytest.CaptureFixture[s
     assert "--fix prints a diff" in capsys.readouterr().err
 
 
+def test_yes_alone_means_nothing_and_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["--yes"])
+    assert "--yes goes with --fix or --fix-all" in capsys.readouterr().err
+
+
 _ARM = """<robot name="bot">
   <link name="base"/>
   <link name="arm">

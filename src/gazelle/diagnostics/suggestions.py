@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
 from functools import lru_cache
 
-__all__ = ["did_you_mean", "nearest_names"]
+__all__ = ["did_you_mean", "likeness", "nearest_names"]
 
 
 def nearest_names(name: str, existing: Iterable[str], *, count: int = 3) -> tuple[str, ...]:
@@ -28,3 +28,8 @@ def did_you_mean(name: str, existing: Iterable[str]) -> str:
     """Return ``did you mean 'a' or 'b'?``, or an empty string when nothing is near."""
     found = nearest_names(name, existing)
     return "did you mean " + " or ".join(f"'{item}'" for item in found) + "?" if found else ""
+
+
+def likeness(one: str, other: str) -> float:
+    """Return how alike two names are, 0 to 1, as `difflib` counts it."""
+    return SequenceMatcher(None, one, other).ratio()

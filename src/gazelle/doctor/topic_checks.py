@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from difflib import SequenceMatcher
 
 from gazelle.diagnostics import Diagnostics, nearest_names
+from gazelle.diagnostics.suggestions import likeness
 from gazelle.doctor.packages.dependency_checks import is_slip
 from gazelle.doctor.script_topics import TopicEnd, TopicUse
 
@@ -186,13 +186,9 @@ def _meant(end: TopicEnd, ends: Sequence[TopicEnd], is_whole: bool) -> str:
     free = [one.topic for one in unmet if one in alike]
     near = nearest_names(end.topic, free, count=1)
     # What a script sends may be for somebody outside; two ends that lack each other are near.
-    if not near or (end.publishes and _likeness(end.topic, near[0]) < _SURELY):
+    if not near or (end.publishes and likeness(end.topic, near[0]) < _SURELY):
         return ""
     return near[0]
-
-
-def _likeness(one: str, other: str) -> float:
-    return SequenceMatcher(None, one, other).ratio()
 
 
 def _may_be(one: TopicEnd, end: TopicEnd, is_whole: bool) -> bool:

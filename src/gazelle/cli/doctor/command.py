@@ -41,6 +41,8 @@ def main(argv: list[str]) -> int:
     start_s = time.perf_counter()
     if (options.fix or options.fix_all) and (options.json or options.sarif):
         parser.error("--fix prints a diff: it does not go with --json or --sarif")
+    if options.yes and not (options.fix or options.fix_all):
+        parser.error("--yes goes with --fix or --fix-all")
     try:
         if options.fix or options.fix_all:
             from gazelle.cli.doctor.fixing import fix

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from difflib import SequenceMatcher
 
 from gazelle.description.model import ActuatorTag, TransmissionJoint, TransmissionTag
 from gazelle.description.read_context import ReadContext
 from gazelle.description.urdf_reader.attributes import check_vocabulary
 from gazelle.description.xml import Tag, float_from
 from gazelle.diagnostics import did_you_mean, nearest_names
+from gazelle.diagnostics.suggestions import likeness
 
 __all__ = ["read_transmission"]
 
@@ -141,7 +141,7 @@ def _check_word(
     """Report the name of a class that is a slip for one of ROS's; others may be a package's own."""
     word = text.replace("::", "/").rpartition("/")[2]
     near = nearest_names(word, known, count=1) if word not in known else ()
-    if near and SequenceMatcher(None, word, near[0]).ratio() >= _SLIP:
+    if near and likeness(word, near[0]) >= _SLIP:
         message = f"<{tag.name}> of {owner} is '{text}', which is not known"
         fix = f"did you mean '{near[0]}'?"
         context.diagnostics.report("urdf.transmission-class", message, tag.span, fix=fix)

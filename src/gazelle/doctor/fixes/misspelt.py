@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from difflib import SequenceMatcher
 
 from gazelle.diagnostics import Diagnostic
+from gazelle.diagnostics.suggestions import likeness
 from gazelle.doctor.fixes.edits import Edit, SourceText
 from gazelle.doctor.fixes.xml_places import closing_tag, element_end, tag_at
 
@@ -74,11 +74,15 @@ def _replaced(
         found = [
             item
             for item in pattern.finditer(source.text, *region)
-            if item[0] in words and _likeness(item[0], wanted) >= _LEAST_LIKENESS
+            if item[0] in words and _alike(item[0], wanted) >= _LEAST_LIKENESS
         ]
-        found.sort(key=lambda item: -_likeness(item[0], wanted))
+        found.sort(key=lambda item: -_alike(item[0], wanted))
         for item in found:
             yield _everywhere(source, Edit(item.start(), item.end(), wanted))
+
+
+def _alike(word: str, wanted: str) -> float:
+    return likeness(word.casefold(), wanted.casefold())
 
 
 def _everywhere(source: SourceText, edit: Edit) -> tuple[Edit, ...]:
@@ -92,7 +96,3 @@ def _everywhere(source: SourceText, edit: Edit) -> tuple[Edit, ...]:
         return (edit,)
     name = closing.begin + 2
     return edit, Edit(name, name + edit.end - edit.begin, edit.text)
-
-
-def _likeness(one: str, other: str) -> float:
-    return SequenceMatcher(None, one.casefold(), other.casefold()).ratio()
