@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+"""Takes the pictures of README and docs from the real program, in a Chromium and a terminal.
+
+    python .ci/screenshots.py [NAME ...] [--into FOLDER]
+
+What is pictured is a row of ``STAGES`` in ``picture_stages.py``: commands as a person types them, in
+a folder of their own, then the page they open or the text they print. Each is taken twice, for
+light and for dark pages. Only the named ones are taken where names are given.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from PIL import Image
+from rich.console import Console
+from rich.terminal_theme import DEFAULT_TERMINAL_THEME, MONOKAI, TerminalTheme
+from rich.text import Text
+
+sys.path.insert(0, str(Path(__file__).parent))
+from picture_stages import STAGES, Film, Shot, Stage, Typed
+
+__all__ = ["main"]
+
+_ROOT = Path(__file__).resolve().parents[1]
+_PICTURES = _ROOT / "docs" / "pictures"
+_THEMES = ("light", "dark")
+_WAIT_S = 120.0
+_CHROMIUM = ("chromium", "chromium-browser", "google-chrome")
+_FLAGS = (
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+)
+_QUALITY = 72
+_TERMINAL_THEMES = {
+    "light": DEFAULT_TERMINAL_THEME,
+    "dark": TerminalTheme(
+        (27, 31, 38),
+        (220, 223, 228),
+        list(MONOKAI.ansi_colors)[:8],
+        list(MONOKAI.ansi_colors)[8:],
+    ),
+}
+
+
+class _Terminals:
+    """Terminals in one folder on one graph; the commands in them end with the stage."""
+
+    def __init__(self, folder: Path, home: Path, port: int) -> None:
+        own = {
+            "GAZELLE_PORT": str(port),
+            "GAZELLE_STUDIO": "1",
+            "HOME": str(home),
+            "XDG_CONFIG_HOME": str(home / "config"),
+            "XDG_CACHE_HOME": os.environ.get("XDG_CACHE_HOME", str(Path.home() / ".cache")),
+            "PYTHONPATH": str(_ROOT / "src"),
+            "PYTHONUNBUFFERED": "1",
+            "BROWSER": "true",
+        }
+        clean = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "GAZELLE_"))}
+        self._environ = {**clean, **own}
+        self._folder = folder
+        self._logs = home
+        self._running: list[tuple[subprocess.Popen[bytes], Path]] = []
+
+    def begin(self, line: str, sign: str) -> str:
+        """Type a command and wait until a line that it prints matches `sign`, if that says anything."""
+        log = self._logs / f"{len(self._running)}.txt"
+        with log.open("wb") as out:
+            command = [sys.executable, "-m", "gazelle.cli", *shlex.split(line)]
+            process = subprocess.Popen(
+                command,
+                cwd=self._folder,
+                env=self._environ,
+                stdin=subprocess.PIPE,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+        self._running.append((process, log))
+        if not sign:
+            return ""
+        until = time.monotonic() + _WAIT_S
+        while True:
+            text = log.read_text(errors="replace")
+            if found := re.search(rf"^.*(?:{sign}).*$", text, re.MULTILINE):
+                return found.group()
+            if process.poll() is not None or time.monotonic() > until:
+                raise SystemExit(f"'gazelle {line}' never printed {sign!r}:\n{text}")
+            time.sleep(0.05)
+
+    def output(self, line: str, environ: dict[str, str]) -> str:
+        """Return what a command prints, with its colours."""
+        ran = subprocess.run(
+            [sys.executable, "-m", "gazelle.cli", *shlex.split(line)],
+            cwd=self._folder,
+            env={**self._environ, **environ},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            timeout=_WAIT_S,
+            check=False,
+        )
+        return ran.stdout.decode()
+
+    def close(self) -> None:
+        """End them, the last one first."""
+        for process, _ in reversed(self._running):
+            process.send_signal(signal.SIGINT)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(20)
+                continue
+            process.kill()
+            process.wait()
+
+
+def main(argv: Sequence[str]) -> int:
+    """Take all pictures, or those that are named."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--into", type=Path, default=_PICTURES)
+    options = parser.parse_args(argv)
+    known = {row.name for stage in STAGES for row in stage.rows}
+    if unknown := set(options.names) - known:
+        parser.error(f"no picture is called {', '.join(sorted(unknown))}; there are {sorted(known)}")
+    options.into.mkdir(parents=True, exist_ok=True)
+    with _browser() as browser:
+        for number, stage in enumerate(STAGES):
+            rows = [row for row in stage.rows if not options.names or row.name in options.names]
+            if rows:
+                _play(stage, rows, browser, options.into, 17_600 + number)
+    return 0
+
+
+@contextlib.contextmanager
+def _browser() -> Iterator[Any]:
+    from playwright.sync_api import sync_playwright
+
+    program = next(filter(None, map(shutil.which, _CHROMIUM)))
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=program, args=list(_FLAGS))
+        yield browser
+        browser.close()
+
+
+def _play(
+    stage: Stage, rows: Sequence[Shot | Film | Typed], browser: Any, into: Path, port: int
+) -> None:
+    with tempfile.TemporaryDirectory() as made, contextlib.ExitStack() as stack:
+        home = Path(made) / "home"
+        home.mkdir()
+        folder = Path(made) / "workspace"
+        shutil.copytree(_ROOT / "examples" / stage.workspace, folder)
+        stage.prepare(folder)
+        terminals = _Terminals(folder, home, port)
+        stack.callback(terminals.close)
+        for line, sign in stage.commands:
+            terminals.begin(line, sign)
+        url = ""
+        for row in rows:
+            print(row.name, flush=True)
+            if isinstance(row, Typed):
+                _picture_text(row, terminals.output(row.line, row.environ), browser, into)
+                continue
+            if not url:
+                said = terminals.begin("studio --no-browser", r"Studio: http")
+                url = said.split("Studio: ")[1].strip()
+            _picture_page(row, url, terminals, browser, into)
+
+
+def _picture_page(
+    row: Shot | Film, url: str, terminals: _Terminals, browser: Any, into: Path
+) -> None:
+    context = browser.new_context(viewport={"width": row.size[0], "height": row.size[1]})
+    page = context.new_page()
+    page.set_default_timeout(_WAIT_S * 1000)
+    asked = f"&panels={','.join(row.panels)}" if row.panels else ""
+    page.goto(f"{url}{asked}&quality=high")
+    page.locator(".light[data-state=open]").wait_for()
+    for line, sign in row.typed:
+        terminals.begin(line, sign)
+    row.act(page)
+    _settle(page, row.wait_s)
+    if isinstance(row, Film):
+        _film(row, page, into)
+    else:
+        for theme in _THEMES:
+            _show_theme(page, theme)
+            _save(_still(page, row.of), into / f"{row.name}-{theme}.webp")
+    context.close()
+
+
+def _settle(page: Any, seconds: float) -> None:
+    page.wait_for_timeout(seconds * 1000)
+
+
+def _show_theme(page: Any, theme: str) -> None:
+    if page.evaluate("document.documentElement.dataset.theme") != theme:
+        page.get_by_role("button", name=re.compile("(light|dark|theme)", re.IGNORECASE)).first.click()
+        page.mouse.move(2, 2)
+        _settle(page, 1.5)
+
+
+def _still(page: Any, panel: str) -> Image.Image:
+    where = page.locator(f"[data-panel='{panel}']").first if panel else page
+    return Image.open(io.BytesIO(where.screenshot()))
+
+
+def _film(row: Film, page: Any, into: Path) -> None:
+    """One theme only: it stands at the head of README, where a moving picture has no second one."""
+    frames: list[Image.Image] = []
+    begun = time.monotonic()
+    while len(frames) < row.frames:
+        frames.append(_still(page, row.of).convert("RGB"))
+        left = begun + len(frames) * row.every_s - time.monotonic()
+        _settle(page, max(0.0, left))
+    if row.width:
+        size = (row.width, round(frames[0].height * row.width / frames[0].width))
+        frames = [frame.resize(size, Image.Resampling.LANCZOS) for frame in frames]
+    frames[0].save(
+        into / f"{row.name}.webp",
+        save_all=True,
+        append_images=frames[1:],
+        duration=row.shown_ms,
+        loop=0,
+        quality=row.quality,
+        method=6,
+        minimize_size=True,
+    )
+
+
+def _picture_text(row: Typed, text: str, browser: Any, into: Path) -> None:
+    """What a terminal shows, as a picture: prompt, command and what it printed."""
+    for theme in _THEMES:
+        console = Console(record=True, width=row.columns, file=io.StringIO(), color_system="truecolor")
+        console.print(Text.assemble(("$ ", "bold green"), (f"gazelle {row.line}", "bold")))
+        console.print(Text.from_ansi("\n".join(text.rstrip().splitlines()[: row.lines])))
+        html = console.export_html(theme=_TERMINAL_THEMES[theme], inline_styles=True)
+        page = browser.new_page(viewport={"width": 1100, "height": 400})
+        page.set_content(
+            html.replace("<pre", "<pre class='terminal'").replace(
+                "<head>",
+                "<head><style>body{margin:0}.terminal{display:inline-block;margin:0;padding:14px 18px;"
+                "font:13px/1.45 'DejaVu Sans Mono',monospace !important}</style>",
+            )
+        )
+        _save(
+            Image.open(io.BytesIO(page.locator(".terminal").screenshot())),
+            into / f"{row.name}-{theme}.webp",
+        )
+        page.close()
+
+
+def _save(picture: Image.Image, path: Path) -> None:
+    picture.convert("RGB").save(path, quality=_QUALITY, method=6)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
