@@ -102,16 +102,27 @@ def _run(demo: Demo, options: argparse.Namespace) -> int:
         print(f"{demo.title}: {demo.summary} (ROS {demo.ros_version})", flush=True)
         print(f"  started:  {_typed(demo.launch)}", flush=True)
         show = _Show(demo, is_verbose=options.verbose)
+        show.start(demo.launch)
         try:
-            show.start(demo.launch)
             for program in demo.programs:
                 show.start(program)
             with _page(demo, graph, with_browser=options.browser):
-                _tell_when_there(demo, graph, show, stop, began)
-                show.wait(stop)
+                try:
+                    _tell_when_there(demo, graph, show, stop, began)
+                    show.wait(stop)
+                finally:
+                    code = show.end()
+                    _leave_soon(code)
         finally:
             code = show.end()
     return code
+
+
+def _leave_soon(code: int) -> None:
+    """End the process in some seconds: the page may be in the midst of a picture nobody awaits."""
+    late = threading.Timer(_KILL_S, os._exit, (code,))
+    late.daemon = True
+    late.start()
 
 
 def _runs_already(demo: Demo, port: int) -> str:
@@ -179,6 +190,7 @@ class _Show:
         self._is_verbose = is_verbose
         self._running: list[subprocess.Popen[str]] = []
         self._readers: list[threading.Thread] = []
+        self._code = 0
         self._last: deque[str] = deque(maxlen=_LAST_LINES)
 
     @property
@@ -214,16 +226,20 @@ class _Show:
 
     def end(self) -> int:
         """End what runs, the launch last; return 1 and tell why where it had failed by itself."""
+        if not self._running:
+            return self._code
         failed = self.is_over and self._running[0].returncode != 0
         for process in reversed(self._running):
             _end(process)
         for reader in self._readers:
             reader.join(_KILL_S)
+        self._running.clear()
         if not failed:
             return 0
+        self._code = 1
         print("the launch ended by itself; it printed at last:", file=sys.stderr)
         print("\n".join(self._last), file=sys.stderr)
-        return 1
+        return self._code
 
     def _read(self, lines: IO[str]) -> None:
         for line in lines:

@@ -12,6 +12,18 @@ _KEYS_ROS1 = "gazelle rosrun teleop_twist_keyboard teleop_twist_keyboard.py"
 _KEYS_ROS2 = "gazelle ros2 run teleop_twist_keyboard teleop_twist_keyboard"
 
 
+def _world(
+    distance_m: float,
+    *,
+    focal_m: tuple[float, float, float] = (0.0, 0.0, 0.1),
+    yaw_rad: float = -0.9,
+    pitch_rad: float = 0.5,
+) -> Panel:
+    """The world as Gazebo shows it, looked at from so far, so much to the side and from above."""
+    view = {"focal": list(focal_m), "distance": distance_m, "yaw": yaw_rad, "pitch": pitch_rad}
+    return Panel("gazebo", {"view": view})
+
+
 def find_demo(name: str) -> Demo:
     """Return a demo by its name.
 
@@ -51,7 +63,7 @@ DEMOS: tuple[Demo, ...] = (
             Step("see what the lidar measures", "gazelle rostopic echo -n 1 /scan"),
             Step("draw a map while it drives", "gazelle roslaunch scout_robot map.launch"),
         ),
-        panels=(Panel("gazebo"), Panel("rqt_image_view", {"topic": "/camera/rgb/image_raw"})),
+        panels=(_world(2.6), Panel("rqt_image_view", {"topic": "/camera/rgb/image_raw"})),
     ),
     Demo(
         name="four_wheels",
@@ -107,6 +119,108 @@ DEMOS: tuple[Demo, ...] = (
         programs=(("ros2", "run", "heron_bringup", "pick_and_place"),),
     ),
     Demo(
+        name="mapping",
+        title="A robot that maps and drives",
+        summary="SLAM and navigation at once: click a goal, the map grows on the way there.",
+        ros_version=2,
+        workspace="mapping_ws",
+        packages=("surveyor_robot",),
+        launch=("ros2", "launch", "surveyor_robot", "mapping.launch.py"),
+        sign="/map",
+        seen=(
+            "A round robot in a flat of three rooms, and the map that it draws of what its lidar",
+            "sees. In the page choose '2D Goal Pose', press at a place and drag into a direction.",
+        ),
+        try_next=(
+            Step(
+                "send it to a goal from here",
+                "gazelle ros2 topic pub --once /goal_pose geometry_msgs/msg/PoseStamped "
+                "'{header: {frame_id: map}, pose: {position: {x: 2.0, y: -0.6}, "
+                "orientation: {w: 1.0}}}'",
+            ),
+            Step(
+                "let it look for the unknown by itself",
+                "gazelle ros2 run explore_lite explore --ros-args -p use_sim_time:=true "
+                "-p costmap_topic:=map -p robot_base_frame:=base_footprint",
+            ),
+            Step("keep the map", "gazelle ros2 run nav2_map_server map_saver_cli -f my_map"),
+        ),
+        panels=(Panel("rviz", file="src/surveyor_robot/rviz/mapping.rviz"), Panel("gazebo")),
+    ),
+    Demo(
+        name="balancer",
+        title="A robot that keeps its balance",
+        summary="Two wheels under a controller of our own; it is pushed and stays up.",
+        ros_version=2,
+        workspace="balance_ws",
+        packages=("balancer_robot",),
+        launch=("ros2", "launch", "balancer_robot", "balancer.launch.py"),
+        sign="/wheel_controller/commands",
+        seen=(
+            "A robot on two wheels keeps itself upright. Every eight seconds something pushes it,",
+            "from behind and from the front in turns, and it rolls back to where it stood.",
+        ),
+        try_next=(
+            Step("drive it with the keys i j k l ,", _KEYS_ROS2),
+            Step(
+                "push it harder", "gazelle ros2 run balancer_robot push --ros-args -p force:=70.0"
+            ),
+            Step(
+                "stop its controller: it falls on its board",
+                "gazelle ros2 control switch_controllers --deactivate wheel_controller",
+            ),
+            Step(
+                "and start it again: it gets up",
+                "gazelle ros2 control switch_controllers --activate wheel_controller",
+            ),
+        ),
+        programs=(("ros2", "run", "balancer_robot", "push", "--ros-args", "-p", "every:=8.0"),),
+        panels=(Panel("gazebo"), Panel("rqt_plot", {"curves": ["/imu/orientation/y"]})),
+    ),
+    Demo(
+        name="turtles",
+        title="Turtles that paint",
+        summary="The turtles of ROS's first tutorial; three of them draw flowers.",
+        ros_version=2,
+        workspace="turtles_ws",
+        packages=("turtle_painter",),
+        launch=("ros2", "launch", "turtle_painter", "turtles.launch.py"),
+        sign="/turtle1/pose",
+        seen=("Three turtles draw flowers, each in its colour.",),
+        try_next=(
+            Step("steer one with the arrow keys", "gazelle ros2 run turtlesim turtle_teleop_key"),
+            Step("wipe the canvas", "gazelle ros2 service call /clear std_srvs/srv/Empty"),
+            Step(
+                "call one more turtle",
+                "gazelle ros2 service call /spawn turtlesim/srv/Spawn "
+                "'{x: 8.0, y: 8.0, theta: 0.5, name: guest}'",
+            ),
+            Step("see who talks to whom", "gazelle rqt_graph"),
+        ),
+        panels=(Panel("turtlesim", {"node": "turtlesim"}),),
+    ),
+    Demo(
+        name="playground",
+        title="Things to push",
+        summary="A little bulldozer among crates, balls and a row of dominoes.",
+        ros_version=1,
+        workspace="playground_ws",
+        packages=("dozer_robot",),
+        launch=("roslaunch", "dozer_robot", "playground.launch"),
+        sign="/odom",
+        seen=(
+            "A little bulldozer among crates, balls and dominoes. Drive it with the sliders of the",
+            "page, or let it knock the dominoes over.",
+        ),
+        try_next=(
+            Step("knock the dominoes over", "gazelle rosrun dozer_robot knock.py"),
+            Step("drive it with the keys i j k l ,", _KEYS_ROS1),
+            Step("put everything back", "gazelle rosservice call /gazebo/reset_world"),
+            Step("stop the time", "gazelle rosservice call /gazebo/pause_physics"),
+        ),
+        panels=(Panel("gazebo"), Panel("rqt_robot_steering", {"topic": "/cmd_vel"})),
+    ),
+    Demo(
         name="plugin",
         title="A Gazebo plug-in in Python",
         summary="Balloons in the wind: a world, a model and a sensor plug-in, 300 lines of Python.",
@@ -134,9 +248,7 @@ DEMOS: tuple[Demo, ...] = (
         packages=("tandem_controller",),
         launch=("roslaunch", "tandem_controller", "robot.launch"),
         sign="/joint_states",
-        seen=(
-            "Two broad wheels, one behind the other; a PID written in Python turns them.",
-        ),
+        seen=("Two broad wheels, one behind the other; a PID written in Python turns them.",),
         try_next=(
             Step(
                 "let it roll 3 rad of its wheels",
