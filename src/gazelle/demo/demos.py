@@ -18,10 +18,14 @@ def _world(
     focal_m: tuple[float, float, float] = (0.0, 0.0, 0.1),
     yaw_rad: float = -0.9,
     pitch_rad: float = 0.5,
+    kind: str = "gazebo",
 ) -> Panel:
-    """The world as Gazebo shows it, looked at from so far, so much to the side and from above."""
+    """The world as Gazebo shows it, looked at from so far, so much to the side and from above.
+
+    The kind ``gz`` is the view alone, without the tree of the world.
+    """
     view = {"focal": list(focal_m), "distance": distance_m, "yaw": yaw_rad, "pitch": pitch_rad}
-    return Panel("gazebo", {"view": view})
+    return Panel(kind, {"view": view})
 
 
 def find_demo(name: str) -> Demo:
@@ -63,7 +67,10 @@ DEMOS: tuple[Demo, ...] = (
             Step("see what the lidar measures", "gazelle rostopic echo -n 1 /scan"),
             Step("draw a map while it drives", "gazelle roslaunch scout_robot map.launch"),
         ),
-        panels=(_world(2.6), Panel("rqt_image_view", {"topic": "/camera/rgb/image_raw"})),
+        panels=(
+            _world(3.4, focal_m=(0.5, 0.0, 0.1)),
+            Panel("rqt_image_view", {"topic": "/camera/rgb/image_raw"}),
+        ),
     ),
     Demo(
         name="four_wheels",
@@ -88,7 +95,7 @@ DEMOS: tuple[Demo, ...] = (
             Step("read one of the files", "gazelle rosparam get /diff_drive_controller"),
         ),
         panels=(
-            Panel("gazebo"),
+            _world(2.4, focal_m=(0.0, 0.0, 0.2)),
             Panel("rqt_robot_steering", {"topic": "/diff_drive_controller/cmd_vel"}),
         ),
     ),
@@ -117,6 +124,7 @@ DEMOS: tuple[Demo, ...] = (
             Step("see the joints", "gazelle ros2 topic echo --once /joint_states"),
         ),
         programs=(("ros2", "run", "heron_bringup", "pick_and_place"),),
+        panels=(_world(1.7, focal_m=(0.25, 0.0, 0.3)),),
     ),
     Demo(
         name="mapping",
@@ -129,7 +137,7 @@ DEMOS: tuple[Demo, ...] = (
         sign="/map",
         seen=(
             "A round robot in a flat of three rooms, and the map that it draws of what its lidar",
-            "sees. In the page choose '2D Goal Pose', press at a place and drag into a direction.",
+            "sees. In the page choose '2D Nav Goal', press at a place and drag into a direction.",
         ),
         try_next=(
             Step(
@@ -145,7 +153,10 @@ DEMOS: tuple[Demo, ...] = (
             ),
             Step("keep the map", "gazelle ros2 run nav2_map_server map_saver_cli -f my_map"),
         ),
-        panels=(Panel("rviz", file="src/surveyor_robot/rviz/mapping.rviz"), Panel("gazebo")),
+        panels=(
+            Panel("rviz", file="src/surveyor_robot/rviz/mapping.rviz"),
+            _world(6.0, pitch_rad=0.9, kind="gz"),
+        ),
     ),
     Demo(
         name="balancer",
@@ -175,7 +186,10 @@ DEMOS: tuple[Demo, ...] = (
             ),
         ),
         programs=(("ros2", "run", "balancer_robot", "push", "--ros-args", "-p", "every:=8.0"),),
-        panels=(Panel("gazebo"), Panel("rqt_plot", {"curves": ["/imu/orientation/y"]})),
+        panels=(
+            _world(2.9, focal_m=(0.0, 0.0, 0.4), pitch_rad=0.3),
+            Panel("rqt_plot", {"curves": ["/imu/orientation/y"]}),
+        ),
     ),
     Demo(
         name="turtles",
@@ -218,26 +232,31 @@ DEMOS: tuple[Demo, ...] = (
             Step("put everything back", "gazelle rosservice call /gazebo/reset_world"),
             Step("stop the time", "gazelle rosservice call /gazebo/pause_physics"),
         ),
-        panels=(Panel("gazebo"), Panel("rqt_robot_steering", {"topic": "/cmd_vel"})),
+        panels=(
+            _world(6.0, focal_m=(0.5, 0.0, 0.1), yaw_rad=-2.2, pitch_rad=0.6),
+            Panel("rqt_robot_steering", {"topic": "/cmd_vel"}),
+        ),
     ),
     Demo(
         name="plugin",
         title="A Gazebo plug-in in Python",
-        summary="Balloons in the wind: a world, a model and a sensor plug-in, 300 lines of Python.",
+        summary="Balloons in the wind: a world, a model and a sensor plug-in, 70 lines of Python.",
         ros_version=1,
         workspace="own_plugin_ws",
         packages=("gust_plugins",),
         launch=("roslaunch", "gust_plugins", "gust.launch"),
         sign="/clock",
-        seen=("Two balloons; the wind carries one faster than the other.",),
+        seen=("Two balloons in a wind that goes round; it blows harder at one of them.",),
         try_next=(
             Step("see who leads", "gazelle rostopic echo /leader"),
             Step(
                 "give the slow one a storm",
-                "gazelle rostopic pub -1 /slow/wind geometry_msgs/Vector3 '{x: 8.0}'",
+                "gazelle rostopic pub -r 20 /slow/wind geometry_msgs/Vector3 '{x: 8.0}'",
             ),
             Step("hear who is shaken by it", "gazelle rostopic echo /slow/alarm"),
         ),
+        programs=(("rosrun", "gust_plugins", "gusts.py"),),
+        panels=(_world(13.0, focal_m=(0.0, 2.0, 1.5)),),
     ),
     Demo(
         name="controller",
@@ -248,14 +267,18 @@ DEMOS: tuple[Demo, ...] = (
         packages=("tandem_controller",),
         launch=("roslaunch", "tandem_controller", "robot.launch"),
         sign="/joint_states",
-        seen=("Two broad wheels, one behind the other; a PID written in Python turns them.",),
+        seen=(
+            "Two broad wheels, one behind the other, roll to and fro; a PID in Python turns them.",
+        ),
         try_next=(
             Step(
-                "let it roll 3 rad of its wheels",
-                "gazelle rostopic pub -1 /tandem_controller/command std_msgs/Float64 3.0",
+                "roll somewhere else, rad of its wheels",
+                "gazelle rostopic pub -1 /tandem_controller/command std_msgs/Float64 8.0",
             ),
             Step("list the controllers", "gazelle controller_manager list"),
             Step("change the gains while it runs", "gazelle rqt_reconfigure"),
         ),
+        programs=(("rosrun", "tandem_controller", "there_and_back.py"),),
+        panels=(_world(2.2), Panel("rqt_plot", {"curves": ["/joint_states/position"]})),
     ),
 )
