@@ -49,7 +49,7 @@ function sourceOf({ source }: LaunchFinding): HTMLElement | null {
   const carets = source.column ? `\n${' '.repeat(at)}${'^'.repeat(source.width)}` : '';
   return h(
     'pre',
-    { class: 'finding-source', tabindex: 0, 'aria-label': `Line ${source.line}` },
+    { class: 'finding-source', tabindex: 0, role: 'group', 'aria-label': `Line ${source.line}` },
     h('span', { class: 'finding-line' }, String(source.line)),
     h('code', {}, ...line, h('span', { class: 'carets', 'aria-hidden': 'true' }, carets)),
   );
