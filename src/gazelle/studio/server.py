@@ -64,6 +64,7 @@ class Server:
         self._error: OSError | None = None
         # Its port comes later; a secret that cannot be read is told here.
         self._guard = guard_for(host, 0)
+        studio.demos.may_start = self._guard.is_local
         keep_freed_memory()
         self._thread = threading.Thread(target=self._run, name="studio server", daemon=True)
         self._thread.start()

@@ -125,7 +125,9 @@ class RobotDrawer implements Drawer {
     } catch (problem) {
       if (ask !== this.asked) return;
       const error = asCallError(problem);
-      this.site.status('URDF', 'error', [error.message, error.hint].filter(Boolean).join(' '));
+      // Whoever describes the robot may be started later; that is no fault of anything here.
+      const level = error.message.startsWith('there is no ') ? 'warn' : 'error';
+      this.site.status('URDF', level, [error.message, error.hint].filter(Boolean).join(' '));
       this.timer = window.setTimeout(() => void this.load(), RETRY_MS);
     }
   }

@@ -17,6 +17,10 @@ export interface Hello {
   graph: GraphPlace;
   /** those that commands asked for. */
   panels: string[];
+  /** where the pages of this release are; empty where that is not known. */
+  docs: string;
+  /** whether nothing runs on the graph. */
+  is_idle: boolean;
 }
 
 /** A command asks for a panel. */
@@ -720,6 +724,122 @@ export interface PlanningScene {
   objects?: Json[];
   /** `moveit_msgs/AttachedCollisionObject` each. */
   attached?: Json[];
+}
+
+/** A line of a user's file. */
+export interface SourceLine {
+  /** its number. */
+  line: number;
+  text: string;
+  /** where the caret stands in the text, from 1; 0 for none. */
+  column: number;
+  /** characters under the caret. */
+  width: number;
+}
+
+/** A finding about a user's file. */
+export interface LaunchFinding {
+  /** empty where an error has none. */
+  code: string;
+  severity: string;
+  /** of the code. */
+  title: string;
+  message: string;
+  /** why that matters. */
+  why: string;
+  /** what to write instead. */
+  fix: string;
+  /** what ROS or Gazebo says in this case. */
+  phrase: string;
+  /** file, line and column. */
+  place: string;
+  /** the way there, innermost first. */
+  via: string[];
+  /** the line; null where it cannot be read. */
+  source: SourceLine | null;
+  /** to the code's entry in the documentation; empty for none. */
+  link: string;
+}
+
+/** A command that launched. */
+export interface LaunchValue {
+  name: string;
+  /** as it is typed. */
+  command: string;
+  /** in which. */
+  folder: string;
+  started_s: number;
+  is_running: boolean;
+  /** the exit code; null while it runs, and where it was killed. */
+  code: number | null;
+  findings: LaunchFinding[];
+}
+
+/** The launches of a graph, the newest first: those that run, and the last one. */
+export interface FoundIn {
+  launches: LaunchValue[];
+}
+
+/** A command that launched. */
+export interface RecentLaunch {
+  name: string;
+  command: string;
+  /** the command with the change to its folder, for a terminal. */
+  copied: string;
+  folder: string;
+  started_s: number;
+  is_running: boolean;
+  /** the exit code; null while it runs, and where it was killed. */
+  code: number | null;
+  /** how many it told of. */
+  errors: number;
+  /** the demo that it starts, empty for none. */
+  demo: string;
+}
+
+/** A description that was dropped. */
+export interface RobotFile {
+  /** the one that is shown; its path below what was dropped. */
+  file: string;
+  /** all that can be shown. */
+  files: string[];
+  /** null where it cannot be read. */
+  scene: SceneValue<BoxGeometry | SphereGeometry | RoundGeometry | EllipsoidGeometry | PlaneGeometry | MeshGeometry | MissingGeometry> | null;
+  findings: LaunchFinding[];
+  /** of links, joints and the like, in words. */
+  counts: string;
+}
+
+/** Something to try while a demo runs: one line of what it does, and what is typed. */
+export interface DemoStep {
+  what: string;
+  command: string;
+}
+
+/** A demo. */
+export interface DemoCard {
+  name: string;
+  title: string;
+  summary: string;
+  /** whose commands it shows. */
+  ros_version: number;
+  /** starts it in a terminal. */
+  command: string;
+  /** path of its picture; empty for none. */
+  picture: string;
+  /** what there is to see. */
+  seen: string;
+  /** what to try when it runs. */
+  steps: DemoStep[];
+}
+
+/** The gallery. */
+export interface DemosValue {
+  demos: DemoCard[];
+  /** the demo that was started here and runs; empty for none. */
+  running: string;
+  /** whether the page may start one. */
+  may_start: boolean;
 }
 
 /** A topic of a bag. */

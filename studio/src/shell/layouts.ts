@@ -30,6 +30,9 @@ const WITHOUT_WORLD: readonly Place[] = [
   { kind: 'rqt_console', beside: 'rqt_topic', direction: 'right' },
 ];
 
+/** While nothing runs. */
+export const IDLE: readonly Place[] = [{ kind: 'start' }];
+
 const BY_COMMAND: Readonly<Record<string, readonly Place[]>> = {
   gzclient: GAZEBO,
   gazebo: GAZEBO,

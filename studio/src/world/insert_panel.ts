@@ -112,10 +112,11 @@ export class InsertPanel extends BasePanel {
         class: 'model-card',
         draggable: 'true',
         title: [model.description, model.path].filter(Boolean).join('\n'),
-        'aria-label': `Insert ${model.name}`,
       },
       picture,
+      h('span', { class: 'only-read' }, 'Insert '),
       h('span', { class: 'model-name' }, model.title),
+      ' ',
       h('span', { class: 'model-path' }, model.name),
     );
     card.addEventListener('click', () => {

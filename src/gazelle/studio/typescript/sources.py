@@ -71,6 +71,9 @@ from gazelle.studio.graph_view.rosout import LogLine
 from gazelle.studio.graph_view.topics import EchoedMessage, TopicStats
 from gazelle.studio.graph_view.transforms import FrameNames, FrameRow, TfFrame
 from gazelle.studio.graph_view.types import TypeConstant, TypeField, TypeValue
+from gazelle.studio.launches.demos import DemoCard, DemoStep, DemosValue
+from gazelle.studio.launches.findings import FoundIn, LaunchFinding, LaunchValue, SourceLine
+from gazelle.studio.launches.recent import RecentLaunch
 from gazelle.studio.motion.methods import MotionMesh
 from gazelle.studio.motion.planning_scene import PlanningScene
 from gazelle.studio.motion.robot import (
@@ -87,6 +90,7 @@ from gazelle.studio.plugins.panel_state import PanelState
 from gazelle.studio.plugins.rqt.porting import PortedForm, PortedPlugin, PortedWidget
 from gazelle.studio.plugins.shown_panels import PanelEvent
 from gazelle.studio.protocol import STREAMS
+from gazelle.studio.robot_files.methods import RobotFile
 from gazelle.studio.scenes.shapes import (
     MeshGeometry,
     MeshPartValue,
@@ -117,6 +121,8 @@ _PARTS = (InertialValue, SensorValue, LightValue, BodyValue, MimicValue, JointVa
 _WORLD = (WorldStats, WorldJoint, PropertyRow, ModelEntry)
 _MOTION_PARTS = (MotionVariable, MotionJoint, MotionMimic, MotionEffector, MotionGroup)
 _MOTION = (*_MOTION_PARTS, MotionRobot, MotionMesh, PlanningScene)
+_LAUNCHES = (SourceLine, LaunchFinding, LaunchValue, FoundIn, RecentLaunch, RobotFile)
+_DEMOS = (DemoStep, DemoCard, DemosValue)
 _BAGS = (BagTopic, RecorderState, PlayerState, BagState)
 _PORTING = (PortedWidget, PortedForm, PortedPlugin)
 _PANELS = (PanelEntry, PanelInfo, PanelEvent, PanelState, *_PORTING)
@@ -134,7 +140,7 @@ MESSAGES: tuple[type, ...] = (
         *_DISPLAYS,
         *_MARKERS,
     ),
-    *(*_SHAPES, *_PARTS, SceneValue, *_WORLD, *_MOTION, *_BAGS, *_PANELS),
+    *(*_SHAPES, *_PARTS, SceneValue, *_WORLD, *_MOTION, *_LAUNCHES, *_DEMOS, *_BAGS, *_PANELS),
 )
 """`TypedDict` classes, and `NamedTuple` ones that are sent as such."""
 
