@@ -1,12 +1,20 @@
-"""The generated pages are what their generators print, and every code is provoked somewhere."""
+"""Generated pages are what their generators print, every code is provoked, the site is built."""
 
 from __future__ import annotations
 
 import importlib.util
+import os
 import re
+import subprocess
+import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import pytest
+import yaml
 from tests.ci_scripts import ci_script
+from tests.patience import stretched
 
 from gazelle.compat.unsupported.docs import unsupported_markdown
 from gazelle.diagnostics.catalogue import all_entries
@@ -14,6 +22,8 @@ from gazelle.diagnostics.documentation import catalogue_markdown
 from gazelle.node_specs.docs import nodes_markdown
 
 ROOT = Path(__file__).parents[1]
+_NAMES = ROOT / "tests" / "stable_names.txt"
+_SITE = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
 _TEST = re.compile(r"`((?:tests|benchmarks)/[\w/.]+)`")
 
 
@@ -54,6 +64,44 @@ def test_pictures_of_the_architecture_are_those_of_its_table_and_modules() -> No
         assert importlib.util.find_spec(step.module) is not None, step.module
 
 
+def test_every_page_is_in_the_navigation_once() -> None:
+    wanted = {path.relative_to(ROOT / "docs").as_posix() for path in ROOT.glob("docs/**/*.md")}
+    found = list(_pages(_SITE["nav"]))
+    assert sorted(found) == sorted(wanted), "add it to nav in mkdocs.yml"
+
+
+def test_every_module_that_is_promised_is_in_the_reference_once() -> None:
+    pages = "\n".join(path.read_text(encoding="utf-8") for path in ROOT.glob("docs/api/*.md"))
+    promised = re.findall(r"^([\w.]+): ", _NAMES.read_text(encoding="utf-8"), re.MULTILINE)
+    assert sorted(re.findall(r"^::: (\S+)$", pages, re.MULTILINE)) == sorted(promised)
+
+
+@pytest.mark.slow
+def test_the_site_is_built_without_a_warning_and_asks_no_server(tmp_path: Path) -> None:
+    """Links between pages and to headings lead somewhere, and every name has its docstring."""
+    pytest.importorskip("mkdocs")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path)]
+    done = subprocess.run(
+        command,
+        cwd=ROOT,
+        env={**os.environ, "NO_MKDOCS_2_WARNING": "1", "http_proxy": "127.0.0.1:9"},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=stretched(300),
+    )
+    assert done.returncode == 0, done.stderr
+    loaded = re.compile(r"<(?:script|link|img)[^>]* (?:src|href)=\"?(https?:)?//")
+    for page in ("index.html", "howto/studio.html", "api/simulation.html"):
+        text = (tmp_path / page).read_text(encoding="utf-8")
+        assert not loaded.findall(text)
+    reference = (tmp_path / "api" / "simulation.html").read_text(encoding="utf-8")
+    assert "gazelle.simulator.Simulation.load" in reference
+    assert "data-md-color-scheme=slate" in text.replace('"', "")
+    # Search works from file://, too.
+    assert (tmp_path / "search" / "search_index.js").is_file()
+
+
 def test_every_code_is_used_in_the_source_and_named_in_a_test() -> None:
     catalogue = ROOT / "src" / "gazelle" / "diagnostics" / "catalogue"
     source = _text(ROOT / "src", skip=catalogue)
@@ -87,6 +135,14 @@ def test_places_to_add_something_are_there() -> None:
     assert len(named) > 25
     roots = (ROOT, ROOT / "src" / "gazelle")
     assert not [one for one in sorted(named) if not any((root / one).exists() for root in roots)]
+
+
+def _pages(entry: Any) -> Iterator[str]:
+    if isinstance(entry, str):
+        yield entry
+    else:
+        for one in entry.values() if isinstance(entry, dict) else entry:
+            yield from _pages(one)
 
 
 def _named(code: str, text: str) -> bool:

@@ -20,7 +20,7 @@ def test_test_command_is_the_one_that_ci_runs() -> None:
     command = 'pip install -e ".[dev]" && ruff format --check && ruff check && mypy -n 2 && {'
     command += " pytest -n auto; first=$?;"
     command += ' pytest tests/browser -m "not slow" && (exit $first); }'
-    assert f"    {command}\n" in README
+    assert f"```bash\n{command}\n" in README
     assert f"\n{command}\n" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
 
 

@@ -34,7 +34,7 @@ def test_packages_go_into_a_workspaces_src(tmp_path, capsys) -> None:
     (tmp_path / "src").mkdir()
     assert main(["new", "package", "my_node", "--ros2"]) == 0
     assert (tmp_path / "src" / "my_node" / "setup.py").is_file()
-    assert "its node:   gazelle rosrun my_node hello" in capsys.readouterr().out
+    assert "its node:   gazelle ros2 run my_node hello" in capsys.readouterr().out
     assert main(["new", "package", "other", "--into", "elsewhere"]) == 0
     assert (tmp_path / "elsewhere" / "other" / "CMakeLists.txt").is_file()
 

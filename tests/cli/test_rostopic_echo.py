@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from gazelle.graph import Graph, Node
+from gazelle.graph import Graph, Node, Publisher
 from gazelle.interfaces import Time, ros1_message_type
 
 _JOINTS = ["left_joint", "right_joint", "laser_joint"]
@@ -172,9 +172,9 @@ def test_waits_for_a_topic_and_says_so(graph: Graph, robot: Node, run, monkeypat
     )
 
 
-def test_warns_when_nothing_comes_in_simulated_time(
-    graph: Graph, robot: Node, run, monkeypatch, pump
-) -> None:
+@pytest.fixture
+def warned(graph: Graph, monkeypatch) -> threading.Event:
+    """Set when the command has warned, which it does at once in simulated time."""
     from gazelle.cli.rostopic import echo
 
     warned = threading.Event()
@@ -186,6 +186,41 @@ def test_warns_when_nothing_comes_in_simulated_time(
     monkeypatch.setattr(echo, "_SIM_TIME_S", 0.0)
     monkeypatch.setattr(echo, "print", say, raising=False)
     graph.parameters.set("/use_sim_time", True)
+    return warned
+
+
+def test_a_topic_without_publisher_is_told_for_what_it_is(
+    graph: Graph, robot: Node, run, pump, warned
+) -> None:
+    kind = ros1_message_type("std_msgs/String")
+    robot.create_publisher("/clock", ros1_message_type("rosgraph_msgs/Clock"))
+    robot.create_subscription("/chat", kind, lambda message: None)
+    publishers: list[Publisher] = []
+
+    def publish() -> bool:
+        if warned.is_set() and not publishers:
+            publishers.append(robot.create_publisher("/chat", kind))
+        return bool(publishers) and publishers[0].publish(kind(data="late"))
+
+    pump(publish)
+    found = run("rostopic", "echo", "-n1", "/chat")
+    assert found.err == "WARNING: no messages received: nobody publishes /chat.\n"
+
+
+def test_a_publisher_that_is_silent_while_time_passes_is_named(
+    robot: Node, run, pump, warned
+) -> None:
+    kind = ros1_message_type("std_msgs/String")
+    robot.create_publisher("/clock", ros1_message_type("rosgraph_msgs/Clock"))
+    publisher = robot.create_publisher("/chat", kind)
+    pump(lambda: warned.is_set() and publisher.publish(kind(data="late")))
+    found = run("rostopic", "echo", "-n1", "/chat")
+    assert found.err == "WARNING: no messages received yet from /robot.\n"
+
+
+def test_warns_when_nothing_comes_in_simulated_time(
+    graph: Graph, robot: Node, run, pump, warned
+) -> None:
     kind = ros1_message_type("std_msgs/String")
     publisher = robot.create_publisher("/chat", kind)
     pump(lambda: warned.is_set() and publisher.publish(kind(data="late")))

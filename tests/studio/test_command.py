@@ -68,3 +68,24 @@ def test_a_folder_that_is_not_there_is_an_error(capsys: pytest.CaptureFixture[st
         main(["--folder", "/nowhere/bags"])
     assert caught.value.code == 2
     assert "argument --folder: there is no folder /nowhere/bags" in capsys.readouterr().err
+
+
+def test_a_graph_has_one_page_whoever_is_asked_for_it(gazelle: Run) -> None:
+    first = gazelle("rqt_graph", GAZELLE_STUDIO="1")
+    url = first.wait_for_line("rqt_graph: http").removeprefix("rqt_graph: ").strip()
+    assert _port(url) == 8090 + first.port - 7447
+    second = gazelle("studio", "--no-browser", port=first.port)
+    assert second.wait_for_line("Studio: http").strip() == f"Studio: {url}"
+    assert first.stop() == 0
+    # It serves the page from now on.
+    third = gazelle("rqt_plot", port=first.port, GAZELLE_STUDIO="1")
+    assert third.wait_for_line("rqt_plot: http").strip() == f"rqt_plot: {url}"
+    Page(_port(url)).close()
+    assert second.stop() == 0
+    assert third.stop() == 0
+
+
+def test_the_command_takes_the_address_that_windows_take(gazelle: Run) -> None:
+    running = gazelle("studio", "--no-browser")
+    assert _port(running.wait_for_line("Studio: http")) == 8090 + running.port - 7447
+    assert running.stop() == 0

@@ -55,8 +55,8 @@ def _next_steps(kind: str, name: str, ros_version: int) -> list[str]:
     if ros_version == 1:
         steps = [f"start it:   gazelle roslaunch {name} {name}.launch"]
     else:
-        steps = [f"start it:   ros2 launch {name} {name}.launch.py   (in ROS 2)"]
+        steps = [f"start it:   gazelle ros2 launch {name} {name}.launch.py"]
         node = {"robot": "wander", "package": "hello"}.get(kind)
         if node is not None:
-            steps.append(f"its node:   gazelle rosrun {name} {node}")
+            steps.append(f"its node:   gazelle ros2 run {name} {node}")
     return steps if kind == "package" else [*steps, f"look at it: gazelle view {name}"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import sys
 import threading
 import webbrowser
@@ -11,10 +12,16 @@ from pathlib import Path
 from gazelle.graph import Graph
 from gazelle.process_lifetime import at_stop_signal
 from gazelle.studio import Server, Studio
-from gazelle.studio.windows.page_owner import offer
+from gazelle.studio.windows.page_owner import (
+    address_of_page,
+    offer,
+    page_port,
+    wait_while_served,
+)
 
 __all__ = ["main"]
 
+_LOCAL = "127.0.0.1"
 _LOOK_S = 0.5
 
 
@@ -26,8 +33,15 @@ def main(argv: list[str]) -> int:
     with Graph.open() as graph:
         studio = Studio(graph, options.folder)
         studio.node.on_shutdown(lambda _reason: stop.set())
+        if not _is_page_of_its_own(options) and _stood_by(studio, options.browser, stop):
+            # Its page finds the new server by itself.
+            options.browser = False
+        if stop.is_set():
+            studio.close()
+            return 0
         _show_panels(studio, options.panel)
-        with Server(studio, host=options.host, port=options.port) as server:
+        first = page_port(graph)
+        with Server(studio, host=options.host, port=options.port, first_port=first) as server:
             offer(server)
             print(f"Studio: {server.url}", flush=True)
             if not server.is_local:
@@ -36,6 +50,28 @@ def main(argv: list[str]) -> int:
                 _open_browser(server.url)
             _wait(stop)
     return 0
+
+
+def _is_page_of_its_own(options: argparse.Namespace) -> bool:
+    """Tell whether something was asked for that a page served by another command has not."""
+    return bool(
+        options.panel or options.folder or options.port is not None or options.host != _LOCAL
+    )
+
+
+def _stood_by(studio: Studio, browser: bool, stop: threading.Event) -> bool:
+    """Point to the page that another command serves, as long as it does; return if there is one."""
+    url = address_of_page(studio.node)
+    if url is None:
+        return False
+    print(f"Studio: {url}", flush=True)
+    if browser:
+        _open_browser(url)
+    with contextlib.suppress(KeyboardInterrupt):
+        wait_while_served(studio.node.graph, stop)
+        return True
+    stop.set()
+    return True
 
 
 def _warn_of_network(host: str) -> None:
@@ -66,11 +102,13 @@ def _parser() -> argparse.ArgumentParser:
         description="Serves the page that shows worlds, robots, topics and plots of a graph.",
     )
     parser.add_argument(
-        "--port", type=int, help="TCP port, 0 for any; the first free one from 8090 on otherwise"
+        "--port",
+        type=int,
+        help="TCP port, 0 for any; otherwise that of the graph's page, 8090 for the usual graph",
     )
     parser.add_argument(
         "--host",
-        default="127.0.0.1",
+        default=_LOCAL,
         help="address to listen on; whoever has the printed URL gets in, it carries a token",
     )
     parser.add_argument(

@@ -42,13 +42,21 @@ class Server:
         url: what to open in a browser.
     """
 
-    def __init__(self, studio: Studio, *, host: str = "127.0.0.1", port: int | None = None) -> None:
+    def __init__(
+        self,
+        studio: Studio,
+        *,
+        host: str = "127.0.0.1",
+        port: int | None = None,
+        first_port: int = DEFAULT_PORT,
+    ) -> None:
         """Listen.
 
         Args:
             studio: it is closed together with the server.
             host: address.
-            port: TCP port, 0 for any free one; None takes the first free one from 8090 on.
+            port: TCP port, 0 for any free one; None takes the first free one from another on.
+            first_port: that one; 0 for any free one.
 
         Raises:
             GazelleError: the address or port cannot be listened on, or the user's secret cannot
@@ -57,7 +65,7 @@ class Server:
         self.studio = studio
         self._routes = {name: partial(route, studio) for name, route in ROUTES.items()}
         self._host = host
-        self._ports = range(port, port + 1) if port is not None else _default_ports()
+        self._ports = _ports_tried(port, first_port)
         self._loop = asyncio.new_event_loop()
         self._started = threading.Event()
         self._stop = asyncio.Event()
@@ -165,8 +173,10 @@ class Server:
         return f"http://{host}:{self.port}/?token={self.token}"
 
 
-def _default_ports() -> range:
-    return range(DEFAULT_PORT, DEFAULT_PORT + _PORTS_TRIED)
+def _ports_tried(port: int | None, first_port: int) -> range:
+    if port is not None or first_port == 0:
+        return range(port or 0, (port or 0) + 1)
+    return range(first_port, first_port + _PORTS_TRIED)
 
 
 def _cannot_listen(host: str, ports: range, error: OSError) -> str:

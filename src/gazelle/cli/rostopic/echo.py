@@ -13,6 +13,8 @@ from gazelle.cli.ros_tool import ToolError, add_flag, global_name, join_graph, o
 from gazelle.cli.ros_types import topic_class
 from gazelle.cli.rostopic.topics import FoundTopic, join_as_node, uses_sim_time, wait_for_topic
 from gazelle.cli.text.fields import FieldError, field_type, field_value
+from gazelle.graph import Graph
+from gazelle.graph.graph_info import topics_of
 from gazelle.interfaces import Time, strify
 
 __all__ = ["Echo", "expression", "run"]
@@ -52,12 +54,24 @@ def run(argv: list[str]) -> int:
         echo = Echo(topic, options, graph.clock, count=count, width=width, wanted=wanted)
         node.create_subscription(topic.name, topic_class(topic.type_name), echo)
         if uses_sim_time(graph) and not echo.done.wait(_SIM_TIME_S) and not echo.count:
-            print(_NO_CLOCK, file=sys.stderr, flush=True)
+            print(_why_silent(graph, topic.name), file=sys.stderr, flush=True)
         while not echo.done.wait(_LOOK_S) and not ended.is_set():
             pass
     if echo.error is not None:
         raise echo.error
     return 0
+
+
+def _why_silent(graph: Graph, topic: str) -> str:
+    """Say why no message may have come in simulated time: the first of what is so."""
+    infos = {one.name: one for one in topics_of(graph.entities(), include_hidden=True)}
+    found = infos.get(topic)
+    publishers = found.publishers if found else ()
+    if not publishers:
+        return f"WARNING: no messages received: nobody publishes {topic}."
+    if (clock := infos.get("/clock")) is None or not clock.publishers:
+        return _NO_CLOCK
+    return f"WARNING: no messages received yet from {', '.join(publishers)}."
 
 
 def expression(text: str, topic: str) -> Callable[[Any], bool]:

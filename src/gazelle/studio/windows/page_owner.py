@@ -17,19 +17,20 @@ from gazelle.interfaces import service_type
 __all__ = [
     "SERVICE",
     "Request",
+    "address_of_page",
     "is_switched_off",
     "offer",
     "open_browser",
     "page_port",
     "present",
     "say",
+    "wait_while_served",
 ]
 
 SERVICE = "/_gazelle/studio"
 _DO = "gazelle_msgs/Do"
 _ANSWER_S = 5.0
 _LOOK_S = 0.5
-# The page of the usual graph is at the port that `gazelle studio` takes.
 _USUAL_GRAPH, _USUAL_PAGE = 7447, 8090
 _MAX_PORT = 65_535
 _SAY = Callable[[str], None]
@@ -60,7 +61,11 @@ def say(text: str) -> None:
 
 
 def page_port(graph: Graph) -> int:
-    """Return the port of a graph's page, so that graphs side by side do not meet."""
+    """Return the port of a graph's page, whoever serves it; 0 for any.
+
+    It is as far from 8090 as the graph's port from the usual one, so graphs side by side do not
+    meet.
+    """
     port = _USUAL_PAGE + graph.port - _USUAL_GRAPH
     return port if 1024 < port <= _MAX_PORT else 0
 
@@ -81,7 +86,7 @@ def present(node: Node, request: Request, stop: threading.Event, say: _SAY) -> N
     while not stop.is_set():
         if node.graph.has_service(SERVICE):
             asked = asked or _ask(node, request, say)
-            _wait_while_served(node.graph, stop)
+            wait_while_served(node.graph, stop)
             continue
         try:
             _serve(node.graph, None if asked else request, stop, say)
@@ -93,18 +98,29 @@ def present(node: Node, request: Request, stop: threading.Event, say: _SAY) -> N
         asked = True
 
 
+def address_of_page(node: Node) -> str | None:
+    """Return where the page of a node's graph is; None where nobody serves it."""
+    return _call(node, {"op": "address"}) if node.graph.has_service(SERVICE) else None
+
+
 def _ask(node: Node, request: Request, say: _SAY) -> bool:
+    url = _call(node, {"op": "show", "panel": request.panel, "params": request.params})
+    if url is not None:
+        say(f"{request.panel}: {url}")
+    return url is not None
+
+
+def _call(node: Node, message: dict[str, Any]) -> str | None:
+    """Return the address of the page that was asked; None where it does not answer."""
     kind = service_type(_DO)
     client = node.create_client(SERVICE, kind)
-    message = {"op": "show", "panel": request.panel, "params": request.params}
     try:
         answer = client.call(kind.Request(request=json.dumps(message)), _ANSWER_S)
     except GraphError:
-        return False
+        return None
     finally:
         client.unregister()
-    say(f"{request.panel}: {json.loads(answer.response)['url']}")
-    return True
+    return str(json.loads(answer.response)["url"])
 
 
 def _serve(graph: Graph, request: Request | None, stop: threading.Event, say: _SAY) -> None:
@@ -126,7 +142,8 @@ def offer(server: Any) -> None:
 
     def answer(request: Any) -> Any:
         message = json.loads(request.request)
-        studio.pages.show(str(message["panel"]), dict(message.get("params") or {}))
+        if message["op"] == "show":
+            studio.pages.show(str(message["panel"]), dict(message.get("params") or {}))
         return service_type(_DO).Response(response=json.dumps({"url": server.url}))
 
     studio.node.create_service(SERVICE, service_type(_DO), answer)
@@ -153,6 +170,7 @@ def _has_display() -> bool:
     return any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "WSL_DISTRO_NAME"))
 
 
-def _wait_while_served(graph: Graph, stop: threading.Event) -> None:
+def wait_while_served(graph: Graph, stop: threading.Event) -> None:
+    """Return when nobody serves the graph's page any more, or when told to stop."""
     while graph.has_service(SERVICE) and not stop.wait(_LOOK_S):
         continue

@@ -67,6 +67,8 @@ class PickAndPlace(Node):
     def run(self):
         for one in (self.mover, self.executor_of_paths, self.hand):
             one.wait_for_server()
+        for one in (self.scene, self.straight):
+            one.wait_for_service()
         self.tell_scene()
         self.grip(OPEN)
         self.go_above(*PICK)
@@ -168,7 +170,14 @@ class PickAndPlace(Node):
         goal.command.max_effort = 10.0
         result = self.send(self.hand, goal)
         # Fingers that stall while they close have something between them.
-        if not result.reached_goal and not (result.stalled and position == CLOSED):
+        if position == CLOSED and not (result.stalled and not result.reached_goal):
+            raise StepFailed(
+                f"the gripper closed to {result.position:.3f} m with nothing in it: the cube is "
+                f"not at x = {PICK[0]} m, y = {PICK[1]} m, where this program begins; put everything "
+                "back by 'gazelle ros2 service call /reset_world std_srvs/srv/Empty', then start "
+                "it again"
+            )
+        if position != CLOSED and not result.reached_goal:
             raise StepFailed(f"the gripper stopped at {result.position:.3f} m")
 
     def check(self, code, what):
