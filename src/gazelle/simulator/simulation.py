@@ -14,6 +14,7 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.diagnostics.suggestions import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
+from gazelle.rich_display import shown_by
 from gazelle.simulator.description_sources import Source, loaded_from, models_from, world_from
 from gazelle.simulator.intra_process_node import LocalNode
 from gazelle.simulator.node_interfaces import NodePort, SubscriptionPort
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 __all__ = ["Simulation", "full_name"]
 
 
+@shown_by("robots:simulation_bundle")
 class Simulation:
     """A world with its robots, stepped from Python.
 
