@@ -62,4 +62,4 @@ def cloud_pixels(points_m: NDArray[np.float64]) -> NDArray[np.uint8]:
 def _levels(heights: NDArray[np.float64]) -> NDArray[np.uint8]:
     low, high = np.percentile(heights, (1.0, 99.0))
     share = (heights - low) / max(float(high - low), 1e-9)
-    return (np.clip(share, 0.0, 1.0) * 255.0).astype(np.uint8)
+    return np.asarray(np.clip(share, 0.0, 1.0) * 255.0).astype(np.uint8)

@@ -54,7 +54,8 @@ def png_of(pixels: NDArray[Any], *, is_crisp: bool = False) -> bytes:
     image = Image.fromarray(pixels)
     longer = max(image.size)
     if longer > MAX_PICTURE_PX:
-        size = tuple(max(1, round(side * MAX_PICTURE_PX / longer)) for side in image.size)
+        width, height = (max(1, round(side * MAX_PICTURE_PX / longer)) for side in image.size)
+        size = (width, height)
         image = image.resize(size, Image.Resampling.NEAREST if is_crisp else Image.Resampling.BOX)
     elif is_crisp and longer < MAX_PICTURE_PX // 4:
         factor = MAX_PICTURE_PX // 2 // longer
@@ -100,7 +101,8 @@ def tree(lines: Iterable[tuple[int, str, str]]) -> str:
     Args:
         lines: depth, name and a remark of each, from the top.
     """
-    shown, left = [], 0
+    shown: list[str] = []
+    left = 0
     for depth, name, remark in lines:
         if len(shown) >= _MAX_ROWS:
             left += 1

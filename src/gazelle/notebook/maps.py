@@ -122,7 +122,7 @@ def _worst(cells: NDArray[Any]) -> NDArray[Any]:
     worst = known.max(axis=(1, 3))
     if cells.dtype == np.uint8:
         worst = np.where((blocks == _NO_INFORMATION).all(axis=(1, 3)), _NO_INFORMATION, worst)
-    return worst.astype(cells.dtype)
+    return np.asarray(worst, cells.dtype)
 
 
 def _rgb(grey: Pixels) -> Pixels:

@@ -38,7 +38,7 @@ def message_bundle(message: MessageBase) -> Bundle:
 def field_rows(message: Any, prefix: str = "") -> Iterator[tuple[str, str]]:
     """Yield names and values of a message's fields, those of messages inside with their path."""
     for item in message.FIELDS:
-        value = getattr(message, item.name, None)
+        value: Any = getattr(message, item.name, None)
         name = f"{prefix}{item.name}"
         if hasattr(value, "FIELDS"):
             yield from field_rows(value, f"{name}.")

@@ -17,11 +17,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "controllers_bundle",
+    "drawn",
     "model_bundle",
     "model_lines",
+    "posed_world",
     "sim_model_bundle",
     "simulation_bundle",
-    "still",
     "world_bundle",
 ]
 
@@ -71,11 +72,6 @@ def controllers_bundle(controllers: SimControllers) -> Bundle:
     ]
     shown = table(("controller", "type", "state"), rows)
     return {"text/html": figure(shown, f"controller manager {controllers.namespace or '/'}")}
-
-
-def still(sim: Simulation, size_px: tuple[int, int] = _SIZE_PX) -> bytes:
-    """Return the PNG of a simulation as it stands; empty where it cannot be drawn."""
-    return _drawn(posed_world(sim), size_px)
 
 
 def posed_world(sim: Simulation) -> World:
@@ -128,13 +124,14 @@ def model_lines(model: Model) -> Iterator[tuple[int, str, str]]:
 
 
 def _bundle(world: World, caption: str, below: str) -> Bundle:
-    data = _drawn(world, _SIZE_PX)
+    data = drawn(world, _SIZE_PX)
     picture = picture_tag(data, caption) if data else ""
     bundle: Bundle = {"text/html": figure(picture + below, caption)}
     return {**bundle, "image/png": png_text(data)} if data else bundle
 
 
-def _drawn(world: World, size_px: tuple[int, int]) -> bytes:
+def drawn(world: World, size_px: tuple[int, int]) -> bytes:
+    """Return the PNG of a world as it stands; empty where it cannot be drawn."""
     from gazelle.diagnostics import Diagnostics
     from gazelle.sensors import warm_up
     from gazelle.sensors.view_image import take_picture
