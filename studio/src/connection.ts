@@ -215,5 +215,11 @@ export class Connection {
 export function socketUrl(place: Location = location): string {
   const scheme = place.protocol === 'https:' ? 'wss' : 'ws';
   const token = new URLSearchParams(place.search).get('token');
-  return `${scheme}://${place.host}/ws${token ? `?token=${encodeURIComponent(token)}` : ''}`;
+  const query = token ? `?token=${encodeURIComponent(token)}` : '';
+  return `${scheme}://${place.host}${serverPath('/ws', place)}${query}`;
+}
+
+/** A path of the server as this page reaches it, which may lie in a folder there. */
+export function serverPath(path: string, place: Location = location): string {
+  return place.pathname.replace(/[^/]*$/, '') + path.slice(1);
 }

@@ -14,6 +14,7 @@ from gazelle.description.model import CameraSpec, Light, LightType, Link, Model,
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
+from gazelle.rich_display import shown_by
 from gazelle.sensors.camera import render
 from gazelle.sensors.ray_scene import RayScene
 from gazelle.sensors.view_cameras import Shot, camera_spec, fitting_camera, view_direction
@@ -62,6 +63,7 @@ _STUDIO = (
 )
 
 
+@shown_by("cameras:picture_bundle")
 class Picture(NamedTuple):
     """A picture, (H, W, 3) uint8, and the views it is made of."""
 

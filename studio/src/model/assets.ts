@@ -1,5 +1,6 @@
 /** Meshes and textures by key, read once and shared by all views of the page. */
 import * as THREE from 'three';
+import { serverPath } from '../connection';
 import { unit } from './geometry';
 
 const HEADER_BYTES = 16;
@@ -39,7 +40,7 @@ export function loadMesh(key: string): Promise<THREE.BufferGeometry> {
 }
 
 async function fetchMesh(key: string): Promise<THREE.BufferGeometry> {
-  const answer = await fetch(`/mesh/${encodeURIComponent(key)}`);
+  const answer = await fetch(serverPath(`/mesh/${encodeURIComponent(key)}`));
   if (!answer.ok) {
     console.warn(`mesh ${key}: the server answered ${answer.status}`);
     meshes.delete(key);
@@ -53,7 +54,7 @@ export function loadTexture(key: string, u: number, v: number, done: () => void)
   const name = `${key} ${u} ${v}`;
   let found = textures.get(name);
   if (!found) {
-    found = new THREE.TextureLoader().load(`/texture/${encodeURIComponent(key)}`, done);
+    found = new THREE.TextureLoader().load(serverPath(`/texture/${encodeURIComponent(key)}`), done);
     found.wrapS = found.wrapT = THREE.RepeatWrapping;
     found.repeat.set(1 / (u || 1), 1 / (v || 1));
     found.colorSpace = THREE.NoColorSpace;

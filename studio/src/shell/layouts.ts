@@ -42,6 +42,7 @@ const BY_COMMAND: Readonly<Record<string, readonly Place[]>> = {
   studio: STUDIO,
   graph: WITHOUT_WORLD,
   rqt_gui: WITHOUT_WORLD,
+  notebook: [{ kind: 'gazebo' }],
 };
 
 /** Names a person can choose from the layout menu. */

@@ -1,5 +1,5 @@
 /** Insert: shapes, the models of the model paths with pictures, and files. */
-import type { Connection } from '../connection';
+import { serverPath, type Connection } from '../connection';
 import type { ModelEntry } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
@@ -101,7 +101,7 @@ export class InsertPanel extends BasePanel {
       class: 'model-picture',
       alt: '',
       loading: 'lazy',
-      src: model.thumbnail,
+      src: serverPath(model.thumbnail),
       draggable: 'false',
     });
     picture.addEventListener('error', () => picture.classList.add('missing'));
