@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gazelle.motion.setup_assistant.chosen_groups import ChosenChain, ChosenHand, chosen_groups
 from gazelle.motion.setup_assistant.config import (
     Author,
     ControllerChoice,
@@ -29,6 +30,8 @@ from gazelle.motion.setup_assistant.self_collisions import (
 
 __all__ = [
     "Author",
+    "ChosenChain",
+    "ChosenHand",
     "CollisionMatrix",
     "CollisionSearch",
     "ControllerChoice",
@@ -41,6 +44,7 @@ __all__ = [
     "RobotSource",
     "SetupAssistantConfig",
     "SetupAssistantError",
+    "chosen_groups",
     "load_robot",
     "planned_files",
     "propose",

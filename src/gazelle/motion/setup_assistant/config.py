@@ -147,8 +147,9 @@ class SetupAssistantConfig:
         controllers: what trajectories are sent to.
         command_interfaces: by joint, what hardware is told: ``position``, ``velocity``, ``effort``.
         state_interfaces: what hardware tells of each joint.
-        adds_hardware: the package adds ``<ros2_control>`` or ``<transmission>`` to the robot, for
-            its URDF has none.
+        added_joints: joints that the package adds to ``<ros2_control>`` or ``<transmission>``, for
+            the robot's own URDF does not.
+        adds_plugin: the package adds Gazebo's plug-in with the controller manager.
         initial_positions: by joint, rad or m, of simulated hardware.
         sensors: entries of ``sensors_3d.yaml``.
         author: who maintains the package.
@@ -174,13 +175,19 @@ class SetupAssistantConfig:
     controllers: tuple[ControllerChoice, ...] = ()
     command_interfaces: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     state_interfaces: tuple[str, ...] = ("position", "velocity")
-    adds_hardware: bool = True
+    added_joints: tuple[str, ...] = ()
+    adds_plugin: bool = True
     initial_positions: Mapping[str, float] = field(default_factory=dict)
     sensors: tuple[Mapping[str, Any], ...] = ()
     author: Author = field(default_factory=Author)
     description: str = ""
     others: Mapping[str, Any] = field(default_factory=dict)
     manager_others: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def adds_hardware(self) -> bool:
+        """Whether the package has a robot description of its own around the robot's."""
+        return bool(self.added_joints) or (self.ros_version == 1 and self.adds_plugin)
 
     @property
     def robot_package(self) -> str:

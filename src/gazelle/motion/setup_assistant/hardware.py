@@ -18,9 +18,10 @@ __all__ = [
     "COMMAND_INTERFACES",
     "GAINS",
     "TRAJECTORY_PLUGIN",
+    "added_joints",
     "command_interfaces",
     "controllers_for",
-    "has_hardware",
+    "has_manager_plugin",
     "joint_limits_for",
 ]
 
@@ -29,13 +30,30 @@ TRAJECTORY_PLUGIN = "joint_trajectory_controller/JointTrajectoryController"
 GAINS: Mapping[str, float] = {"p": 100.0, "i": 1.0, "d": 1.0, "i_clamp": 1.0}
 """Of a controller that commands efforts; they are a beginning, every robot wants its own."""
 
+_PLUGINS = ("gazebo_ros_control", "ros2_control")
 _DRIVEN = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 _FINGER_GAINS: Mapping[str, float] = {"p": 1000.0, "i": 0.0, "d": 20.0, "i_clamp": 1.0}
 
 
-def has_hardware(model: Model, ros_version: RosVersion) -> bool:
-    """Return whether the robot's own URDF says how its joints are driven."""
-    return bool(model.transmissions if ros_version == 1 else model.ros2_controls)
+def has_manager_plugin(model: Model) -> bool:
+    """Return whether the robot's own URDF has Gazebo's plug-in with the controller manager."""
+    return any(word in plugin.filename for plugin in model.plugins for word in _PLUGINS)
+
+
+def added_joints(
+    model: Model, interfaces: Mapping[str, object], ros_version: RosVersion
+) -> tuple[str, ...]:
+    """Return the joints that the URDF gives no motor; none where ``<ros2_control>`` has some.
+
+    Args:
+        model: the robot.
+        interfaces: joints that are to be driven.
+        ros_version: 1 looks at ``<transmission>``, 2 at ``<ros2_control>``.
+    """
+    if ros_version == 2:
+        return () if model.ros2_controls else tuple(interfaces)
+    own = _of_transmissions(model)
+    return tuple(joint for joint in interfaces if joint not in own)
 
 
 def command_interfaces(model: Model, ros_version: RosVersion) -> dict[str, tuple[str, ...]]:

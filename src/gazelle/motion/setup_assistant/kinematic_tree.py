@@ -107,6 +107,25 @@ class KinematicTree:
             link = joint.parent
         return tuple(reversed(found))
 
+    def joints_below(self, link: str) -> tuple[RobotJoint, ...]:
+        """Return all joints that hang below a link, fixed ones included."""
+        return tuple(
+            found for joint in self._below[link] for found in (joint, *self.joints_below(joint.child))
+        )
+
+    def links_above(self, link: str) -> tuple[str, ...]:
+        """Return the links above a link, the nearest first."""
+        return tuple(reversed(self._path(link)[:-1]))
+
+    def is_rigid(self, link: str, other: str) -> bool:
+        """Return whether nothing moves between two links."""
+        return self._head(link) == self._head(other)
+
+    def _head(self, link: str) -> str:
+        joint = self._above[link]
+        is_fixed = joint.kind is JointKind.FIXED and bool(joint.parent)
+        return self._head(joint.parent) if is_fixed else link
+
     def _limbs_from(self, link: str) -> Iterable[Limb]:
         """Return the limbs that begin at the rigid body of a link."""
         edges = self._moving(link)
@@ -138,7 +157,7 @@ class KinematicTree:
         """Return the limb whose last rigid body is that of `link`."""
         active = tuple(joint for joint in joints if joint.is_active)
         hand = self._hand_link(link, fingers) if fingers else ""
-        all_fingers = [joint for root in fingers for joint in (root, *self._all_below(root.child))]
+        all_fingers = [joint for root in fingers for joint in (root, *self.joints_below(root.child))]
         moving = tuple(joint for joint in all_fingers if joint.kind is not JointKind.FIXED)
         return Limb(active, base, self._tip(link, hand), hand, moving)
 
@@ -173,11 +192,6 @@ class KinematicTree:
             else:
                 found.append(joint)
         return found
-
-    def _all_below(self, link: str) -> list[RobotJoint]:
-        return [
-            found for joint in self._below[link] for found in (joint, *self._all_below(joint.child))
-        ]
 
     def _rigid(self, link: str) -> list[str]:
         """Links of the rigid body, `link` first."""

@@ -18,9 +18,10 @@ from gazelle.motion.setup_assistant.config import (
     SetupAssistantConfig,
 )
 from gazelle.motion.setup_assistant.hardware import (
+    added_joints,
     command_interfaces,
     controllers_for,
-    has_hardware,
+    has_manager_plugin,
     joint_limits_for,
 )
 from gazelle.motion.setup_assistant.kinematic_tree import KinematicTree
@@ -136,7 +137,8 @@ def with_groups(
         joint_limits=joint_limits_for(model, interfaces),
         controllers=controllers_for(robot, interfaces, config.ros_version),
         command_interfaces=interfaces,
-        adds_hardware=not has_hardware(model, config.ros_version),
+        added_joints=added_joints(model, interfaces, config.ros_version),
+        adds_plugin=not has_manager_plugin(model),
         initial_positions=initial_positions(robot, interfaces),
     )
 

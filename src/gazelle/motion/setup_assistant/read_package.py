@@ -27,8 +27,9 @@ from gazelle.motion.setup_assistant.config import (
 from gazelle.motion.setup_assistant.hardware import (
     COMMAND_INTERFACES,
     TRAJECTORY_PLUGIN,
+    added_joints,
     command_interfaces,
-    has_hardware,
+    has_manager_plugin,
 )
 from gazelle.motion.setup_assistant.package_files import SETUP_FILE, SetupAssistantError
 from gazelle.motion.setup_assistant.robot_source import load_robot
@@ -38,6 +39,7 @@ from gazelle.workspace.package_xml import Manifest, ManifestError, read_manifest
 __all__ = ["read_config_package"]
 
 Tree = Mapping[str, Any]
+Kinds = tuple[str, ...]
 _KNOWN_SETUP = frozenset(
     {"urdf", "srdf", "config", "package_settings", "modified_urdf", "control_xacro", "gazelle"}
 )
@@ -81,7 +83,8 @@ class _Reader:
         srdf, others = self._srdf(path, model, source)
         author = _part(setup, "package_settings") or _part(setup, "config")
         own = _part(setup, "gazelle")
-        driven, states, adds = self._hardware(setup, model, version)
+        driven, added = self._hardware(model, version)
+        states = _part(setup, "control_xacro").get("state") or ("position", "velocity")
         managers = self._yaml(
             "config/ros2_controllers.yaml" if version == 2 else "config/ros_controllers.yaml"
         )
@@ -104,8 +107,9 @@ class _Reader:
             self._cartesian_limits(version),
             controllers,
             driven,
-            states,
-            adds,
+            tuple(str(kind) for kind in states),
+            added,
+            not has_manager_plugin(model),
             self._initial(own),
             self._sensors(),
             Author(
@@ -163,18 +167,18 @@ class _Reader:
         others = () if root is None else root.children
         return found, tuple(tag for tag in others if tag.name not in SRDF_ELEMENTS)
 
-    def _hardware(
-        self, setup: Tree, model: Model, version: RosVersion
-    ) -> tuple[dict[str, tuple[str, ...]], tuple[str, ...], bool]:
-        states = _part(setup, "control_xacro").get("state") or ("position", "velocity")
+    def _hardware(self, model: Model, version: RosVersion) -> tuple[dict[str, Kinds], tuple[str, ...]]:
+        """What joints are commanded by, and which of them the package adds to the robot's."""
         interfaces = command_interfaces(model, version)
         name = f"{model.name}.ros2_control" if version == 2 else f"gazebo_{model.name}.urdf"
         file = self._folder / "config" / f"{name}.xacro"
         root = read_xml(file, Diagnostics()) if is_file(file) else None
-        if root is not None:
-            interfaces = _written_interfaces(root) or interfaces
-        adds = root is not None or not has_hardware(model, version)
-        return interfaces, tuple(str(item) for item in states), adds
+        written = {} if root is None else _written_interfaces(root)
+        if root is None:
+            return interfaces, ()
+        own = [joint for joint in interfaces if joint not in added_joints(model, interfaces, version)]
+        kept = {name: kinds for name, kinds in interfaces.items() if name in {*own, *written}}
+        return {**kept, **written}, tuple(written)
 
     def _controllers(
         self, version: RosVersion, managers: Tree

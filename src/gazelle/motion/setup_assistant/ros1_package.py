@@ -205,7 +205,8 @@ def _parameters(controller: ControllerChoice) -> dict[str, Any]:
 def _gazebo_xacro(config: SetupAssistantConfig) -> str:
     source = config.source
     lines: list[str] = []
-    for joint, kinds in config.command_interfaces.items():
+    for joint in config.added_joints:
+        kinds = config.command_interfaces[joint]
         lines += [
             f'  <transmission name="{joint}_transmission">',
             "    <type>transmission_interface/SimpleTransmission</type>",
@@ -218,12 +219,10 @@ def _gazebo_xacro(config: SetupAssistantConfig) -> str:
             "    </actuator>",
             "  </transmission>",
         ]
-    lines += [
-        *fixed_world_joint(config, "  "),
-        "  <gazebo>",
-        '    <plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/>',
-        "  </gazebo>",
-    ]
+    lines += fixed_world_joint(config, "  ")
+    if config.adds_plugin:
+        plugin = '<plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so"/>'
+        lines += ["  <gazebo>", f"    {plugin}", "  </gazebo>"]
     given = "".join(
         f"\n  <xacro:arg name={quoteattr(name)} default={quoteattr(value)}/>"
         for name, value in source.mappings.items()

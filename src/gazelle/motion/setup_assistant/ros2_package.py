@@ -24,12 +24,16 @@ __all__ = ["ros2_files"]
 
 _DEPENDS = (
     "controller_manager",
+    "gazebo_ros",
+    "gazebo_ros2_control",
     "joint_state_broadcaster",
     "moveit_configs_utils",
     "moveit_kinematics",
     "moveit_planners_ompl",
     "moveit_ros_move_group",
     "moveit_ros_visualization",
+    "moveit_ros_warehouse",
+    "moveit_setup_assistant",
     "moveit_simple_controller_manager",
     "robot_state_publisher",
     "rviz2",
@@ -153,7 +157,8 @@ def _urdf_xacro(config: SetupAssistantConfig) -> str:
 
 def _control_xacro(config: SetupAssistantConfig) -> str:
     lines: list[str] = []
-    for joint, kinds in config.command_interfaces.items():
+    for joint in config.added_joints:
+        kinds = config.command_interfaces[joint]
         lines.append(f'      <joint name="{joint}">')
         lines += [f'        <command_interface name="{kind}"/>' for kind in kinds]
         for kind in config.state_interfaces:
