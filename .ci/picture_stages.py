@@ -24,10 +24,11 @@ class Shot(NamedTuple):
         name: of the files.
         panels: the page opens with these; with its usual ones where there are none.
         of: the panel that is pictured, all of the page if empty.
-        typed: commands typed beside, when the page is open.
+        typed: commands typed before the page is opened.
         act: what a person does on the page.
         wait_s: how long is waited then.
         size: of the page, in px.
+        card: a demo's picture in the gallery, too: what is drawn in this panel.
     """
 
     name: str
@@ -37,33 +38,19 @@ class Shot(NamedTuple):
     act: Callable[[Any], None] = _nothing
     wait_s: float = 3.0
     size: tuple[int, int] = (1120, 700)
+    card: str = ""
 
 
 class Film(NamedTuple):
-    """A moving picture of the page, ``NAME.webp``.
+    """A moving picture, ``NAME.webp``, which ``gazelle record`` makes.
 
     Attributes:
         name: of the file.
-        panels: as in `Shot`; so are `of`, `typed`, `act`, `wait_s` and `size`.
-        frames: how many.
-        every_s: a frame is taken each time this has passed.
-        shown_ms: how long it is shown.
-        width: of the file in px; 0 leaves it.
-        quality: of WebP, 0 to 100.
+        line: the words after ``gazelle record -o NAME.webp``.
     """
 
     name: str
-    panels: tuple[str, ...] = ()
-    of: str = ""
-    typed: tuple[_Line, ...] = ()
-    act: Callable[[Any], None] = _nothing
-    wait_s: float = 3.0
-    size: tuple[int, int] = (1120, 700)
-    frames: int = 60
-    every_s: float = 0.3
-    shown_ms: int = 120
-    width: int = 0
-    quality: int = 50
+    line: str
 
 
 class Typed(NamedTuple):
@@ -73,11 +60,13 @@ class Typed(NamedTuple):
     line: str
     columns: int = 100
     lines: int = 40
-    environ: Mapping[str, str] = MappingProxyType({"FORCE_COLOR": "1"})
 
 
-def files_of(row: Shot | Film | Typed) -> tuple[str, ...]:
-    """Return the names of a picture's files."""
+Row = Shot | Film | Typed
+
+
+def files_of(row: Row) -> tuple[str, ...]:
+    """Return the names of a picture's files in ``docs/pictures``."""
     if isinstance(row, Film):
         return (f"{row.name}.webp",)
     return (f"{row.name}-light.webp", f"{row.name}-dark.webp")
@@ -87,19 +76,18 @@ class Stage(NamedTuple):
     """Pictures taken while the same commands run.
 
     Attributes:
-        workspace: the folder of ``examples`` in a copy of which everything is typed.
-        commands: typed first, each in a terminal of its own.
+        commands: typed first, each in a terminal of its own; one of them prints the page's address.
         rows: the pictures.
-        prepare: changes the copy before.
+        workspace: the folder of ``examples`` in a copy of which everything is typed.
+        prepare: changes the folder before.
     """
 
-    workspace: str
     commands: tuple[_Line, ...]
-    rows: tuple[Shot | Film | Typed, ...]
+    rows: tuple[Row, ...]
+    workspace: str = ""
     prepare: Callable[[Path], None] = _nothing
 
 
-_SPAWNED = "Successfully spawned entity"
 _TWIST = "'{linear: {x: 0.25}, angular: {z: 0.4}}'"
 
 
@@ -170,89 +158,113 @@ def _zoom(panel: str, notches: int) -> Callable[[Any], None]:
 
 _DRIVES = (f"rostopic pub -r 10 /cmd_vel geometry_msgs/Twist {_TWIST}", "")
 
-_SCOUT = Stage(
-    "scout_ws",
-    (("roslaunch scout_robot scout.launch", _SPAWNED),),
-    (
-        Shot("gazebo", ("gazebo",)),
-        Shot("rviz", ("rviz",)),
-        Shot("node_graph", ("rqt_graph",), "rqt_graph", size=(900, 520)),
-        Shot("tf_tree", ("rqt_tf_tree",), "rqt_tf_tree", size=(900, 560)),
-        Shot(
-            "service_caller",
-            ("rqt_service_caller",),
-            "rqt_service_caller",
-            act=_steps(_fill("Service", "/gazebo/get_world_properties"), _press("Call")),
-            size=(900, 420),
-        ),
-        Shot(
-            "image_view",
-            ("rqt_image_view",),
-            "rqt_image_view",
-            act=_fill("Image topic", "/camera/rgb/image_raw"),
-            size=(760, 560),
-        ),
-        Shot(
-            "plot",
-            ("rqt_plot",),
-            "rqt_plot",
-            typed=(_DRIVES,),
-            act=_fill(
-                "Topic field", "/odom/twist/twist/linear/x", "/odom/twist/twist/angular/z"
+def _demo(
+    name: str, *rows: Row, of: str = "gazebo", until_s: float = 5.0, workspace: str = ""
+) -> Stage:
+    """A demo that runs: as it begins, with its card in the gallery, and pictures of it."""
+    first = Shot(name, wait_s=until_s, card=of)
+    return Stage(((f"demo {name} --no-browser", r"page: +http"),), (first, *rows), workspace)
+
+
+def _panel(
+    name: str,
+    kind: str,
+    *steps: Callable[[Any], None],
+    typed: tuple[_Line, ...] = (),
+    size: tuple[int, int] = (900, 480),
+) -> Shot:
+    """One panel alone, after some steps."""
+    return Shot(name, (kind,), kind, typed, _steps(*steps), size=size)
+
+
+_BEFORE_THE_CRATE = (
+    "rosservice call /gazebo/set_model_state '{model_state: {model_name: scout, pose: "
+    "{position: {x: -1.0, y: -0.4}, orientation: {w: 1.0}}}}'",
+    "success: True",
+)
+
+_SCOUT = _demo(
+    "scout",
+    _panel(
+        "camera",
+        "rqt_image_view",
+        _fill("Image topic", "/camera/rgb/image_raw"),
+        typed=(_BEFORE_THE_CRATE,),
+        size=(640, 540),
+    ),
+    _panel(
+        "depth", "rqt_image_view", _fill("Image topic", "/camera/depth/image_raw"), size=(640, 540)
+    ),
+    Shot("sensors", typed=(("rviz -d src/scout_robot/rviz/scout.rviz", "http"),), wait_s=6.0),
+    _panel("node_graph", "rqt_graph", size=(900, 520)),
+    _panel("tf_tree", "rqt_tf_tree", size=(900, 560)),
+    _panel(
+        "service_caller",
+        "rqt_service_caller",
+        _fill("Service", "/gazebo/get_world_properties"),
+        _press("Call"),
+        size=(900, 420),
+    ),
+    _panel(
+        "plot",
+        "rqt_plot",
+        _fill("Topic field", "/odom/pose/pose/position/x", "/odom/pose/pose/position/y"),
+        _wait(12),
+        typed=(_DRIVES,),
+        size=(900, 400),
+    ),
+    _panel("topics", "rqt_topic", _wait(2), _tick("/imu")),
+    _panel("steering", "rqt_robot_steering", size=(760, 460)),
+    _panel("reconfigure", "rqt_reconfigure", _press("/gazebo", "option")),
+    _panel(
+        "publisher",
+        "rqt_publisher",
+        _fill("Topic", "/cmd_vel"),
+        _wait(2),
+        _press("Add"),
+        _fill("angular.z", "sin(t)"),
+        size=(900, 420),
+    ),
+    Typed("echo", "rostopic echo -n 1 /odom", columns=80, lines=24),
+    workspace="scout_ws",
+)
+
+_ARM = _demo(
+    "arm",
+    Shot("motion_planning", ("rviz", "motion_planning"), act=_steps(_wait(4), _press("Plan"))),
+    _panel("joints", "joint_state_publisher_gui", size=(520, 480)),
+    until_s=9.0,
+)
+
+_MAPPING = _demo(
+    "mapping",
+    Shot(
+        "navigation",
+        ("rviz", "navigation"),
+        typed=(
+            (
+                "ros2 topic pub --once /goal_pose geometry_msgs/msg/PoseStamped '{header: "
+                "{frame_id: map}, pose: {position: {x: 2.0, y: -0.6}, orientation: {w: 1.0}}}'",
+                "",
             ),
-            wait_s=12.0,
-            size=(900, 400),
         ),
-        Shot(
-            "topics",
-            ("rqt_topic",),
-            "rqt_topic",
-            act=_steps(_wait(2), _tick("/clock", "/odom", "/scan")),
-            size=(900, 480),
-        ),
-        Shot("console", ("rqt_console",), "rqt_console", size=(900, 400)),
-        Shot("steering", ("rqt_robot_steering",), "rqt_robot_steering", size=(760, 480)),
-        Shot(
-            "reconfigure",
-            ("rqt_reconfigure",),
-            "rqt_reconfigure",
-            act=_press("/gazebo", "option"),
-            size=(900, 480),
-        ),
-        Shot(
-            "publisher",
-            ("rqt_publisher",),
-            "rqt_publisher",
-            act=_steps(_fill("Topic", "/cmd_vel"), _wait(2), _press("Add"), _fill("angular.z", "sin(t)")),
-            size=(900, 420),
-        ),
+        wait_s=6.0,
     ),
+    of="rviz",
+    until_s=8.0,
 )
 
-_ARM = Stage(
-    "arm_ws",
-    (("ros2 launch heron_bringup heron.launch.py", "You can start planning now"),),
-    (
-        Film(
-            "arm",
-            ("gazebo",),
-            "gazebo",
-            typed=(("ros2 run heron_bringup pick_and_place", ""),),
-            size=(1120, 700),
-            frames=60,
-            every_s=0.4,
-        ),
-        Shot("motion_planning", ("rviz", "motion_planning"), act=_wait(4)),
-        Shot(
-            "joints", ("joint_state_publisher_gui",), "joint_state_publisher_gui", size=(520, 480)
-        ),
-    ),
-)
+_EMPTY = Stage((("studio --no-browser", "Studio: http"),), (Shot("start", wait_s=4.0),))
 
-_TURTLES = Stage(
-    "scout_ws",
-    (("roscore", ""), ("rosrun turtlesim turtlesim_node", "Spawning turtle")),
-    (Shot("turtlesim", ("turtlesim",), "turtlesim", size=(620, 660)),),
+STAGES = (
+    _EMPTY,
+    _SCOUT,
+    _demo("four_wheels"),
+    _ARM,
+    _MAPPING,
+    _demo("balancer", until_s=9.0),
+    _demo("turtles", of="turtlesim", until_s=12.0),
+    _demo("playground"),
+    _demo("plugin"),
+    _demo("controller", until_s=12.0),
 )
-
-STAGES = (_SCOUT, _ARM, _TURTLES)

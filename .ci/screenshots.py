@@ -26,18 +26,20 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from PIL import Image
+from PIL import Image, ImageOps
 from rich.console import Console
 from rich.terminal_theme import DEFAULT_TERMINAL_THEME, MONOKAI, TerminalTheme
 from rich.text import Text
 
 sys.path.insert(0, str(Path(__file__).parent))
-from picture_stages import STAGES, Film, Shot, Stage, Typed
+from picture_stages import STAGES, Film, Row, Shot, Stage, Typed
 
 __all__ = ["main"]
 
 _ROOT = Path(__file__).resolve().parents[1]
 _PICTURES = _ROOT / "docs" / "pictures"
+_CARDS = _ROOT / "src" / "gazelle" / "demo" / "pictures"
+_CARD_SIZE = (480, 270)
 _THEMES = ("light", "dark")
 _WAIT_S = 120.0
 _CHROMIUM = ("chromium", "chromium-browser", "google-chrome")
@@ -158,50 +160,51 @@ def _browser() -> Iterator[Any]:
         browser.close()
 
 
-def _play(
-    stage: Stage, rows: Sequence[Shot | Film | Typed], browser: Any, into: Path, port: int
-) -> None:
+def _play(stage: Stage, rows: Sequence[Row], browser: Any, into: Path, port: int) -> None:
     with tempfile.TemporaryDirectory() as made, contextlib.ExitStack() as stack:
         home = Path(made) / "home"
         home.mkdir()
-        folder = Path(made) / "workspace"
-        shutil.copytree(_ROOT / "examples" / stage.workspace, folder)
+        folder = Path(made) / "robots"
+        folder.mkdir()
+        if stage.workspace:
+            shutil.copytree(_ROOT / "examples" / stage.workspace, folder, dirs_exist_ok=True)
         stage.prepare(folder)
         terminals = _Terminals(folder, home, port)
         stack.callback(terminals.close)
-        for line, sign in stage.commands:
-            terminals.begin(line, sign)
         url = ""
+        for line, sign in stage.commands:
+            if found := re.search(r"http://127\S+", terminals.begin(line, sign)):
+                url = found.group()
         for row in rows:
             print(row.name, flush=True)
             if isinstance(row, Typed):
-                _picture_text(row, terminals.output(row.line, row.environ), browser, into)
-                continue
-            if not url:
-                said = terminals.begin("studio --no-browser", r"Studio: http")
-                url = said.split("Studio: ")[1].strip()
-            _picture_page(row, url, terminals, browser, into)
+                text = terminals.output(row.line, {"FORCE_COLOR": "1", "COLUMNS": str(row.columns)})
+                _picture_text(row, text, browser, into)
+            elif isinstance(row, Film):
+                terminals.output(f"record -o {(into / row.name).resolve()}.webp {row.line}", {})
+            else:
+                _picture_page(row, url, terminals, browser, into)
 
 
-def _picture_page(
-    row: Shot | Film, url: str, terminals: _Terminals, browser: Any, into: Path
-) -> None:
+def _picture_page(row: Shot, url: str, terminals: _Terminals, browser: Any, into: Path) -> None:
+    for line, sign in row.typed:
+        terminals.begin(line, sign)
     context = browser.new_context(viewport={"width": row.size[0], "height": row.size[1]})
     page = context.new_page()
     page.set_default_timeout(_WAIT_S * 1000)
     asked = f"&panels={','.join(row.panels)}" if row.panels else ""
     page.goto(f"{url}{asked}&quality=high")
     page.locator(".light[data-state=open]").wait_for()
-    for line, sign in row.typed:
-        terminals.begin(line, sign)
     row.act(page)
     _settle(page, row.wait_s)
-    if isinstance(row, Film):
-        _film(row, page, into)
-    else:
-        for theme in _THEMES:
-            _show_theme(page, theme)
-            _save(_still(page, row.of), into / f"{row.name}-{theme}.webp")
+    for theme in _THEMES:
+        _show_theme(page, theme)
+        _save(_still(page, row.of), into / f"{row.name}-{theme}.webp")
+    if row.card:
+        drawn = ImageOps.fit(_still(page, row.card, " canvas").convert("RGB"), _CARD_SIZE)
+        folder = _CARDS if into == _PICTURES else into
+        folder.mkdir(exist_ok=True)
+        _save(drawn, folder / f"{row.name}.webp")
     context.close()
 
 
@@ -216,32 +219,9 @@ def _show_theme(page: Any, theme: str) -> None:
         _settle(page, 1.5)
 
 
-def _still(page: Any, panel: str) -> Image.Image:
-    where = page.locator(f"[data-panel='{panel}']").first if panel else page
+def _still(page: Any, panel: str, part: str = "") -> Image.Image:
+    where = page.locator(f"[data-panel='{panel}']{part}").first if panel else page
     return Image.open(io.BytesIO(where.screenshot()))
-
-
-def _film(row: Film, page: Any, into: Path) -> None:
-    """One theme only: it stands at the head of README, where a moving picture has no second one."""
-    frames: list[Image.Image] = []
-    begun = time.monotonic()
-    while len(frames) < row.frames:
-        frames.append(_still(page, row.of).convert("RGB"))
-        left = begun + len(frames) * row.every_s - time.monotonic()
-        _settle(page, max(0.0, left))
-    if row.width:
-        size = (row.width, round(frames[0].height * row.width / frames[0].width))
-        frames = [frame.resize(size, Image.Resampling.LANCZOS) for frame in frames]
-    frames[0].save(
-        into / f"{row.name}.webp",
-        save_all=True,
-        append_images=frames[1:],
-        duration=row.shown_ms,
-        loop=0,
-        quality=row.quality,
-        method=6,
-        minimize_size=True,
-    )
 
 
 def _picture_text(row: Typed, text: str, browser: Any, into: Path) -> None:
