@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import shlex
+import signal
 import subprocess
 import sys
 import threading
@@ -191,6 +193,7 @@ class _Show:
         self._running: list[subprocess.Popen[str]] = []
         self._readers: list[threading.Thread] = []
         self._code = 0
+        self._is_ending = False
         self._last: deque[str] = deque(maxlen=_LAST_LINES)
 
     @property
@@ -228,6 +231,7 @@ class _Show:
         """End what runs, the launch last; return 1 and tell why where it had failed by itself."""
         if not self._running:
             return self._code
+        self._is_ending = True
         failed = self.is_over and self._running[0].returncode != 0
         for process in reversed(self._running):
             _end(process)
@@ -245,7 +249,7 @@ class _Show:
         for line in lines:
             text = line.rstrip("\n")
             self._last.append(text)
-            if any(sign in text for sign in _FAILED):
+            if not self._is_ending and any(sign in text for sign in _FAILED):
                 print(text, file=sys.stderr, flush=True)
 
 
@@ -263,11 +267,9 @@ def _environment(demo: Demo) -> Mapping[str, str]:
 
 
 def _end(process: subprocess.Popen[str]) -> None:
-    import signal
-
     for number, patience_s in ((signal.SIGINT, _STOP_S), (signal.SIGTERM, _KILL_S)):
         if process.poll() is None:
-            process.send_signal(number)
+            _tell(process, number)
             try:
                 process.wait(patience_s)
             except subprocess.TimeoutExpired:
@@ -275,3 +277,12 @@ def _end(process: subprocess.Popen[str]) -> None:
     if process.poll() is None:
         process.kill()
         process.wait()
+
+
+def _tell(process: subprocess.Popen[str], number: int) -> None:
+    """Send a signal to what a terminal would: ``ros2 run`` leaves it to its program to end."""
+    if not hasattr(os, "killpg"):
+        process.send_signal(number)
+        return
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, number)

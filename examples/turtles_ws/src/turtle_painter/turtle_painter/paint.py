@@ -7,6 +7,7 @@ import math
 
 import rclpy
 from geometry_msgs.msg import Twist
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from turtlesim.srv import SetPen, Spawn
 
@@ -79,7 +80,7 @@ def main(args=None):
     node = Paint()
     try:
         node.run()
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
         node.destroy_node()
