@@ -17,6 +17,7 @@ defined there:
         EngineError
             SimulationDivergedError
         ExtensionError
+        FilmError
         GraphError
             FrameError
             GoalStateError
@@ -46,6 +47,7 @@ defined there:
         MapWriteError
         MassError
         MeshError
+        NoWorldError
         NotFoundError
         ReconfigureError
         RosArgumentError

@@ -68,6 +68,7 @@ COMMANDS: dict[str, Command] = {
     "ign": Command("gazelle.cli.gz.ign", "ign of Fortress: gazebo, topic, service, model, sdf"),
     "studio": Command("gazelle.cli.studio", "open the browser page on a running graph"),
     "view": Command("gazelle.cli.view", "draw a robot, a model or a world into a PNG file"),
+    "record": Command("gazelle.cli.record", "record a run as a replay page, a film or a picture"),
     "convert": Command("gazelle.cli.convert", "write a robot or world as URDF, SDF or MJCF"),
     "catkin_create_pkg": Command("gazelle.cli.catkin_create_pkg", "write a package for ROS 1"),
     "catkin": Command("gazelle.cli.catkin", "build, init, config, clean, list, locate"),

@@ -495,6 +495,10 @@ export interface SensorValue {
   type: string;
   pose: [number, number, number, number, number, number, number];
   rate_hz: number;
+  /** of a camera: its full horizontal angle of view. */
+  fov_rad?: number;
+  /** of a camera: where it is in the sensor's frame. */
+  lens?: [number, number, number, number, number, number, number];
 }
 
 /** A light. */
