@@ -17,6 +17,7 @@ class Command(NamedTuple):
 
 
 COMMANDS: dict[str, Command] = {
+    "demo": Command("gazelle.cli.demo", "run a demo: a robot, its world and the page"),
     "env": Command("gazelle.cli.env", "print shell lines that make the ROS commands available"),
     "complete": Command("gazelle.cli.completion", "print what may follow the words of a command"),
     "shell": Command("gazelle.cli.shell", "start a shell with the ROS commands and modules"),

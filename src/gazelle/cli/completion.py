@@ -14,6 +14,7 @@ from pathlib import Path
 from gazelle.cli.commands import COMMANDS
 from gazelle.cli.ros_tool import Tool
 from gazelle.cli.ros_types import learn_workspace_types, shown_type
+from gazelle.demo import DEMOS
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
@@ -156,6 +157,8 @@ def _found(command: str, argv: list[str]) -> Iterable[str]:
         return package_names() if position == 1 else ()
     if command in {"rosrun", "roslaunch", "rosversion"}:
         return _in_package(command, argv, 1)
+    if command == "demo":
+        return [demo.name for demo in DEMOS] if position == 1 else ()
     if command not in COMMANDS:
         return ()
     if command == "ros2":

@@ -36,6 +36,7 @@ __all__ = [
     "start_node",
     "start_ros2_node",
     "ticks",
+    "use_own_sim_time",
     "tree_of_node",
 ]
 
@@ -116,9 +117,17 @@ def start_ros2_node(arguments: NodeArguments, graph: Graph) -> tuple[Node, dict[
     """Make the graph node; returns it and its parameters, nested, for `offer_parameters`."""
     node = start_node(arguments, graph, offers_parameters=False)
     tree = nested(arguments.params)
-    if tree.get("use_sim_time") in (True, "true", "True"):
-        node.clock.use(True)
+    use_own_sim_time(node, tree)
     return node, tree
+
+
+def use_own_sim_time(node: Node, params: Mapping[str, Any]) -> None:
+    """Let ROS 2's parameter ``use_sim_time`` count before a simulator is there to say it for all.
+
+    Who starts before the simulator would stamp its first messages with wall time otherwise.
+    """
+    if params.get("use_sim_time") in (True, "true", "True"):
+        node.clock.use(True)
 
 
 def node_parameters(

@@ -20,11 +20,15 @@ __all__ = [
     "PackageSource",
     "ResourceFolders",
     "builtin_package_names",
+    "demo_folder",
+    "demo_sources",
     "package_sources",
     "resource_folders",
 ]
 
 BUILTIN = Path(__file__).parent / "builtin"
+_INSTALLED_DEMOS = Path(__file__).parents[1] / "demo" / "workspaces"
+_DEMOS_IN_SOURCES = Path(__file__).parents[3] / "examples"
 _PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
 _MODEL_VARIABLES = (
     "GAZEBO_MODEL_PATH",
@@ -110,6 +114,24 @@ def resource_folders(environ: Mapping[str, str]) -> ResourceFolders:
 
 
 @cache
+def demo_folder() -> Path:
+    """Return the folder of the demos' workspaces: in the wheel, or in the tree it is made from."""
+    return _INSTALLED_DEMOS if _INSTALLED_DEMOS.is_dir() else _DEMOS_IN_SOURCES
+
+
+@cache
+def demo_sources() -> tuple[PackageSource, ...]:
+    """Return the demos' workspaces, where a name is looked up that is nowhere else.
+
+    So what a demo prints to be typed works in every folder, and no package of anybody is hidden.
+    """
+    return tuple(
+        PackageSource(f"demo: {folder}", cache(partial(_packages_below, folder)))
+        for folder in sorted(demo_folder().glob("*_ws"))
+    )
+
+
+@cache
 def builtin_package_names() -> frozenset[str]:
     """Return the names of Gazelle's own packages, which are those of their folders."""
     return frozenset(path.name for path in (BUILTIN / "packages").iterdir() if path.is_dir())
@@ -119,6 +141,10 @@ def builtin_package_names() -> frozenset[str]:
 def _builtin_packages() -> tuple[FoundPackage, ...]:
     """Gazelle's own packages stay what they are while a process runs."""
     return tuple(crawl_source(BUILTIN / "packages"))
+
+
+def _packages_below(folder: Path) -> tuple[FoundPackage, ...]:
+    return tuple(crawl_source(folder))
 
 
 def _fuel_root(environ: Mapping[str, str], home: Path, brand: str) -> Path:

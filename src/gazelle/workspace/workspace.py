@@ -14,6 +14,7 @@ from gazelle.workspace.environment_paths import (
     BUILTIN,
     PackageSource,
     ResourceFolders,
+    demo_sources,
     package_sources,
     resource_folders,
 )
@@ -66,7 +67,11 @@ class Workspace:
 
     @property
     def packages(self) -> Mapping[str, Package]:
-        """All packages by name, sorted; the first place found wins, as in ROS."""
+        """All packages by name, sorted; the first place found wins, as in ROS.
+
+        A package of a demo is none of them before it is asked for by name and is nowhere else;
+        then its workspace's packages are the user's.
+        """
         return self._packages
 
     @property
@@ -174,6 +179,7 @@ class _Packages(Mapping[str, Package]):
 
     def __init__(self, sources: tuple[PackageSource, ...], diagnostics: Diagnostics) -> None:
         self._waiting = list(sources)
+        self._demos = list(demo_sources())
         self._diagnostics = diagnostics
         self._found: dict[str, tuple[FoundPackage, bool]] = {}
         self._parsed: dict[str, Package] = {}
@@ -181,6 +187,8 @@ class _Packages(Mapping[str, Package]):
     def __getitem__(self, name: str) -> Package:
         while name not in self._found and self._waiting:
             self._crawl_next()
+        if name not in self._found:
+            self._take_demo_with(name)
         if name not in self._parsed:
             found, is_builtin = self._found[name]
             if is_builtin and found.manifest is not None:
@@ -218,6 +226,15 @@ class _Packages(Mapping[str, Package]):
             if first.path != found.path:
                 self._report_twice(first, found)
             self._found.setdefault(found.name, (found, source.is_builtin))
+
+    def _take_demo_with(self, name: str) -> None:
+        for source in self._demos:
+            packages = tuple(source.crawl())
+            if any(found.name == name for found in packages):
+                self._demos.remove(source)
+                for found in packages:
+                    self._found.setdefault(found.name, (found, False))
+                return
 
     def _report_twice(self, first: FoundPackage, second: FoundPackage) -> None:
         self._diagnostics.report(
