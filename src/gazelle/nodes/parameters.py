@@ -36,8 +36,8 @@ __all__ = [
     "start_node",
     "start_ros2_node",
     "ticks",
-    "use_own_sim_time",
     "tree_of_node",
+    "use_own_sim_time",
 ]
 
 
