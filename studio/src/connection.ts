@@ -4,6 +4,7 @@ import { Channel, type ChannelHandlers, type StatusLevel } from './channel';
 import { CallError } from './errors';
 import { readFrame } from './binary_frame';
 import type { Hello, Show } from './generated/messages';
+import { serverPath } from './server_path';
 import { isObject, numberOf, textOf, type Json, type JsonObject } from './json';
 
 export type ConnectionState = 'connecting' | 'open' | 'lost';
@@ -217,9 +218,4 @@ export function socketUrl(place: Location = location): string {
   const token = new URLSearchParams(place.search).get('token');
   const query = token ? `?token=${encodeURIComponent(token)}` : '';
   return `${scheme}://${place.host}${serverPath('/ws', place)}${query}`;
-}
-
-/** A path of the server as this page reaches it, which may lie in a folder there. */
-export function serverPath(path: string, place: Location = location): string {
-  return place.pathname.replace(/[^/]*$/, '') + path.slice(1);
 }

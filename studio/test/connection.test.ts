@@ -1,5 +1,6 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import { Connection, serverPath, socketUrl } from '../src/connection';
+import { Connection, socketUrl } from '../src/connection';
+import { serverPath } from '../src/server_path';
 import type { JsonObject } from '../src/json';
 
 /** A WebSocket whose server is the test. */

@@ -11,10 +11,11 @@ from gazelle.notebook.charts import Line, chart_bundle
 from gazelle.rich_display import Bundle
 
 if TYPE_CHECKING:
+    from gazelle.motion.moveit_config_planner import PlannedMotion
     from gazelle.motion.planning.problem import Path
     from gazelle.motion.timing.trajectory import Trajectory
 
-__all__ = ["joint_lines", "path_bundle", "trajectory_bundle"]
+__all__ = ["joint_lines", "motion_bundle", "path_bundle", "trajectory_bundle"]
 
 
 def trajectory_bundle(trajectory: Trajectory) -> Bundle:
@@ -26,6 +27,11 @@ def trajectory_bundle(trajectory: Trajectory) -> Bundle:
     ]
     lines = joint_lines(trajectory.names, trajectory.times_s, trajectory.positions)
     return chart_bundle(lines, y_label="position, rad or m", caption="; ".join(words))
+
+
+def motion_bundle(motion: PlannedMotion) -> Bundle:
+    """Return a planned motion: when the joints are where."""
+    return trajectory_bundle(motion.trajectory)
 
 
 def path_bundle(path: Path) -> Bundle:

@@ -194,8 +194,6 @@ def _still(sim: Simulation) -> bytes:
 
 def _recorder(sim: Simulation) -> Any:
     """Begin to record what moves."""
-    try:
-        from gazelle.recording import record
-    except ImportError:
-        return None
+    from gazelle.recording import record
+
     return record(sim, rate_hz=_REPLAY_HZ, topics=())

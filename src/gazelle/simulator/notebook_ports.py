@@ -2,9 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
 
-__all__ = ["LiveWorldPort", "ViewPort"]
+if TYPE_CHECKING:
+    from gazelle.simulator.run_history import Samples
+
+__all__ = ["LiveWorldPort", "PlotPort", "ViewPort"]
+
+
+class PlotPort(Protocol):
+    """Curves over a run, see `Simulation.plot`."""
+
+    @property
+    def data(self) -> Mapping[str, Samples]:
+        """Times (``times_s``) and values (``values``) of each curve, as arrays."""
+        ...
+
+    def save(self, path: str | Path) -> Path:
+        """Write it to a file: ``.svg``, ``.png``, ``.pdf`` or ``.csv``."""
+        ...
 
 
 class ViewPort(Protocol):

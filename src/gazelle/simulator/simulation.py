@@ -19,6 +19,7 @@ from gazelle.rich_display import shown_by
 from gazelle.simulator.description_sources import Source, loaded_from, models_from, world_from
 from gazelle.simulator.intra_process_node import LocalNode
 from gazelle.simulator.node_interfaces import NodePort, SubscriptionPort
+from gazelle.simulator.run_history import RunHistory
 from gazelle.simulator.simulation_handles import (
     SimJoint,
     SimLink,
@@ -32,7 +33,7 @@ from gazelle.workspace import Workspace
 
 if TYPE_CHECKING:
     from gazelle.graph.actions import LocalGoal
-    from gazelle.simulator.notebook_ports import LiveWorldPort, ViewPort
+    from gazelle.simulator.notebook_ports import LiveWorldPort, PlotPort, ViewPort
     from gazelle.simulator.simulation_handles import SimControllers
 
 __all__ = ["Simulation", "full_name"]
@@ -86,6 +87,7 @@ class Simulation:
             controls=controls,
             progress=_say_to_person,
         )
+        self._history = RunHistory(self.server)
         self._live: LiveWorldPort | None = None
         self._views: list[ViewPort] = []
         self._pace: float | None = None
@@ -160,6 +162,7 @@ class Simulation:
         if self._live is not None:
             self._live.close()
             self._live = None
+        self._history.close()
         self.server.close()
 
     @property
@@ -232,6 +235,30 @@ class Simulation:
         view, self._live = show(self, self._live, height_px=height_px, origin=origin)
         self._views.append(view)
         return cast("ViewPort", view)
+
+    def plot(self, *names: str) -> PlotPort:
+        """Plot joints, links, sensors and topics over the run; a notebook shows it as a chart.
+
+        Joints and links are recorded from the start. Efforts, sensors and topics are from the
+        first plot of them on: plot, run, and look at the plot again.
+
+        Args:
+            names: ``JOINT/position``, ``/velocity`` or ``/effort``; ``LINK/x``, ``y``, ``z``,
+                ``roll``, ``pitch`` or ``yaw`` in the world, or a model's; a number of a sensor's
+                record, ``imu/linear_acceleration_m_s2[0]``; or of a topic's messages,
+                ``/odom/twist/twist/linear/x``.
+
+        Raises:
+            NotFoundError: there is no such thing; the message names the nearest.
+            GazelleError: nothing was named, or it is no number.
+
+        Example:
+            >>> sim.run(seconds=5)
+            >>> sim.plot("joint_1/position", "joint_1/velocity").save("joint_1.png")
+        """
+        # Charts are a layer above.
+        made = import_module("gazelle.notebook.plots").plot(self, self._history, names)
+        return cast("PlotPort", made)
 
     def pause(self) -> None:
         """Stop time for a server that runs on its own (`WorldServer.run`)."""

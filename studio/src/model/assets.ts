@@ -1,6 +1,6 @@
 /** Meshes and textures by key, read once and shared by all views of the page. */
 import * as THREE from 'three';
-import { serverPath } from '../connection';
+import { serverPath } from '../server_path';
 import { unit } from './geometry';
 
 const HEADER_BYTES = 16;

@@ -1,6 +1,6 @@
 /** A panel of the user's own: draws the widgets that its Python class lists. */
 
-import { serverPath } from '../connection';
+import { serverPath } from '../server_path';
 import '../styles/plugins.css';
 import type { Channel } from '../channel';
 import { inOneLine } from '../errors';

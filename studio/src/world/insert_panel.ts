@@ -1,5 +1,6 @@
 /** Insert: shapes, the models of the model paths with pictures, and files. */
-import { serverPath, type Connection } from '../connection';
+import type { Connection } from '../connection';
+import { serverPath } from '../server_path';
 import type { ModelEntry } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
