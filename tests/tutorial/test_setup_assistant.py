@@ -18,7 +18,9 @@ pytestmark = [pytest.mark.tutorial, pytest.mark.slow]
 
 _ARM_WS = Path(__file__).parents[2] / "examples" / "arm_ws"
 _KIND = action_type("moveit_msgs/MoveGroup")
-_GOAL = dict(zip([f"joint_{n}" for n in range(1, 7)], [0.4, 0.5, -0.6, 0.3, 0.4, -0.2], strict=True))
+_GOAL = dict(
+    zip([f"joint_{n}" for n in range(1, 7)], [0.4, 0.5, -0.6, 0.3, 0.4, -0.2], strict=True)
+)
 _READY = "You can start planning now!"
 _SUCCESS = 1
 
@@ -93,9 +95,7 @@ def _make(gazelle: Callable[..., Any], workspace: Path, *words: str) -> None:
     assert made.wait() == 0, made.text
 
 
-def _moves(
-    launched: Any, action: str, goal: Mapping[str, float], ros_version: int = 2
-) -> None:
+def _moves(launched: Any, action: str, goal: Mapping[str, float], ros_version: int = 2) -> None:
     """Plan to positions of the arm's joints, execute, and look where they are."""
     client = ActionClient(launched.node, action, _KIND, ros_version=ros_version)
     assert client.wait_for_server(stretched()), launched.text

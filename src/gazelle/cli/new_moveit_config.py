@@ -1,4 +1,4 @@
-"""``gazelle new moveit_config ROBOT.urdf``: a MoveIt config package with what the robot suggests."""
+"""``gazelle new moveit_config ROBOT.urdf``: a MoveIt config package that the robot suggests."""
 
 from __future__ import annotations
 
@@ -85,21 +85,41 @@ def _parser() -> argparse.ArgumentParser:
     ros_version = parser.add_mutually_exclusive_group()
     ros_version.add_argument("--ros1", action="store_true", help="for MoveIt 1")
     ros_version.add_argument("--ros2", action="store_true", help="for MoveIt 2")
-    add("--group", action="append", default=[], metavar="NAME=BASE:TIP",
-        help="a planning group of the joints between two links, in place of the proposed arms")  # fmt: skip
-    add("--ee", action="append", default=[], metavar="NAME=LINK",
-        help="an end effector: a group of the joints below a link, in place of the proposed hands")  # fmt: skip
+    add(
+        "--group",
+        action="append",
+        default=[],
+        metavar="NAME=BASE:TIP",
+        help="a planning group of the joints between two links, in place of the proposed arms",
+    )
+    add(
+        "--ee",
+        action="append",
+        default=[],
+        metavar="NAME=LINK",
+        help="an end effector: a group of the joints below a link, in place of proposed hands",
+    )
     add("--name", default="", help="of the package (default: ROBOT_moveit_config)")
     add("--xacro-args", nargs="+", default=[], metavar="NAME:=VALUE", help="for the robot's xacro")
-    add("--trials", type=int, default=10_000, metavar="N",
-        help="random configurations that links are looked for in that never meet (10000)")  # fmt: skip
+    add(
+        "--trials",
+        type=int,
+        default=10_000,
+        metavar="N",
+        help="random configurations that links are looked for in that never meet (10000)",
+    )
     add("--seed", type=int, default=0, metavar="N", help="of those configurations (0)")
     add("--author", default="", help="who maintains the package")
     add("--email", default="", help="his or her address")
     add("--into", type=Path, metavar="FOLDER", help="where to (default: src here, else here)")
     add("--update", action="store_true", help="of a package that is there: look at the robot anew")
-    add("--overwrite", action="append", default=[], metavar="FILE",
-        help="with --update, write a file of the package although somebody edited it")  # fmt: skip
+    add(
+        "--overwrite",
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="with --update, write a file of the package although somebody edited it",
+    )
     return parser
 
 
@@ -139,7 +159,9 @@ def _proposal(
             search=search,
         )
     author = config.author
-    author = replace(author, name=options.author or author.name, email=options.email or author.email)
+    author = replace(
+        author, name=options.author or author.name, email=options.email or author.email
+    )
     return replace(config, author=author)
 
 
@@ -225,7 +247,9 @@ def _written(
     planned = planned_files(config, folder)
     unknown = sorted(set(overwrite) - {item.path for item in planned})
     if unknown:
-        raise ScaffoldError(f"--overwrite: '{unknown[0]}' is no file that the package is written of")
+        raise ScaffoldError(
+            f"--overwrite: '{unknown[0]}' is no file that the package is written of"
+        )
     written = write_package(config, folder, overwrite=overwrite)
     paths = {item.path for item in written}
     edited = [item.path for item in planned if item.state is FileState.EDITED]
@@ -259,7 +283,10 @@ def _rows(config: SetupAssistantConfig) -> Iterator[tuple[str, str]]:
         where = f"{effector.group} on {effector.parent_link} of {effector.parent_group}"
         yield f"end effector {effector.name}", where
     for joint in srdf.virtual_joints:
-        yield f"virtual joint {joint.name}", f"{joint.type}, {joint.parent_frame} to {joint.child_link}"
+        yield (
+            f"virtual joint {joint.name}",
+            f"{joint.type}, {joint.parent_frame} to {joint.child_link}",
+        )
     if srdf.passive_joints:
         yield "passive joints", ", ".join(srdf.passive_joints)
     for controller in config.controllers:

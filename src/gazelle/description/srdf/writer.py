@@ -72,7 +72,9 @@ def srdf_text(srdf: Srdf, others: Iterable[Tag] = ()) -> str:
 def _group(group: Group) -> list[str]:
     inner = [_element("link", name=name) for name in group.links]
     inner += [_element("joint", name=name) for name in group.joints]
-    inner += [_element("chain", base_link=it.base_link, tip_link=it.tip_link) for it in group.chains]
+    inner += [
+        _element("chain", base_link=it.base_link, tip_link=it.tip_link) for it in group.chains
+    ]
     inner += [_element("group", name=name) for name in group.subgroups]
     return _nested("group", inner, name=group.name)
 

@@ -60,7 +60,9 @@ def chosen_groups(
         named = [group for group in suggested if group.name in hand_names]
         grippers = list(zip(named, links, strict=True))
     mounted = [
-        found for group, link in grippers if (found := _mounted(tree, arms, group, link)) is not None
+        found
+        for group, link in grippers
+        if (found := _mounted(tree, arms, group, link)) is not None
     ]
     return (*arms, *(group for group, _ in grippers)), tuple(mounted)
 

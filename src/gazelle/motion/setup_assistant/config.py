@@ -47,8 +47,8 @@ class RobotSource:
     @property
     def mappings(self) -> dict[str, str]:
         """Values of xacro's arguments by name."""
-        words = [word.split(":=", 1) for word in self.xacro_args.split() if ":=" in word]
-        return {name: value for name, value in words}
+        words = [word.partition(":=") for word in self.xacro_args.split() if ":=" in word]
+        return {name: value for name, _, value in words}
 
     @property
     def is_xacro(self) -> bool:

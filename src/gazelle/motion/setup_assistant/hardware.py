@@ -164,7 +164,11 @@ def _of_transmissions(model: Model) -> dict[str, tuple[str, ...]]:
         for joint in transmission.joints:
             words = [
                 *joint.hardware_interfaces,
-                *(word for actuator in transmission.actuators for word in actuator.hardware_interfaces),
+                *(
+                    word
+                    for actuator in transmission.actuators
+                    for word in actuator.hardware_interfaces
+                ),
             ]
             kinds = [
                 kind for kind in COMMAND_INTERFACES

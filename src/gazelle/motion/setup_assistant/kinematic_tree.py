@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from os.path import commonprefix
 
 from gazelle.description.srdf import Chain, EndEffector, Group
 from gazelle.motion.model import JointKind, RobotJoint, RobotModel
@@ -110,7 +109,9 @@ class KinematicTree:
     def joints_below(self, link: str) -> tuple[RobotJoint, ...]:
         """Return all joints that hang below a link, fixed ones included."""
         return tuple(
-            found for joint in self._below[link] for found in (joint, *self.joints_below(joint.child))
+            found
+            for joint in self._below[link]
+            for found in (joint, *self.joints_below(joint.child))
         )
 
     def links_above(self, link: str) -> tuple[str, ...]:
@@ -157,7 +158,9 @@ class KinematicTree:
         """Return the limb whose last rigid body is that of `link`."""
         active = tuple(joint for joint in joints if joint.is_active)
         hand = self._hand_link(link, fingers) if fingers else ""
-        all_fingers = [joint for root in fingers for joint in (root, *self.joints_below(root.child))]
+        all_fingers = [
+            joint for root in fingers for joint in (root, *self.joints_below(root.child))
+        ]
         moving = tuple(joint for joint in all_fingers if joint.kind is not JointKind.FIXED)
         return Limb(active, base, self._tip(link, hand), hand, moving)
 
@@ -201,8 +204,8 @@ class KinematicTree:
     def _hand_link(self, link: str, fingers: Sequence[RobotJoint]) -> str:
         """The lowest link that carries all fingers."""
         paths = [[*self._path(joint.parent)] for joint in fingers]
-        shared = commonprefix(paths)
-        return str(shared[-1]) if shared else link
+        shared = [row[0] for row in zip(*paths, strict=False) if len(set(row)) == 1]
+        return shared[-1] if shared else link
 
     def _path(self, link: str) -> list[str]:
         joint = self._above[link]
@@ -271,7 +274,8 @@ def _is_arm(limb: Limb) -> bool:
 def _side(limb: Limb) -> str:
     names = [joint.child for joint in limb.joints]
     return next(
-        (side for side, form in _SIDES.items() if names and all(form.search(it) for it in names)), ""
+        (side for side, form in _SIDES.items() if names and all(form.search(it) for it in names)),
+        "",
     )
 
 

@@ -172,9 +172,7 @@ def virtual_joints_for(robot: RobotModel) -> tuple[VirtualJoint, ...]:
     return (VirtualJoint("virtual_joint", "fixed", "world", root),)
 
 
-def passive_joints_for(
-    robot: RobotModel, model: Model, ros_version: RosVersion
-) -> tuple[str, ...]:
+def passive_joints_for(robot: RobotModel, model: Model, ros_version: RosVersion) -> tuple[str, ...]:
     """Return joints that nothing drives: mimicking ones, and those without a motor."""
     driven = command_interfaces(model, ros_version)
     return tuple(

@@ -167,7 +167,9 @@ class _Reader:
         others = () if root is None else root.children
         return found, tuple(tag for tag in others if tag.name not in SRDF_ELEMENTS)
 
-    def _hardware(self, model: Model, version: RosVersion) -> tuple[dict[str, Kinds], tuple[str, ...]]:
+    def _hardware(
+        self, model: Model, version: RosVersion
+    ) -> tuple[dict[str, Kinds], tuple[str, ...]]:
         """What joints are commanded by, and which of them the package adds to the robot's."""
         interfaces = command_interfaces(model, version)
         name = f"{model.name}.ros2_control" if version == 2 else f"gazebo_{model.name}.urdf"
@@ -176,7 +178,9 @@ class _Reader:
         written = {} if root is None else _written_interfaces(root)
         if root is None:
             return interfaces, ()
-        own = [joint for joint in interfaces if joint not in added_joints(model, interfaces, version)]
+        own = [
+            joint for joint in interfaces if joint not in added_joints(model, interfaces, version)
+        ]
         kept = {name: kinds for name, kinds in interfaces.items() if name in {*own, *written}}
         return {**kept, **written}, tuple(written)
 
@@ -195,7 +199,9 @@ class _Reader:
             rows = {str(name): _part(branch, name) for name in branch.get("controller_names", ())}
             manager = _part(_part(managers, "controller_manager"), "ros__parameters")
             types = {name: str(_tree(row).get("type", "")) for name, row in manager.items()}
-            given = {name: _part(_part(managers, name), "ros__parameters") for name in managers}
+            given = {
+                name: dict(_part(_part(managers, name), "ros__parameters")) for name in managers
+            }
             inner = _without(manager, _BROADCASTER, *rows)
             if inner.get("update_rate") == 100:
                 inner = _without(inner, "update_rate")

@@ -37,6 +37,7 @@ _DEPENDS = (
     "moveit_planners_ompl",
     "moveit_ros_move_group",
     "moveit_ros_visualization",
+    "moveit_setup_assistant",
     "moveit_simple_controller_manager",
     "robot_state_publisher",
     "rviz",

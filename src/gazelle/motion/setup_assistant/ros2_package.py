@@ -141,7 +141,7 @@ def _urdf_xacro(config: SetupAssistantConfig) -> str:
     robot, source = config.robot_name, config.source
     where = f"$(find {config.robot_package})/{source.relative_path}"
     given = "".join(
-        f'\n  <xacro:arg name={quoteattr(name)} default={quoteattr(value)}/>'
+        f"\n  <xacro:arg name={quoteattr(name)} default={quoteattr(value)}/>"
         for name, value in source.mappings.items()
     )
     return filled(
