@@ -109,7 +109,7 @@ def test_nobody_waits_for_ever(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(numba_jit, "_MAX_WAIT_S", 0.05)
     descriptor = os.open(tmp_path / "a.lock", os.O_RDWR | os.O_CREAT)
     try:
-        assert numba_jit._locked(descriptor)
+        assert numba_jit._locked(descriptor, tmp_path / "a.lock")
         with numba_jit._turn(tmp_path / "a.lock"):
             pass
     finally:

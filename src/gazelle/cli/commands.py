@@ -76,6 +76,7 @@ COMMANDS: dict[str, Command] = {
     "catkin_make": Command("gazelle.cli.catkin_make", "build a workspace of ROS 1"),
     "rosdep": Command("gazelle.cli.rosdep", "what packages need: install, check, keys"),
     "colcon": Command("gazelle.cli.colcon", "build, test, list, info, graph a workspace"),
+    "warm": Command("gazelle.cli.warm", "compile all kernels ahead, on all cores"),
     "new": Command("gazelle.cli.new", "write a package: robot, world, package, moveit_config"),
     **{name: Command("gazelle.cli.rqt", text) for name, (_, text) in VIEW_COMMANDS.items()},
 }

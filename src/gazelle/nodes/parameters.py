@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from gazelle.announcements import announce_by
 from gazelle.diagnostics import Diagnostic, Diagnostics, brief
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Level, Node, TimeJumpError, offer_loggers
@@ -105,6 +106,7 @@ def start_node(arguments: NodeArguments, graph: Graph, *, offers_parameters: boo
             if offers_parameters:
                 _offer_given(node, arguments.params)
         keep_log(node, arguments.log_file, arguments.output)
+        announce_by(lambda text: node.log("info", text))
         offer_loggers(node)
     if arguments.log_level:
         node.log_level = level_of(arguments.log_level)

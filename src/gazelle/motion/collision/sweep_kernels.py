@@ -416,7 +416,8 @@ def sweep(q0, way, step, plain):
         kept, is_sure = used, True
         if used + ends[here] - begins[here] > len(lists):
             longer = np.empty(2 * len(lists) + count, np.int64)
-            longer[:used] = lists[:used]
+            for i in range(used):
+                longer[i] = lists[i]
             lists = longer
         for place in range(begins[here], ends[here]):
             pair = lists[place]

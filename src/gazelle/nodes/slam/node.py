@@ -125,7 +125,7 @@ def _run(
     # Costmaps and displays wait for the map's frame, which needs no scan.
     if options.publishes_tf and options.tf_period_s > 0:
         threading.Thread(target=_publish_transforms, args=(node, mapper, done), daemon=True).start()
-    warm_up(lambda text: node.log("info", text))
+    warm_up()
     mapper.listen()
     threading.Thread(target=_publish_maps, args=(node, mapper, done), daemon=True).start()
     arguments.ready()
