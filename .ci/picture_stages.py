@@ -1,4 +1,4 @@
-"""What the pictures of README and docs show: which commands are typed, and what of the page is taken."""
+"""What the pictures of README and docs show: commands typed, and what of the page is taken."""
 
 from __future__ import annotations
 
@@ -27,7 +27,9 @@ class Shot(NamedTuple):
         act: what a person does on the page.
         wait_s: how long is waited then.
         size: of the page, in px.
-        card: a demo's picture in the gallery, too: what is drawn in this panel.
+        card: there is a picture for the gallery, too, which shows this panel alone.
+        card_zoom: turns of the wheel away from it.
+        recorded: the page is one that ``gazelle record`` writes, with these words.
     """
 
     name: str
@@ -37,7 +39,9 @@ class Shot(NamedTuple):
     act: Callable[[Any], None] = _nothing
     wait_s: float = 3.0
     size: tuple[int, int] = (1120, 700)
+    recorded: str = ""
     card: str = ""
+    card_zoom: int = 0
 
 
 class Film(NamedTuple):
@@ -46,10 +50,12 @@ class Film(NamedTuple):
     Attributes:
         name: of the file.
         line: the words after ``gazelle record -o NAME.webp``.
+        typed: commands typed just before.
     """
 
     name: str
     line: str
+    typed: tuple[_Line, ...] = ()
 
 
 class Typed(NamedTuple):
@@ -115,10 +121,6 @@ def _fill(label: str, *texts: str) -> Callable[[Any], None]:
     return act
 
 
-def _choose(label: str, option: str) -> Callable[[Any], None]:
-    return lambda page: page.get_by_label(label, exact=True).first.select_option(option)
-
-
 def _wait(seconds: float) -> Callable[[Any], None]:
     return lambda page: page.wait_for_timeout(seconds * 1000)
 
@@ -131,38 +133,21 @@ def _tick(*topics: str) -> Callable[[Any], None]:
     return act
 
 
-def _drag(panel: str, to: tuple[float, float]) -> Callable[[Any], None]:
-    """Turn the view of a panel by a drag from its middle."""
-
-    def act(page: Any) -> None:
-        box = page.locator(f"[data-panel='{panel}'] canvas").first.bounding_box()
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-        page.mouse.move(x, y)
-        page.mouse.down()
-        page.mouse.move(x + to[0], y + to[1], steps=5)
-        page.mouse.up()
-
-    return act
-
-
-def _zoom(panel: str, notches: int) -> Callable[[Any], None]:
-    def act(page: Any) -> None:
-        page.locator(f"[data-panel='{panel}'] canvas").first.hover()
-        for _ in range(abs(notches)):
-            page.mouse.wheel(0, -120 if notches > 0 else 120)
-            page.wait_for_timeout(60)
-
-    return act
-
-
 _DRIVES = (f"rostopic pub -r 10 /cmd_vel geometry_msgs/Twist {_TWIST}", "")
 
+
 def _demo(
-    name: str, *rows: Row, of: str = "gazebo", until_s: float = 5.0, workspace: str = ""
+    name: str,
+    *rows: Row,
+    of: str = "gz",
+    zoom: int = 0,
+    until_s: float = 5.0,
+    workspace: str = "",
+    typed: tuple[_Line, ...] = (),
 ) -> Stage:
     """A demo that runs: as it begins, with its card in the gallery, and pictures of it."""
-    first = Shot(name, wait_s=until_s, card=of)
-    return Stage(((f"demo {name} --no-browser", r"page: +http"),), (first, *rows), workspace)
+    first = Shot(name, typed=typed, wait_s=until_s, card=of, card_zoom=zoom)
+    return Stage(((f"demo {name} --no-browser", "there after"),), (first, *rows), workspace)
 
 
 def _panel(
@@ -230,27 +215,39 @@ _SCOUT = _demo(
 
 _ARM = _demo(
     "arm",
+    Film(
+        "pick_and_place",
+        "--seconds 12 --fps 12 --eye 1.1 -1.3 0.9 --look-at 0.25 0 0.3",
+        typed=(
+            ("ros2 service call /reset_world std_srvs/srv/Empty", "response"),
+            ("ros2 run heron_bringup pick_and_place", ""),
+        ),
+    ),
     Shot("motion_planning", ("rviz", "motion_planning"), act=_steps(_wait(4), _press("Plan"))),
     _panel("joints", "joint_state_publisher_gui", size=(520, 480)),
     until_s=9.0,
+    zoom=3,
+)
+
+_GOAL = (
+    "ros2 topic pub --once /goal_pose geometry_msgs/msg/PoseStamped '{header: {frame_id: map}, "
+    "pose: {position: {x: %s, y: %s}, orientation: {w: 1.0}}}'"
 )
 
 _MAPPING = _demo(
     "mapping",
     Shot(
         "navigation",
-        ("rviz", "navigation"),
         typed=(
-            (
-                "ros2 topic pub --once /goal_pose geometry_msgs/msg/PoseStamped '{header: "
-                "{frame_id: map}, pose: {position: {x: 2.0, y: -0.6}, orientation: {w: 1.0}}}'",
-                "",
-            ),
+            ("rviz2 -d src/surveyor_robot/rviz/mapping.rviz", "http"),
+            (_GOAL % (-2.5, 1.5), ""),
         ),
-        wait_s=6.0,
+        wait_s=5.0,
     ),
-    of="rviz",
-    until_s=8.0,
+    Shot("replay", recorded="--seconds 20", wait_s=6.0),
+    until_s=10.0,
+    typed=((_GOAL % (2.0, -0.6), ""),),
+    workspace="mapping_ws",
 )
 
 _EMPTY = Stage((("studio --no-browser", "Studio: http"),), (Shot("start", wait_s=4.0),))
@@ -264,6 +261,6 @@ STAGES = (
     _demo("balancer", until_s=9.0),
     _demo("turtles", of="turtlesim", until_s=12.0),
     _demo("playground"),
-    _demo("plugin"),
+    _demo("plugin", zoom=9),
     _demo("controller", until_s=12.0),
 )

@@ -3,8 +3,8 @@
 
     python .ci/screenshots.py [NAME ...] [--into FOLDER]
 
-What is pictured is a row of ``STAGES`` in ``picture_stages.py``: commands as a person types them, in
-a folder of their own, then the page they open or the text they print. Each is taken twice, for
+What is pictured is a row of ``STAGES`` in ``picture_stages.py``: commands as a person types them,
+in a folder of their own, then the page they open or the text they print. Each is taken twice, for
 light and for dark pages. Only the named ones are taken where names are given.
 """
 
@@ -50,6 +50,10 @@ _FLAGS = (
     "--enable-unsafe-swiftshader",
 )
 _QUALITY = 72
+_TERMINAL_STYLE = (
+    "body{margin:0} pre{display:inline-block;margin:0;padding:14px 18px;"
+    "font:13px/1.45 'DejaVu Sans Mono',monospace !important}"
+)
 _TERMINAL_THEMES = {
     "light": DEFAULT_TERMINAL_THEME,
     "dark": TerminalTheme(
@@ -82,7 +86,7 @@ class _Terminals:
         self._running: list[tuple[subprocess.Popen[bytes], Path]] = []
 
     def begin(self, line: str, sign: str) -> str:
-        """Type a command and wait until a line that it prints matches `sign`, if that says anything."""
+        """Type a command; with a `sign` wait until that is printed, and return all that is."""
         log = self._logs / f"{len(self._running)}.txt"
         with log.open("wb") as out:
             command = [sys.executable, "-m", "gazelle.cli", *shlex.split(line)]
@@ -101,13 +105,13 @@ class _Terminals:
         until = time.monotonic() + _WAIT_S
         while True:
             text = log.read_text(errors="replace")
-            if found := re.search(rf"^.*(?:{sign}).*$", text, re.MULTILINE):
-                return found.group()
+            if re.search(sign, text):
+                return text
             if process.poll() is not None or time.monotonic() > until:
                 raise SystemExit(f"'gazelle {line}' never printed {sign!r}:\n{text}")
             time.sleep(0.05)
 
-    def output(self, line: str, environ: dict[str, str]) -> str:
+    def output(self, line: str, **environ: str) -> str:
         """Return what a command prints, with its colours."""
         ran = subprocess.run(
             [sys.executable, "-m", "gazelle.cli", *shlex.split(line)],
@@ -139,7 +143,7 @@ def main(argv: Sequence[str]) -> int:
     options = parser.parse_args(argv)
     known = {row.name for stage in STAGES for row in stage.rows}
     if unknown := set(options.names) - known:
-        parser.error(f"no picture is called {', '.join(sorted(unknown))}; there are {sorted(known)}")
+        parser.error(f"no picture is called {', '.join(unknown)}; there are {sorted(known)}")
     options.into.mkdir(parents=True, exist_ok=True)
     with _browser() as browser:
         for number, stage in enumerate(STAGES):
@@ -178,12 +182,16 @@ def _play(stage: Stage, rows: Sequence[Row], browser: Any, into: Path, port: int
         for row in rows:
             print(row.name, flush=True)
             if isinstance(row, Typed):
-                text = terminals.output(row.line, {"FORCE_COLOR": "1", "COLUMNS": str(row.columns)})
+                text = terminals.output(row.line, FORCE_COLOR="1", COLUMNS=str(row.columns))
                 _picture_text(row, text, browser, into)
             elif isinstance(row, Film):
-                terminals.output(f"record -o {(into / row.name).resolve()}.webp {row.line}", {})
+                for line, sign in row.typed:
+                    terminals.begin(line, sign)
+                print(terminals.output(f"record -o {(into / row.name).resolve()}.webp {row.line}"))
             else:
                 _picture_page(row, url, terminals, browser, into)
+                if row.card:
+                    _card(row, url, browser, into)
 
 
 def _picture_page(row: Shot, url: str, terminals: _Terminals, browser: Any, into: Path) -> None:
@@ -192,20 +200,39 @@ def _picture_page(row: Shot, url: str, terminals: _Terminals, browser: Any, into
     context = browser.new_context(viewport={"width": row.size[0], "height": row.size[1]})
     page = context.new_page()
     page.set_default_timeout(_WAIT_S * 1000)
-    asked = f"&panels={','.join(row.panels)}" if row.panels else ""
-    page.goto(f"{url}{asked}&quality=high")
-    page.locator(".light[data-state=open]").wait_for()
+    if row.recorded:
+        file = into / f"{row.name}.html"
+        terminals.output(f"record -o {file.resolve()} {row.recorded}")
+        page.goto(file.resolve().as_uri())
+        file.unlink()
+    else:
+        asked = f"&panels={','.join(row.panels)}" if row.panels else ""
+        page.goto(f"{url}{asked}&quality=high")
+        page.locator(".light[data-state=open]").wait_for()
     row.act(page)
     _settle(page, row.wait_s)
     for theme in _THEMES:
         _show_theme(page, theme)
         _save(_still(page, row.of), into / f"{row.name}-{theme}.webp")
-    if row.card:
-        drawn = ImageOps.fit(_still(page, row.card, " canvas").convert("RGB"), _CARD_SIZE)
-        folder = _CARDS if into == _PICTURES else into
-        folder.mkdir(exist_ok=True)
-        _save(drawn, folder / f"{row.name}.webp")
     context.close()
+
+
+def _card(row: Shot, url: str, browser: Any, into: Path) -> None:
+    """The panel alone, in light or dark whatever the gallery has: its view has one look."""
+    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page.goto(f"{url}&panels={row.card}&quality=high")
+    page.locator("[data-panel] canvas").first.wait_for()
+    _settle(page, 3.0)
+    page.locator("[data-panel] canvas").first.hover()
+    for _ in range(row.card_zoom):
+        page.mouse.wheel(0, 120)
+        _settle(page, 0.1)
+    _settle(page, 1.0)
+    drawn = _still(page, "", "[data-panel] canvas").convert("RGB")
+    folder = _CARDS if into == _PICTURES else into
+    folder.mkdir(exist_ok=True)
+    _save(ImageOps.fit(drawn, _CARD_SIZE), folder / f"{row.name}.webp")
+    page.close()
 
 
 def _settle(page: Any, seconds: float) -> None:
@@ -214,35 +241,30 @@ def _settle(page: Any, seconds: float) -> None:
 
 def _show_theme(page: Any, theme: str) -> None:
     if page.evaluate("document.documentElement.dataset.theme") != theme:
-        page.get_by_role("button", name=re.compile("(light|dark|theme)", re.IGNORECASE)).first.click()
+        switch = re.compile("(light|dark|theme)", re.IGNORECASE)
+        page.get_by_role("button", name=switch).first.click()
         page.mouse.move(2, 2)
         _settle(page, 1.5)
 
 
 def _still(page: Any, panel: str, part: str = "") -> Image.Image:
-    where = page.locator(f"[data-panel='{panel}']{part}").first if panel else page
+    chosen = f"[data-panel='{panel}']{part}" if panel else part
+    where = page.locator(chosen).first if chosen else page
     return Image.open(io.BytesIO(where.screenshot()))
 
 
 def _picture_text(row: Typed, text: str, browser: Any, into: Path) -> None:
     """What a terminal shows, as a picture: prompt, command and what it printed."""
     for theme in _THEMES:
-        console = Console(record=True, width=row.columns, file=io.StringIO(), color_system="truecolor")
+        console = Console(
+            record=True, width=row.columns, file=io.StringIO(), color_system="truecolor"
+        )
         console.print(Text.assemble(("$ ", "bold green"), (f"gazelle {row.line}", "bold")))
         console.print(Text.from_ansi("\n".join(text.rstrip().splitlines()[: row.lines])))
         html = console.export_html(theme=_TERMINAL_THEMES[theme], inline_styles=True)
         page = browser.new_page(viewport={"width": 1100, "height": 400})
-        page.set_content(
-            html.replace("<pre", "<pre class='terminal'").replace(
-                "<head>",
-                "<head><style>body{margin:0}.terminal{display:inline-block;margin:0;padding:14px 18px;"
-                "font:13px/1.45 'DejaVu Sans Mono',monospace !important}</style>",
-            )
-        )
-        _save(
-            Image.open(io.BytesIO(page.locator(".terminal").screenshot())),
-            into / f"{row.name}-{theme}.webp",
-        )
+        page.set_content(html.replace("<head>", f"<head><style>{_TERMINAL_STYLE}</style>"))
+        _save(_still(page, "", "pre"), into / f"{row.name}-{theme}.webp")
         page.close()
 
 
