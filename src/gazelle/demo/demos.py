@@ -124,7 +124,7 @@ DEMOS: tuple[Demo, ...] = (
             Step("see the joints", "gazelle ros2 topic echo --once /joint_states"),
         ),
         programs=(("ros2", "run", "heron_bringup", "pick_and_place"),),
-        panels=(_world(1.7, focal_m=(0.25, 0.0, 0.3)),),
+        panels=(_world(1.6, focal_m=(0.25, 0.0, 0.25), yaw_rad=0.4, pitch_rad=0.45),),
     ),
     Demo(
         name="mapping",
@@ -256,7 +256,7 @@ DEMOS: tuple[Demo, ...] = (
             Step("hear who is shaken by it", "gazelle rostopic echo /slow/alarm"),
         ),
         programs=(("rosrun", "gust_plugins", "gusts.py"),),
-        panels=(_world(13.0, focal_m=(0.0, 2.0, 1.5)),),
+        panels=(_world(11.0, focal_m=(0.0, 2.0, 1.5), pitch_rad=0.4),),
     ),
     Demo(
         name="controller",
