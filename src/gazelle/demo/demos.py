@@ -245,7 +245,7 @@ DEMOS: tuple[Demo, ...] = (
         workspace="own_plugin_ws",
         packages=("gust_plugins",),
         launch=("roslaunch", "gust_plugins", "gust.launch"),
-        sign="/clock",
+        sign="/leader",
         seen=("Two balloons in a wind that goes round; it blows harder at one of them.",),
         try_next=(
             Step("see who leads", "gazelle rostopic echo /leader"),
@@ -266,7 +266,7 @@ DEMOS: tuple[Demo, ...] = (
         workspace="pr2_style_ws",
         packages=("tandem_controller",),
         launch=("roslaunch", "tandem_controller", "robot.launch"),
-        sign="/joint_states",
+        sign="/tandem_controller/pid_steer/parameter_updates",
         seen=(
             "Two broad wheels, one behind the other, roll to and fro; a PID in Python turns them.",
         ),
@@ -279,6 +279,6 @@ DEMOS: tuple[Demo, ...] = (
             Step("change the gains while it runs", "gazelle rqt_reconfigure"),
         ),
         programs=(("rosrun", "tandem_controller", "there_and_back.py"),),
-        panels=(_world(2.2), Panel("rqt_plot", {"curves": ["/joint_states/position"]})),
+        panels=(_world(2.2), Panel("rqt_plot", {"curves": ["/tandem_controller/command/data", "/gazebo/model_states/pose[1]/position/x"]})),
     ),
 )
