@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from gazelle.diagnostics import nearest_names
+from gazelle.diagnostics import nearest_names, render
 from gazelle.errors import GazelleError, NotFoundError
 
 if TYPE_CHECKING:
@@ -19,16 +19,20 @@ if TYPE_CHECKING:
     from gazelle.recording import GraphRecorder, Recording
     from gazelle.testing.process_tree import ProcessTree
 
-__all__ = ["Run", "RunProgress", "find_run"]
+__all__ = ["USUAL_S", "Run", "RunProgress", "find_run"]
+
+USUAL_S = 20.0
+"""How much is recorded of what would go on for ever, simulated seconds."""
 
 _ROS2_ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 _ROBOT_ENDINGS = (".urdf", ".xacro", ".sdf", ".world")
+_BAG_ENDINGS = (".bag", ".mcap", ".db3", ".zstd")
 _POLL_S = 0.1
 _SLICE_S = 0.25
 # A simulator that has to make convex parts of meshes for the first time takes its time.
 _WORLD_S = 120.0
 _PATIENCE_S = 5.0
-_LAST_LINES = 15
+_LAST_LINES = 30
 
 
 class RunProgress(NamedTuple):
@@ -62,13 +66,23 @@ class Run(Protocol):
         """What it is, for people."""
         ...
 
+    @property
+    def usual_s(self) -> float:
+        """How many simulated seconds are recorded where nobody says; 0 for all."""
+        ...
+
     def record(self, progress: RunProgress) -> Recording:
         """Record until time is up, it ends, or Ctrl-C, which is no failure."""
         ...
 
 
 def find_run(
-    target: Sequence[str], arguments: Sequence[str], *, is_fast: bool, is_verbose: bool
+    target: Sequence[str],
+    arguments: Sequence[str],
+    *,
+    is_fast: bool = False,
+    is_verbose: bool = False,
+    robot: str | None = None,
 ) -> Run:
     """Return what the words of a command line mean.
 
@@ -77,6 +91,7 @@ def find_run(
         arguments: ``name:=value`` of a launch or xacro file.
         is_fast: simulate a launch as fast as possible.
         is_verbose: pass on what a launch prints.
+        robot: the robot of a bag.
 
     Raises:
         GazelleError: there are too many words.
@@ -99,8 +114,14 @@ def find_run(
         if is_ros2 and is_fast:
             raise GazelleError("--fast works with roslaunch's files; ros2 launch has no such word")
         return _Launch((*words, *arguments), is_verbose)
+    if len(target) == 1 and _is_bag(Path(name)):
+        return _Bag(name, robot)
     mappings = dict(word.split(":=", 1) for word in arguments)
     return _File(_robot_file(target), mappings)
+
+
+def _is_bag(path: Path) -> bool:
+    return path.name.endswith(_BAG_ENDINGS) or (path / "metadata.yaml").is_file()
 
 
 def _robot_file(target: Sequence[str]) -> str:
@@ -145,6 +166,7 @@ class _File:
 
     source: str
     mappings: dict[str, str]
+    usual_s: float = USUAL_S
 
     @property
     def title(self) -> str:
@@ -155,6 +177,8 @@ class _File:
         from gazelle.simulator import Simulation
 
         with Simulation.load(self.source, mappings=self.mappings) as sim:
+            # Meshes that were not found, and the like.
+            render(sim.diagnostics)
             recorder = record(sim, topics=progress.topics)
             with suppress(KeyboardInterrupt):
                 while (left_s := progress.limit_s - sim.time_s) > sim.step_s / 2:
@@ -163,10 +187,34 @@ class _File:
             return recorder.stop()
 
 
+@dataclass(frozen=True)
+class _Bag:
+    """What was recorded before, whole."""
+
+    path: str
+    robot: str | None
+    usual_s: float = 0.0
+
+    @property
+    def title(self) -> str:
+        return Path(self.path).name
+
+    def record(self, progress: RunProgress) -> Recording:
+        from gazelle.diagnostics import Diagnostics
+        from gazelle.recording import bag_recording
+
+        found = Diagnostics()
+        whole = bag_recording(self.path, robot=self.robot, diagnostics=found)
+        render(found)
+        progress.told(whole.duration_s, whole.duration_s)
+        return whole
+
+
 class _RunningWorld:
     """The world of the graph that runs."""
 
     title = "the running world"
+    usual_s = USUAL_S
 
     def record(self, progress: RunProgress) -> Recording:
         from gazelle.graph import Graph
@@ -186,6 +234,7 @@ class _Launch:
 
     words: tuple[str, ...]
     is_verbose: bool
+    usual_s: float = USUAL_S
 
     @property
     def title(self) -> str:

@@ -14,7 +14,7 @@ import { Motion } from './motion';
 import type { Recording } from './unpacking';
 
 const GRID_CELLS = 40;
-const FOLLOWED_FROM = 1.5;
+const FOLLOWED_FROM = 0.8;
 const AIR = 1.7;
 
 /** What the page does with the scene. */

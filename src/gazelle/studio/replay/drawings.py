@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from gazelle.geometry import IDENTITY_POSE, Pose
 from gazelle.graph.tf import TransformBuffer, TransformError
 from gazelle.interfaces.poses import pose_of, pose_of_transform
-from gazelle.interfaces.stamps import ns_of
 from gazelle.recording import Recording, TopicTrack
 from gazelle.sensors.scene_json import pose_value
 from gazelle.studio.replay.packing import Pack
@@ -105,13 +104,14 @@ class _Frames:
             return 1_000_000
 
     def _fill(self, track: TopicTrack, *, is_static: bool) -> None:
-        for message in track.messages:
+        # When they came: clocks of bags and of what is in them may differ.
+        for time_ns, message in zip(track.times_ns.tolist(), track.messages, strict=True):
             for one in message.transforms:
                 with suppress(TransformError):
                     self._buffer.set_transform(
                         one.header.frame_id,
                         one.child_frame_id,
-                        ns_of(one.header.stamp),
+                        time_ns,
                         pose_of_transform(one.transform),
                         is_static=is_static,
                     )
