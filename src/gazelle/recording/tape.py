@@ -42,6 +42,9 @@ _LEFT_OUT = frozenset(
 )
 """Pictures and clouds make a simulator work that nobody looks at; poses are recorded as such."""
 
+# All that is on /rosout comes there once more.
+_AGAIN = "/rosout_agg"
+
 Decode = Callable[[Any], Any]
 
 
@@ -55,7 +58,7 @@ def is_recorded(topic: str, type_name: str, wanted: Sequence[str] | None) -> boo
     """
     if wanted is not None:
         return topic in wanted
-    return not (is_hidden(topic) or type_name in _LEFT_OUT)
+    return not (is_hidden(topic) or type_name in _LEFT_OUT or topic == _AGAIN)
 
 
 class Known(NamedTuple):

@@ -31,7 +31,7 @@ _FAR_M = 1000.0
 _NEAR_M = 0.01
 # A subject that goes farther than so many of its own sizes is followed.
 _FOLLOWED_FROM = 2.0
-_AIR = 1.5
+_AIR = 1.75
 """How much larger than the subject the picture is."""
 
 _ON_BOARD_M = 4.0

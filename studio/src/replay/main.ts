@@ -54,7 +54,7 @@ export function gazelleReplay(place: HTMLElement, buffer: ArrayBuffer): Replay {
   listenToKeys(player, stage, frames.period_s);
   player.seek(0);
   const made = { player, stage, topics };
-  (globalThis as { replay?: Replay }).replay = made;
+  (globalThis as { shownReplay?: Replay }).shownReplay = made;
   return made;
 }
 

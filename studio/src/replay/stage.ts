@@ -84,6 +84,8 @@ export class Stage {
       node.root.updateMatrix();
       return node.root.matrix;
     });
+    // It goes along from where the model is now, though time may go on before the next frame.
+    this.view.rig.tick(performance.now());
   }
 
   /** Glide to where the robots fill the picture, as they stand now. */

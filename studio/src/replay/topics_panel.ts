@@ -7,13 +7,7 @@ import type { Recording } from './unpacking';
 const MOST_CURVES = 8;
 const REFRESH_MS = 80;
 /** What is drawn at first, the likeliest one of all fields. */
-const FIRST = [
-  /twist\.twist\.linear\.x$/,
-  /^linear\.x$/,
-  /pose\.pose\.position\.[xy]$/,
-  /^position\.\d/,
-  /./,
-];
+const FIRST = [/pose\.pose\.position\.[xy]$/, /^linear\.x$/, /^position\.\d/, /^(?!header\.)/];
 
 interface Shown {
   topic: Topic;
