@@ -124,7 +124,7 @@ DEMOS: tuple[Demo, ...] = (
             Step("see the joints", "gazelle ros2 topic echo --once /joint_states"),
         ),
         programs=(("ros2", "run", "heron_bringup", "pick_and_place"),),
-        panels=(_world(1.7, focal_m=(0.25, 0.0, 0.3)),),
+        panels=(_world(1.6, focal_m=(0.25, 0.0, 0.25), yaw_rad=0.4, pitch_rad=0.45),),
     ),
     Demo(
         name="mapping",
@@ -245,7 +245,7 @@ DEMOS: tuple[Demo, ...] = (
         workspace="own_plugin_ws",
         packages=("gust_plugins",),
         launch=("roslaunch", "gust_plugins", "gust.launch"),
-        sign="/clock",
+        sign="/leader",
         seen=("Two balloons in a wind that goes round; it blows harder at one of them.",),
         try_next=(
             Step("see who leads", "gazelle rostopic echo /leader"),
@@ -256,7 +256,7 @@ DEMOS: tuple[Demo, ...] = (
             Step("hear who is shaken by it", "gazelle rostopic echo /slow/alarm"),
         ),
         programs=(("rosrun", "gust_plugins", "gusts.py"),),
-        panels=(_world(13.0, focal_m=(0.0, 2.0, 1.5)),),
+        panels=(_world(11.0, focal_m=(0.0, 2.0, 1.5), pitch_rad=0.4),),
     ),
     Demo(
         name="controller",
@@ -266,7 +266,7 @@ DEMOS: tuple[Demo, ...] = (
         workspace="pr2_style_ws",
         packages=("tandem_controller",),
         launch=("roslaunch", "tandem_controller", "robot.launch"),
-        sign="/joint_states",
+        sign="/tandem_controller/pid_steer/parameter_updates",
         seen=(
             "Two broad wheels, one behind the other, roll to and fro; a PID in Python turns them.",
         ),
@@ -279,6 +279,6 @@ DEMOS: tuple[Demo, ...] = (
             Step("change the gains while it runs", "gazelle rqt_reconfigure"),
         ),
         programs=(("rosrun", "tandem_controller", "there_and_back.py"),),
-        panels=(_world(2.2), Panel("rqt_plot", {"curves": ["/joint_states/position"]})),
+        panels=(_world(2.2), Panel("rqt_plot", {"curves": ["/tandem_controller/command/data", "/gazebo/model_states/pose[1]/position/x"]})),
     ),
 )

@@ -2,6 +2,7 @@
 
 import rclpy
 from gazebo_msgs.srv import ApplyLinkWrench
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
@@ -45,7 +46,7 @@ def main(args=None):
     node = Push()
     try:
         node.run()
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
         node.destroy_node()

@@ -1,4 +1,4 @@
-"""Has turtles draw flowers: each drives circles, a petal each, and turns a little between them.
+"""Has turtles draw flowers: each drives a circle, turns a little on the spot, and again.
 
 turtle1 stays free, for whoever wants to steer one.
 """
@@ -7,51 +7,57 @@ import math
 
 import rclpy
 from geometry_msgs.msg import Twist
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from turtlesim.msg import Pose
 from turtlesim.srv import SetPen, Spawn
 
-# Name, x, y of the middle, size of the petals and colour.
+# Name, x and y of the middle, radius of the petals and colour.
 PAINTERS = (
-    ("poppy", 3.2, 7.4, 0.8, (240, 90, 80)),
-    ("cornflower", 7.9, 7.2, 0.9, (100, 150, 250)),
-    ("buttercup", 5.6, 3.2, 1.0, (250, 210, 80)),
+    ("poppy", 2.9, 7.6, 0.9, (240, 90, 80)),
+    ("cornflower", 8.2, 7.6, 0.9, (110, 160, 250)),
+    ("buttercup", 5.5, 2.9, 1.1, (250, 210, 80)),
 )
 PETALS = 8
+TURN_RATE = 2.0  # rad/s
 PERIOD_S = 0.05
-PETAL_S = 4.0
 
 
 class Painter:
-    """One turtle: a petal is a circle that ends where it began."""
+    """One turtle: how far it has turned says whether a petal is done."""
 
     def __init__(self, node, name, x, y, radius, colour):
-        self.name = name
-        self.radius = radius
-        self.petal = 0
-        self.elapsed = 0.0
-        self.is_there = False
-        self.commands = node.create_publisher(Twist, f"/{name}/cmd_vel", 1)
-        self.pen = node.create_client(SetPen, f"/{name}/set_pen")
-        self.colour = colour
         self.place = Spawn.Request(x=x, y=y, theta=0.0, name=name)
+        self.colour = colour
+        self.radius = radius
+        self.petals = 0
+        self.is_turning = False
+        self.turned = 0.0
+        self.theta = None
+        self.pen = node.create_client(SetPen, f"/{name}/set_pen")
+        self.commands = node.create_publisher(Twist, f"/{name}/cmd_vel", 1)
+        node.create_subscription(Pose, f"/{name}/pose", self.on_pose, 10)
 
-    def begin(self):
+    def take_pen(self):
         red, green, blue = self.colour
-        self.pen.call_async(SetPen.Request(r=red, g=green, b=blue, width=3))
-        self.is_there = True
+        return self.pen.call_async(SetPen.Request(r=red, g=green, b=blue, width=3))
+
+    def on_pose(self, pose):
+        if self.theta is not None:
+            self.turned += math.remainder(pose.theta - self.theta, 2 * math.pi)
+        self.theta = pose.theta
 
     def step(self):
-        if not self.is_there:
-            if self.pen.service_is_ready():
-                self.begin()
-            return
+        whole = 2 * math.pi / PETALS if self.is_turning else 2 * math.pi
+        if self.turned >= whole:
+            # What it turned too far counts for what comes next, or the flower would go round.
+            self.turned -= whole
+            self.petals += self.is_turning
+            self.is_turning = not self.is_turning
         twist = Twist()
-        if self.petal < PETALS:
-            twist.linear.x = 2 * math.pi * self.radius / PETAL_S
-            twist.angular.z = 2 * math.pi / PETAL_S * (1 + 1 / PETALS)
-            self.elapsed += PERIOD_S
-            if self.elapsed >= PETAL_S:
-                self.elapsed, self.petal = 0.0, self.petal + 1
+        if self.petals < PETALS:
+            twist.angular.z = TURN_RATE
+            twist.linear.x = 0.0 if self.is_turning else TURN_RATE * self.radius
         self.commands.publish(twist)
 
 
@@ -65,6 +71,8 @@ class Paint(Node):
         self.spawn.wait_for_service()
         for painter in self.painters:
             rclpy.spin_until_future_complete(self, self.spawn.call_async(painter.place))
+            painter.pen.wait_for_service()
+            rclpy.spin_until_future_complete(self, painter.take_pen())
         self.get_logger().info("painting")
         self.create_timer(PERIOD_S, self.step)
         rclpy.spin(self)
@@ -79,7 +87,7 @@ def main(args=None):
     node = Paint()
     try:
         node.run()
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
         node.destroy_node()
