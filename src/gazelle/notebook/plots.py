@@ -21,6 +21,7 @@ from gazelle.notebook.drawing import painted, svg_of
 from gazelle.rich_display import Bundle
 from gazelle.simulator.run_history import RunHistory, Samples, Track
 from gazelle.simulator.simulation import full_name
+from gazelle.studio.errors import StudioError
 from gazelle.studio.graph_view.plot import curves_of, read_number
 
 if TYPE_CHECKING:
@@ -208,7 +209,16 @@ def _number(record: Any, steps: list[Any], name: str) -> float:
 
 def _of_topic(sim: Simulation, history: RunHistory, name: str) -> Iterator[_Curve]:
     server = sim.server
-    for one in curves_of(name, _known_topics(sim), lambda topic: None):
+    try:
+        curves = curves_of(name, _known_topics(sim), lambda topic: None)
+    except StudioError as error:
+        topics = {one.name for one in _known_topics(sim)}
+        known = error.known or nearest_names(f"/{name.split('/')[1]}", topics)
+        meant = "' or '".join(known[:3])
+        near = f"; did you mean '{meant}'?" if meant else ""
+        hint = f"\n  {error.hint}" if error.hint else ""
+        raise GazelleError(f"{error}{near}{hint}") from error
+    for one in curves:
         if one.name not in history.tracks:
             track = history.tracks[one.name] = Track()
 

@@ -84,7 +84,8 @@ class RunHistory:
         self._links: dict[str, int] = {}
         self._older: list[_Stretch] = []
         period = period_in_steps(_RATE_HZ, server.engine.step_ns)
-        self._task = server.scheduler.add(Task("history", period, self._take, ORDER_STATE), first=0)
+        self._task = server.scheduler.add(Task("history", period, self._take, ORDER_STATE))
+        self._take()
 
     def joint(self, name: str) -> Samples | None:
         """Return position and velocity, (N, 2), of a ``model::joint``; None where it has none."""
