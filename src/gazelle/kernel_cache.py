@@ -169,7 +169,7 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
         return found
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep what was compiled; where that fails it is told, and the kernel works all the same."""
+        """Keep what was compiled; where that fails it is told, and the kernel works still."""
         try:
             super().save_overload(sig, data)
         except OSError as error:

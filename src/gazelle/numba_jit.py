@@ -42,7 +42,7 @@ class Area(NamedTuple):
     """Kernels that are wanted together.
 
     Attributes:
-        package: begins the names of their modules.
+        package: part of Gazelle that they belong to.
         what: they are for, in words.
         compile_s: processor time of compiling all of them, about; `benchmarks/bench_kernels.py`.
     """
@@ -53,17 +53,18 @@ class Area(NamedTuple):
 
 
 AREAS = (
-    Area("gazelle.sensors", "cameras", 6),
-    Area("gazelle.mapping", "SLAM", 10),
-    Area("gazelle.motion", "arm planning", 16),
-    Area("gazelle.navigation", "navigation", 16),
+    Area("sensors", "cameras", 6),
+    Area("mapping", "SLAM", 10),
+    Area("motion", "arm planning", 16),
+    Area("navigation", "navigation", 16),
 )
 """All that is compiled."""
 
 
 def area_of(module: str) -> Area | None:
     """Return what a module's kernels are for, None for those that others call."""
-    return next((area for area in AREAS if module.startswith(f"{area.package}.")), None)
+    package = module.partition(".")[2].partition(".")[0]
+    return next((area for area in AREAS if area.package == package), None)
 
 
 def kernels() -> tuple[Any, ...]:
