@@ -11,15 +11,13 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import shutil
 import stat
-import tempfile
 from pathlib import Path
 
 from gazelle.announcements import announce
 from gazelle.user_folders import cache_folder
 
-__all__ = ["is_trusted", "own_cache", "own_folder", "tell_not_kept", "why_not_trusted"]
+__all__ = ["is_trusted", "is_usable", "own_cache", "own_folder", "tell_not_kept"]
 
 _HOW = "name another folder by XDG_CACHE_HOME"
 _MODE = 0o700
@@ -40,11 +38,13 @@ def own_cache(part: str) -> Path | None:
         why = _why_not_usable(usual)
     if not why:
         return usual
+    import tempfile
+
     spare = Path(tempfile.gettempdir()) / f"gazelle-{_user()}" / part
     # Its parent is in a folder of everybody's: who made it first may be somebody else.
     has_spare = not (_why_not_usable(spare.parent) or _why_not_usable(spare))
     place = f"kept in '{spare}' for now" if has_spare else "not kept, and made anew each time"
-    announce(f"cannot use '{usual}': {why}; what belongs there is {place}\n  fix: {_fix(usual)}")
+    _tell(usual, why, place)
     return spare if has_spare else None
 
 
@@ -59,12 +59,20 @@ def own_folder(folder: Path, variable: str) -> Path | None:
     return folder
 
 
+def is_usable(folder: Path) -> bool:
+    """Make a folder of the user's cache; tell whether things can be kept there, and say why not."""
+    why = _why_not_usable(folder)
+    if why:
+        _tell(folder, why, "not kept, and made anew each time")
+    return not why
+
+
 def is_trusted(folder: Path) -> bool:
     """Tell whether a folder is there, is this user's, and can be written by nobody else."""
-    return folder.is_dir() and not why_not_trusted(folder)
+    return folder.is_dir() and not _why_not_trusted(folder)
 
 
-def why_not_trusted(folder: Path) -> str:
+def _why_not_trusted(folder: Path) -> str:
     """Return why what lies in a folder is not to be taken for this user's; empty where it is."""
     if os.name != "posix":
         # The system's own rights keep others out of a user's folders there.
@@ -116,9 +124,17 @@ def _why_not_usable(folder: Path, *, takes_over: bool = True) -> str:
             _take_over(folder)
         except OSError as error:
             return error.strerror or type(error).__name__
-    if why := why_not_trusted(folder):
+    if why := _why_not_trusted(folder):
         return why
     return "" if os.access(folder, os.W_OK | os.X_OK) else "it cannot be written"
+
+
+def _tell(folder: Path, why: str, place: str) -> None:
+    # One trouble with all that is kept is said of the first folder.
+    announce(
+        f"cannot use '{folder}': {why}; what belongs there is {place}\n  fix: {_fix(folder)}",
+        key=f"{folder.parent} {why}",
+    )
 
 
 def _is_open(folder: Path) -> bool:
@@ -129,6 +145,8 @@ def _is_open(folder: Path) -> bool:
 
 
 def _take_over(folder: Path) -> None:
+    import shutil
+
     folder.chmod(_MODE)
     for item in folder.iterdir():
         if item.is_dir() and not item.is_symlink():
@@ -148,7 +166,7 @@ def _make(folder: Path) -> None:
 def _fix(folder: Path, how: str = _HOW, number: int = 0) -> str:
     if number in (errno.ENOSPC, errno.EDQUOT):
         return f"make some room there, or {how}"
-    if os.name == "posix" and folder.is_dir() and why_not_trusted(folder):
+    if os.name == "posix" and folder.is_dir() and _why_not_trusted(folder):
         found = folder.stat()
         if found.st_uid == os.geteuid():
             return f"chmod go-w '{folder}', or {how}"

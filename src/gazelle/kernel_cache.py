@@ -19,7 +19,7 @@ import hashlib
 import inspect
 import os
 import pickle
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -27,7 +27,9 @@ from typing import Any
 from numba.core import config
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 
+from gazelle import kernel_links
 from gazelle.cache_folders import is_trusted, own_cache, own_folder, tell_not_kept
+from gazelle.kernel_links import fields_of
 
 __all__ = ["KernelCache", "cache_folder_of"]
 
@@ -106,6 +108,14 @@ class _Packing(CompileResultCacheImpl):  # type: ignore[misc]
         self._locator = _Locator(file, self._lineno)
         self._filename_base = self.get_filename_base(f"{file.stem}.{py_func.__qualname__}", "")
 
+    def reduce(self, cres: Any) -> Any:
+        return kernel_links.callees_so_far(), super().reduce(cres)
+
+    def rebuild(self, target_context: Any, payload: Any) -> Any:
+        callees, packed = payload
+        kernel_links.require(callees)
+        return super().rebuild(target_context, packed)
+
 
 class _File(IndexDataCacheFile):  # type: ignore[misc]
     """The files of one kernel; what is damaged counts as not there."""
@@ -150,13 +160,16 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return what is kept for a signature, None where nothing is."""
-        found = super().load_overload(sig, target_context)
+        try:
+            found = super().load_overload(sig, target_context)
+        except _DAMAGED:
+            found = None
         if found is None:
             self.on_miss()
         return found
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep what was compiled; where that fails, it is told, and the kernel works all the same."""
+        """Keep what was compiled; where that fails it is told, and the kernel works still."""
         try:
             super().save_overload(sig, data)
         except OSError as error:
@@ -179,13 +192,4 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
     def _index_key(self, sig: Any, codegen: Any) -> Any:
         """Return what a kept kernel is known by: also the order of its records' fields."""
         key = super()._index_key(sig, codegen)
-        return (*key, _fields(getattr(sig, "args", sig)), _HOW_COMPILED)
-
-
-def _fields(types: Iterable[Any]) -> tuple[Any, ...]:
-    """Return the names of all fields of records, and of records in them."""
-    found: list[Any] = []
-    for one in types:
-        if (members := getattr(one, "types", None)) is not None:
-            found += [*getattr(one, "fields", ()), _fields(members)]
-    return tuple(found)
+        return (*key, fields_of(getattr(sig, "args", sig)), _HOW_COMPILED)

@@ -19,8 +19,10 @@ from typing import Any, NamedTuple
 
 import numba
 from numba import types
+from numba.core import sigutils
 from numba.core.compiler_lock import global_compiler_lock
 
+from gazelle import kernel_links
 from gazelle.announcements import announce
 from gazelle.kernel_cache import KernelCache
 
@@ -40,7 +42,7 @@ class Area(NamedTuple):
     """Kernels that are wanted together.
 
     Attributes:
-        package: begins the names of their modules.
+        package: part of Gazelle that they belong to.
         what: they are for, in words.
         compile_s: processor time of compiling all of them, about; `benchmarks/bench_kernels.py`.
     """
@@ -51,17 +53,18 @@ class Area(NamedTuple):
 
 
 AREAS = (
-    Area("gazelle.sensors", "cameras", 6),
-    Area("gazelle.mapping", "SLAM", 10),
-    Area("gazelle.motion", "arm planning", 16),
-    Area("gazelle.navigation", "navigation", 16),
+    Area("sensors", "cameras", 6),
+    Area("mapping", "SLAM", 10),
+    Area("motion", "arm planning", 16),
+    Area("navigation", "navigation", 16),
 )
 """All that is compiled."""
 
 
 def area_of(module: str) -> Area | None:
     """Return what a module's kernels are for, None for those that others call."""
-    return next((area for area in AREAS if module.startswith(f"{area.package}.")), None)
+    package = module.partition(".")[2].partition(".")[0]
+    return next((area for area in AREAS if area.package == package), None)
 
 
 def kernels() -> tuple[Any, ...]:
@@ -69,7 +72,9 @@ def kernels() -> tuple[Any, ...]:
     return tuple(_kernels)
 
 
-def njit(*, cache: bool = False, **options: Any) -> Callable[[Callable[..., Any]], Any]:
+def njit(
+    *, cache: bool = False, is_called_by_address: bool = False, **options: Any
+) -> Callable[[Callable[..., Any]], Any]:
     """Return numba's decorator with these options; its kernels are compiled in turn.
 
     Dividing by zero gives infinity or NaN, as in NumPy: without the exception there is a quarter
@@ -77,6 +82,8 @@ def njit(*, cache: bool = False, **options: Any) -> Callable[[Callable[..., Any]
 
     Args:
         cache: what is compiled is kept for other processes.
+        is_called_by_address: other kernels do not hold a copy of it, which each of them would
+            compile anew; for large ones, whose calls cost nothing beside what they do.
         options: of numba.
     """
 
@@ -94,7 +101,9 @@ def njit(*, cache: bool = False, **options: Any) -> Callable[[Callable[..., Any]
         _see_no_literals(kernel)
         if cache:
             kernel._cache = KernelCache(function, kernel, lambda: _tell(function.__module__))
-            _compile_in_turn(kernel)
+        _compile_in_turn(kernel)
+        if is_called_by_address:
+            kernel_links.call_by_address(kernel)
         _kernels.append(kernel)
         return kernel
 
@@ -118,7 +127,9 @@ def _see_no_literals(kernel: Any) -> None:
 
     def plain(given: Iterable[Any], named: dict[str, Any]) -> Any:
         named = {name: types.unliteral(one) for name, one in named.items()}
-        return call_template(tuple(map(types.unliteral, given)), named)
+        found = call_template(tuple(map(types.unliteral, given)), named)
+        kernel_links.note_call(kernel, tuple(found[2]))
+        return found
 
     kernel.get_call_template = plain
 
@@ -129,9 +140,16 @@ def _compile_in_turn(kernel: Any) -> None:
     name = f"{function.__module__}.{function.__qualname__}.lock"
 
     def compile_(signature: Any) -> Any:
+        given, _ = sigutils.normalize_signature(signature)
+        if (compiled := kernel.overloads.get(tuple(given))) is not None:
+            return compiled.entry_point
         folder = kernel.stats.cache_path
         # Numba's own lock first: who waits for it must not keep other processes waiting.
-        with global_compiler_lock, _turn(Path(folder) / name) if folder else _NOBODY:
+        with (
+            global_compiler_lock,
+            _turn(Path(folder) / name) if folder else _NOBODY,
+            kernel_links.collecting(kernel, tuple(given)),
+        ):
             return compile_alone(signature)
 
     kernel.compile = compile_

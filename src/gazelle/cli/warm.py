@@ -16,10 +16,10 @@ from typing import Any, NamedTuple
 __all__ = ["main"]
 
 _WARM_UPS = {
-    "gazelle.sensors": "gazelle.sensors.kernel_warm_up",
-    "gazelle.mapping": "gazelle.mapping.slam.kernel_warm_up",
-    "gazelle.motion": "gazelle.motion.kernel_warm_up",
-    "gazelle.navigation": "gazelle.navigation.kernel_warm_up",
+    "sensors": "gazelle.sensors.kernel_warm_up",
+    "mapping": "gazelle.mapping.slam.kernel_warm_up",
+    "motion": "gazelle.motion.kernel_warm_up",
+    "navigation": "gazelle.navigation.kernel_warm_up",
 }
 """Modules whose ``warm_up()`` runs every kernel of an area, as it is run otherwise."""
 _COMPILED, _KEPT, _FAILED = "compiled", "kept", "failed"

@@ -69,7 +69,7 @@ def _room() -> OccupancyGrid:
 
 def _costmap() -> CostGrid:
     source = {"scan": SourceOptions(clearing=True, obstacle_range=3.0, raytrace_range=3.5)}
-    layers = [
+    layers: list[StaticLayer | ObstacleLayer | InflationLayer] = [
         StaticLayer(StaticOptions(footprint_clearing_enabled=True)),
         ObstacleLayer(ObstacleOptions(), source),
         InflationLayer(InflationOptions(inflation_radius=0.3)),
