@@ -134,9 +134,7 @@ DEMOS: tuple[Demo, ...] = (
         packages=("tandem_controller",),
         launch=("roslaunch", "tandem_controller", "robot.launch"),
         sign="/joint_states",
-        seen=(
-            "Two broad wheels, one behind the other; a PID written in Python turns them.",
-        ),
+        seen=("Two broad wheels, one behind the other; a PID written in Python turns them.",),
         try_next=(
             Step(
                 "let it roll 3 rad of its wheels",
