@@ -2,23 +2,26 @@
 
 A block is fenced and says its language. Those in ``bash`` and ``python`` are run as printed, each
 page from top to bottom in a folder of its own; a ``text`` block is what the block above it prints.
-What else a block needs stands in a comment before it, which no rendered page shows:
+What else a block needs stands in comments before it, which no rendered page shows:
 
 ``<!-- not run: REASON -->``
     it is not run; why.
 ``<!-- before: SHELL -->``
     what a reader has by then: typed before the block, in the same folder.
+``<!-- running: COMMAND => TEXT -->``
+    what a reader has running by then; waited for as below.
 ``<!-- file: PATH -->``
     the reader saves the block under this name; it is not run by itself.
 ``<!-- continues -->``
     a Python block that goes on where the one above it ended.
 ``<!-- runs on: TEXT | TEXT -->``
     its last commands, as many as there are texts, run side by side, each in a terminal of its own,
-    until the page ends; each is waited for until it has printed its text (``-``: anything).
+    until the page ends; each is waited for until it has printed its text. ``-`` is anything, or
+    nothing for some seconds.
 ``<!-- stop: COMMAND -->``
     the command, one that runs on, gets Ctrl-C before the block.
 ``<!-- exit: NUMBER -->``
-    its last command ends with this exit code, not with 0.
+    its last command ends with this exit code; those before it may fail.
 ``<!-- varies -->``
     numbers of the ``text`` block below are examples.
 """
@@ -32,13 +35,14 @@ from pathlib import Path
 __all__ = ["RUN_LANGUAGES", "SHOWN_LANGUAGES", "Block", "PageError", "blocks_of", "pages_of"]
 
 RUN_LANGUAGES = ("bash", "python")
-SHOWN_LANGUAGES = ("ini", "javascript", "json", "text", "toml", "xml", "yaml")
+SHOWN_LANGUAGES = ("figure", "ini", "javascript", "json", "text", "toml", "xml", "yaml")
 _MARKS = {
     "before": True,
     "continues": False,
     "exit": True,
     "file": True,
     "not run": True,
+    "running": True,
     "runs on": True,
     "stop": True,
     "varies": False,
@@ -61,7 +65,7 @@ class Block:
         line: of its fence, from 1.
         language: what stands behind the fence.
         text: what stands in it, without the indentation of its fence.
-        marks: the comments before it, by name.
+        marks: the comments before it, by name; those of one name are lines of one text.
     """
 
     page: Path
@@ -131,7 +135,8 @@ class _Reader:
         if _MARKS[mark[1]] != bool(mark[2] and mark[2].strip()):
             wanted = "needs a text" if _MARKS[mark[1]] else "takes no text"
             raise self._error(number, f"the mark '{mark[1]}' {wanted}")
-        self._marks[mark[1]] = (mark[2] or "").strip()
+        texts = [self._marks[mark[1]]] if mark[1] in self._marks else []
+        self._marks[mark[1]] = "\n".join([*texts, (mark[2] or "").strip()])
 
     def _unmarked(self, number: int) -> None:
         if self._marks:

@@ -25,6 +25,7 @@ __all__ = ["BlockFailure", "Took", "run_page"]
 ROOT = Path(__file__).parents[2]
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 _LOOK_S = 0.02
+_SILENT_S = 5.0
 _STATE = """
 __status=$?
 export -p > "$PAGE_STATE/exports"
@@ -145,10 +146,13 @@ class _Session:
 
     def see(self, block: Block) -> None:
         started = time.monotonic()
+        for name in block.marks.get("stop", "").splitlines():
+            self._stop(block, name)
         if before := block.marks.get("before"):
             self._shell(block, before)
-        if name := block.marks.get("stop"):
-            self._stop(block, name)
+        for line in block.marks.get("running", "").splitlines():
+            command, _, text = line.partition(" => ")
+            self._await(block, self._open(command), text)
         if name := block.marks.get("file"):
             path = Path(self._cwd(), name).expanduser()
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -159,7 +163,9 @@ class _Session:
             self._compare(block)
         elif block.is_run and block.language == "python":
             self._script = (self._script if "continues" in block.marks else "") + block.text
-            self._finished(block, [sys.executable, "-c", self._script])
+            enter = self._begin() + 'exec "$@"'
+            words = ["bash", "-c", enter, "bash", sys.executable, "-c", self._script]
+            self._finished(block, words)
         elif block.is_run:
             self._type(block)
         if block.is_run:
@@ -177,7 +183,7 @@ class _Session:
         if until_stopped and not kept:
             self._type_until_stopped(block, typed)
         elif typed:
-            self._shell(block, "\n".join(typed), block.marks.get("exit", "0"))
+            self._shell(block, "\n".join(typed), block.marks.get("exit"))
         for command, text in zip(kept, texts, strict=True):
             terminal = self._open(command)
             self._await(block, terminal, text)
@@ -213,9 +219,12 @@ class _Session:
         return terminal
 
     def _await(self, block: Block, terminal: _Terminal, text: str) -> None:
-        end = time.monotonic() + self._patience_s
+        begun = time.monotonic()
+        end = begun + self._patience_s
         pattern = re.compile("." if text == "-" else _loose(text), re.DOTALL)
-        while not pattern.search(terminal.output):
+        while not pattern.search(_even(terminal.output)):
+            if text == "-" and terminal.runs and time.monotonic() > begun + _SILENT_S:
+                return
             if not terminal.runs or time.monotonic() > end:
                 state = "still runs" if terminal.runs else f"ended ({terminal.process.poll()})"
                 raise BlockFailure(
@@ -232,9 +241,9 @@ class _Session:
         if wrong := found[-1].interrupt(self._patience_s):
             raise BlockFailure(f"{block}: {wrong}")
 
-    def _shell(self, block: Block, text: str, exit_code: str = "0") -> None:
-        script = self._begin() + _TRAP * (exit_code == "0") + text + _STATE
-        self._finished(block, ["bash", "-c", script], int(exit_code))
+    def _shell(self, block: Block, text: str, exit_code: str | None = None) -> None:
+        script = self._begin() + _TRAP * (exit_code is None) + text + _STATE
+        self._finished(block, ["bash", "-c", script], int(exit_code or 0))
         failed = self._state / "failed"
         if failed.exists():
             told = failed.read_text(encoding="utf-8")

@@ -173,7 +173,7 @@ class PickAndPlace(Node):
         if position == CLOSED and not (result.stalled and not result.reached_goal):
             raise StepFailed(
                 f"the gripper closed to {result.position:.3f} m with nothing in it: the cube is "
-                f"not at x = {PICK[0]} m, y = {PICK[1]} m, where this program begins; put everything "
+                f"not at x = {PICK[0]} m, y = {PICK[1]} m, where this program begins; put it "
                 "back by 'gazelle ros2 service call /reset_world std_srvs/srv/Empty', then start "
                 "it again"
             )
