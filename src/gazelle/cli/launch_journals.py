@@ -21,7 +21,7 @@ _ONLY_PRINT: Mapping[tuple[str, ...], frozenset[str]] = {
     ("gazebo",): _HELP | {"-v"},
     ("gz", "sim"): _HELP | {"--versions"},
     ("ign", "gazebo"): _HELP | {"--versions"},
-    ("demo",): _HELP | {"--list"},
+    ("demo",): _HELP | {"--list", "--copy"},
 }
 """Commands that launch → words with which they only print."""
 

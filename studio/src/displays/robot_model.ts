@@ -179,7 +179,13 @@ class RobotDrawer implements Drawer {
         place(node.root, node.value.pose);
       } else place(node.root, frames.poses, at);
     });
-    if (lost.length)
+    if (lost.length && frames.infos.length === 0)
+      status(
+        'Transform',
+        'warn',
+        'tf tells of no frame yet: the joints stand at zero. robot_state_publisher broadcasts the links.',
+      );
+    else if (lost.length)
       status(
         'Transform',
         'error',

@@ -6,45 +6,57 @@ import { button, h, setText } from '../widgets/dom';
 import { filesIn, filesOf, upload, type NamedFile } from './dropped_files';
 
 /** A box that takes robot files, and shows them in a panel of their own. */
-export function robotDrop(connection: Connection, host: PanelHost): HTMLElement {
-  const state = h('p', { class: 'dim drop-state', role: 'status' });
-  const show = async (files: Promise<NamedFile[]> | NamedFile[]): Promise<void> => {
+export class RobotDrop {
+  readonly element: HTMLElement;
+  private readonly state = h('p', { class: 'dim drop-state', role: 'status' });
+
+  constructor(
+    private readonly connection: Connection,
+    private readonly host: PanelHost,
+  ) {
+    const files = chooser((input) => this.take(filesIn(input)), false);
+    const folder = chooser((input) => this.take(filesIn(input)), true);
+    this.element = h(
+      'div',
+      { class: 'robot-drop' },
+      h('p', { class: 'drop-title' }, 'Drop a robot here: URDF, xacro or SDF'),
+      h(
+        'p',
+        { class: 'dim' },
+        'With its folder or package, or as a .zip, its meshes are shown too. Nothing is run.',
+      ),
+      h(
+        'div',
+        { class: 'drop-buttons' },
+        button('Choose files', () => files.click(), { icon: 'plus' }),
+        button('Choose a folder', () => folder.click(), { icon: 'plus' }),
+      ),
+      this.state,
+      files,
+      folder,
+    );
+    acceptDrops(this.element, (found) => this.take(found));
+  }
+
+  /** Brings files to the server and opens their panel. */
+  take(files: Promise<NamedFile[]> | NamedFile[]): void {
+    void this.show(files);
+  }
+
+  private async show(files: Promise<NamedFile[]> | NamedFile[]): Promise<void> {
     try {
       const given = await files;
       if (given.length === 0) return;
-      const set = await upload(connection, given, (part) =>
-        setText(state, `Reading the files: ${Math.round(part * 100)} %`),
+      const set = await upload(this.connection, given, (part) =>
+        setText(this.state, `Reading the files: ${Math.round(part * 100)} %`),
       );
-      host.show('robot_file', { set });
+      this.host.show('robot_file', { set });
     } catch (problem) {
-      host.fail(problem, 'The files cannot be shown');
+      this.host.fail(problem, 'The files cannot be shown');
     } finally {
-      setText(state, '');
+      setText(this.state, '');
     }
-  };
-  const files = chooser((input) => void show(filesIn(input)), false);
-  const folder = chooser((input) => void show(filesIn(input)), true);
-  const box = h(
-    'div',
-    { class: 'robot-drop' },
-    h('p', { class: 'drop-title' }, 'Drop a robot here: URDF, xacro or SDF'),
-    h(
-      'p',
-      { class: 'dim' },
-      'With its folder or package, or as a .zip, its meshes are shown too. Nothing is run.',
-    ),
-    h(
-      'div',
-      { class: 'drop-buttons' },
-      button('Choose files', () => files.click(), { icon: 'plus' }),
-      button('Choose a folder', () => folder.click(), { icon: 'plus' }),
-    ),
-    state,
-    files,
-    folder,
-  );
-  acceptDrops(box, (found) => void show(found));
-  return box;
+  }
 }
 
 /** Lets an element take files that are dropped on it. */

@@ -15,7 +15,7 @@ import { fillSelect, h, notice, select, setText, spacer, toggle, toolbar } from 
 import { upload } from './dropped_files';
 import { findingCard } from './finding_card';
 import { inWords } from './findings_store';
-import { acceptDrops, robotDrop } from './robot_drop';
+import { acceptDrops, RobotDrop } from './robot_drop';
 
 const LOOKS: readonly Mode[] = ['collisions', 'inertias', 'frames', 'joints'];
 
@@ -26,6 +26,7 @@ export class RobotFilePanel extends BasePanel {
   private file = '';
   private asked = 0;
   private firstLook: FirstLook | null = null;
+  private readonly looks: readonly HTMLElement[];
   private readonly view: View;
   private readonly assembly: Assembly;
   private readonly files = select('File', [], '', (file) => {
@@ -56,13 +57,13 @@ export class RobotFilePanel extends BasePanel {
       menu: () => undefined,
       key: () => false,
     });
-    const looks = LOOKS.map((mode) =>
+    this.looks = LOOKS.map((mode) =>
       toggle(MODES[mode], false, (on) => this.assembly.setMode(mode, on)),
     );
-    this.empty.append(robotDrop(this.connection, this.host));
+    this.empty.append(new RobotDrop(this.connection, this.host).element);
     this.element.classList.add('robot-file');
     this.element.append(
-      toolbar('Robot file', this.files, ...looks, spacer(), this.said),
+      toolbar('Robot file', this.files, ...this.looks, spacer(), this.said),
       h('div', { class: 'robot-body' }, this.stage, this.empty),
       this.findings,
     );
@@ -128,6 +129,7 @@ export class RobotFilePanel extends BasePanel {
     const scene = value?.scene ?? null;
     this.stage.hidden = !scene;
     this.empty.hidden = value !== null;
+    for (const each of this.looks) each.hidden = !scene;
     this.files.hidden = !value || value.files.length < 2;
     const wrong = (value?.findings ?? []).filter((each) => each.severity !== 'info');
     const count = (severity: string): number =>

@@ -5,7 +5,7 @@ import { isObject } from '../json';
 import { BasePanel } from '../panels/base';
 import { button, h, notice, setText } from '../widgets/dom';
 import { findingsStore, stateOf } from './findings_store';
-import { robotDrop } from './robot_drop';
+import { acceptDrops, RobotDrop } from './robot_drop';
 
 const LOOK_AGAIN_MS = 4000;
 
@@ -20,6 +20,7 @@ export class StartPanel extends BasePanel {
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
+    const drop = new RobotDrop(this.connection, this.host);
     this.element.classList.add('start');
     this.element.append(
       h(
@@ -32,10 +33,11 @@ export class StartPanel extends BasePanel {
           'div',
           { class: 'start-halves' },
           part('Last launches', this.recent),
-          part('A robot file', robotDrop(this.connection, this.host)),
+          part('A robot file', drop.element),
         ),
       ),
     );
+    acceptDrops(this.element, (files) => drop.take(files));
     this.atEnd(findingsStore(this.connection).watch(() => void this.refresh()));
     this.atEnd(this.host.graph.watch(() => this.lookAround()));
     this.atEnd(() => clearTimeout(this.timer));
@@ -92,6 +94,7 @@ export class StartPanel extends BasePanel {
           class: 'primary',
           title: `Start the demo: ${demo.title}`,
         });
+    start.setAttribute('aria-label', `${runs ? 'Stop' : 'Start'}: ${demo.title}`);
     start.disabled = value.running !== '' && !runs;
     const picture = demo.picture
       ? h('img', { src: demo.picture, alt: '', width: 480, height: 270, loading: 'lazy' })

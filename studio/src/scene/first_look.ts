@@ -67,13 +67,7 @@ export class FirstLook {
   /** Look at the robots that displays show, as soon as their links have places. */
   atRobots(displays: readonly Display[]): void {
     if (this.isOver() || this.aim) return;
-    const robots = displays.filter(
-      (each) =>
-        each.enabled &&
-        each.kind.name === DISPLAY_ROWS.RobotModel.name &&
-        each.status.get('URDF')?.level === 'ok' &&
-        each.status.get('Transform')?.level === 'ok',
-    );
+    const robots = displays.filter((each) => each.enabled && isPlaced(each));
     if (robots.length === 0) return;
     this.start(() => {
       const box = new THREE.Box3();
@@ -121,6 +115,17 @@ export class FirstLook {
     if (moved && !this.ended) this.end();
     return this.ended;
   }
+}
+
+/** Whether a display shows a robot where it is. Without any tf one stands in its root link's frame, which is as good. */
+function isPlaced(robot: Display): boolean {
+  const { name } = robot.kind;
+  if (name === DISPLAY_ROWS.MotionPlanning.name)
+    return robot.status.get('Move Group')?.level === 'ok';
+  if (name !== DISPLAY_ROWS.RobotModel.name || robot.status.get('URDF')?.level !== 'ok')
+    return false;
+  const hasTf = robot.stage.frames.infos.length > 0;
+  return robot.status.get('Transform')?.level === 'ok' || (!hasTf && robot.stage.frames.settled);
 }
 
 /** A robot that settles on its wheels needs no new look. */
