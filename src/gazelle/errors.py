@@ -54,6 +54,7 @@ defined there:
         SavedGraphError
         ScaffoldError
         ScriptError
+        SetupAssistantError
         SpawnUsageError
         StudioError
         ToolError
