@@ -250,10 +250,54 @@ _MAPPING = _demo(
     workspace="mapping_ws",
 )
 
+
+def _break(folder: Path) -> None:
+    """Slips as people make them: a mesh's name, a joint's parent, a topic."""
+    robot = folder / "src" / "scout_robot" / "urdf" / "scout.urdf.xacro"
+    text = robot.read_text(encoding="utf-8")
+    for right, wrong in (("meshes/body.stl", "meshes/bodi.stl"), ('base_footprint"/>', 'base"/>')):
+        text = text.replace(right, wrong, 1)
+    robot.write_text(text, encoding="utf-8")
+
+
+_BROKEN = Stage(
+    (
+        ("roslaunch scout_robot scout.launch", ""),
+        ("studio --no-browser", "Studio: http"),
+    ),
+    (
+        Typed("doctor", "doctor scout_robot scout.launch", columns=96),
+        Shot("findings", ("gazebo", "findings"), "findings", size=(1500, 560)),
+    ),
+    "scout_ws",
+    _break,
+)
+
+_ASSISTANT = Stage(
+    (("studio --no-browser", "Studio: http"),),
+    (
+        Shot(
+            "setup_assistant",
+            ("moveit_setup_assistant",),
+            act=_steps(
+                _fill("Robot file", "package://heron_description/urdf/heron.urdf.xacro"),
+                _press("Load"),
+                _wait(5),
+                _press("Self-Collisions", "tab"),
+                _press("Find pairs"),
+            ),
+            wait_s=6.0,
+        ),
+    ),
+    "arm_ws",
+)
+
 _EMPTY = Stage((("studio --no-browser", "Studio: http"),), (Shot("start", wait_s=4.0),))
 
 STAGES = (
     _EMPTY,
+    _BROKEN,
+    _ASSISTANT,
     _SCOUT,
     _demo("four_wheels"),
     _ARM,

@@ -168,8 +168,10 @@ def _play(stage: Stage, rows: Sequence[Row], browser: Any, into: Path, port: int
     with tempfile.TemporaryDirectory() as made, contextlib.ExitStack() as stack:
         home = Path(made) / "home"
         home.mkdir()
-        folder = Path(made) / "robots"
+        # Findings show it, so it has a name as people's folders have.
+        folder = Path(tempfile.gettempdir()) / "my_ws"
         folder.mkdir()
+        stack.callback(shutil.rmtree, folder)
         if stage.workspace:
             shutil.copytree(_ROOT / "examples" / stage.workspace, folder, dirs_exist_ok=True)
         stage.prepare(folder)
