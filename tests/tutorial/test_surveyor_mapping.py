@@ -14,7 +14,7 @@ from tests.patience import eventually, stretched
 from gazelle.graph.actions import ActionClient
 from gazelle.interfaces import fill, to_plain
 
-pytestmark = [pytest.mark.tutorial, pytest.mark.slow(25)]
+pytestmark = [pytest.mark.tutorial, pytest.mark.slow(15)]
 
 # In the room behind the wall, which the lidar does not see from where the robot starts.
 _GOAL_M = (3.0, 1.4)
