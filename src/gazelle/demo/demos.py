@@ -8,6 +8,9 @@ from gazelle.errors import NotFoundError
 
 __all__ = ["DEMOS", "find_demo"]
 
+# Told in rad of the wheels, seen in m of the robot, which is the second model after the ground.
+_WHEELS_TO = "/tandem_controller/command/data"
+_ROLLED_TO = "/gazebo/model_states/pose[1]/position/x"
 _KEYS_ROS1 = "gazelle rosrun teleop_twist_keyboard teleop_twist_keyboard.py"
 _KEYS_ROS2 = "gazelle ros2 run teleop_twist_keyboard teleop_twist_keyboard"
 
@@ -279,6 +282,6 @@ DEMOS: tuple[Demo, ...] = (
             Step("change the gains while it runs", "gazelle rqt_reconfigure"),
         ),
         programs=(("rosrun", "tandem_controller", "there_and_back.py"),),
-        panels=(_world(2.2), Panel("rqt_plot", {"curves": ["/tandem_controller/command/data", "/gazebo/model_states/pose[1]/position/x"]})),
+        panels=(_world(2.2), Panel("rqt_plot", {"curves": [_WHEELS_TO, _ROLLED_TO]})),
     ),
 )
