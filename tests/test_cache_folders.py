@@ -66,7 +66,7 @@ def test_a_folder_of_another_user_is_passed_over_and_told_once(
     folder = home / "kernels"
     folder.mkdir(parents=True)
     os.chown(folder, 54321, 54321)
-    spare = tmp_path / "tmp" / f"gazelle-{os.getuid()}" / "kernels"
+    spare = tmp_path / "tmp" / f"gazelle-cache-{os.getuid()}" / "kernels"
     assert own_cache("kernels") == spare
     assert own_cache("kernels") == spare
     assert told == [
@@ -80,7 +80,7 @@ def test_a_folder_of_another_user_is_passed_over_and_told_once(
 def test_a_spare_folder_that_another_user_made_first_is_not_used(
     home: Path, tmp_path: Path, told: list[str]
 ) -> None:
-    for folder in (home / "kernels", tmp_path / "tmp" / f"gazelle-{os.getuid()}"):
+    for folder in (home / "kernels", tmp_path / "tmp" / f"gazelle-cache-{os.getuid()}"):
         folder.mkdir(parents=True)
         os.chown(folder, 54321, 54321)
     assert own_cache("kernels") is None

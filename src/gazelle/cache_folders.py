@@ -40,7 +40,7 @@ def own_cache(part: str) -> Path | None:
         return usual
     import tempfile
 
-    spare = Path(tempfile.gettempdir()) / f"gazelle-{_user()}" / part
+    spare = Path(tempfile.gettempdir()) / f"gazelle-cache-{_user()}" / part
     # Its parent is in a folder of everybody's: who made it first may be somebody else.
     has_spare = not (_why_not_usable(spare.parent) or _why_not_usable(spare))
     place = f"kept in '{spare}' for now" if has_spare else "not kept, and made anew each time"

@@ -54,9 +54,9 @@ class Area(NamedTuple):
 
 AREAS = (
     Area("sensors", "cameras", 6),
-    Area("mapping", "SLAM", 10),
-    Area("motion", "arm planning", 16),
-    Area("navigation", "navigation", 16),
+    Area("mapping", "SLAM", 12),
+    Area("motion", "arm planning", 22),
+    Area("navigation", "navigation", 21),
 )
 """All that is compiled."""
 
