@@ -70,7 +70,9 @@ def main(argv: list[str], source_folder: Path) -> int:
         print("\nedited since they were written, and kept (--overwrite FILE writes them):")
         print("\n".join(f"    {path}" for path in kept))
     print()
-    print("\n".join(_next_steps(config)))
+    from gazelle.motion.setup_assistant.next_steps import next_steps
+
+    print("\n".join(next_steps(config)))
     return 0
 
 
@@ -296,18 +298,3 @@ def _rows(config: SetupAssistantConfig) -> Iterator[tuple[str, str]]:
         counts[pair.reason] = counts.get(pair.reason, 0) + 1
     shown = ", ".join(f"{count} {reason}" for reason, count in counts.items())
     yield "pairs without a check", f"{len(srdf.disabled_pairs)}: {shown}" if shown else "none"
-
-
-def _next_steps(config: SetupAssistantConfig) -> list[str]:
-    name = config.package_name
-    if config.ros_version == 1:
-        return [
-            f"plan with it:   gazelle roslaunch {name} demo.launch",
-            f"in Gazebo:      gazelle roslaunch {name} demo_gazebo.launch",
-            f"look for slips: gazelle doctor {name}",
-        ]
-    return [
-        f"plan with it:   gazelle ros2 launch {name} demo.launch.py",
-        f"in Gazebo:      gazelle ros2 launch {name} gazebo.launch.py",
-        f"look for slips: gazelle doctor {name}",
-    ]

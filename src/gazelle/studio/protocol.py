@@ -23,6 +23,7 @@ from gazelle.studio.settings.layouts import (
 )
 from gazelle.studio.settings.rqt_perspectives import open_perspective
 from gazelle.studio.settings.rviz_files import open_rviz
+from gazelle.studio.setup_assistant import methods as setup_assistant
 from gazelle.studio.streams import StreamKind
 from gazelle.studio.studio import Studio
 from gazelle.studio.world import methods as world
@@ -45,6 +46,7 @@ METHODS: dict[str, Method[Studio]] = {
     **methods_without(_SETTINGS),
     **methods_of(lambda studio: studio.shown_panels, plugins.METHODS),
     **methods_of(lambda studio: studio.robots, {**motion.METHODS, "robot.get": get_robot}),
+    **methods_of(lambda studio: studio.setup_assistant, setup_assistant.METHODS),
     **displays.METHODS,
     **methods_of(lambda studio: studio.downloads, {"file.save": save_file}),
 }

@@ -18,6 +18,7 @@ from gazelle.studio.pages import Pages
 from gazelle.studio.plugins.shown_panels import ShownPanels
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.robot import RobotContext
+from gazelle.studio.setup_assistant.sessions import AssistantSessions
 from gazelle.studio.subscriptions import Subscriptions
 from gazelle.studio.workers import Workers
 from gazelle.studio.world.methods import world_parts
@@ -45,6 +46,7 @@ class Studio:
         robots: descriptions of robots.
         world: the running world.
         bags: recorder and player.
+        setup_assistant: MoveIt config packages that pages make.
         shown_panels: the user's own panels.
     """
 
@@ -68,7 +70,9 @@ class Studio:
         self.displays = DisplayContext(self.subscriptions, frames, self.assets)
         self.robots = RobotContext(self.subscriptions, self.assets)
         self.world = world_parts(self.subscriptions, self.workers, self.assets, ending)
-        recording = Recording(graph, (folder or Path.cwd()).absolute())
+        written = (folder or Path.cwd()).absolute()
+        self.setup_assistant = AssistantSessions(written, self.assets)
+        recording = Recording(graph, written)
         self.bags = Bags(closed_with(ending, recording), closed_with(ending, Playing(graph)))
         self.shown_panels = closed_with(ending, ShownPanels(graph))
 

@@ -722,6 +722,120 @@ export interface PlanningScene {
   attached?: Json[];
 }
 
+/** Two links; the reason is empty where they are checked for collision. */
+export interface AssistantPair {
+  link1: string;
+  link2: string;
+  reason: string;
+}
+
+/** What holds the root. */
+export interface AssistantVirtualJoint {
+  name: string;
+  type: string;
+  parent_frame: string;
+  child_link: string;
+}
+
+/** All joints between two links. */
+export interface AssistantChain {
+  base_link: string;
+  tip_link: string;
+}
+
+/** A planning group as it is written, and the solver of its inverse kinematics. */
+export interface AssistantGroup {
+  name: string;
+  chains: AssistantChain[];
+  links: string[];
+  joints: string[];
+  subgroups: string[];
+  solver: string;
+}
+
+/** A named pose, rad or m by joint. */
+export interface AssistantState {
+  name: string;
+  group: string;
+  values: Record<string, number>;
+}
+
+/** A group that is mounted on another. */
+export interface AssistantEffector {
+  name: string;
+  group: string;
+  parent_link: string;
+  parent_group: string;
+}
+
+/** A controller that trajectories are sent to. */
+export interface AssistantController {
+  name: string;
+  type: string;
+  plugin: string;
+  action_ns: string;
+  joints: string[];
+}
+
+/** What a joint is commanded by, and whether the package adds that to the robot. */
+export interface AssistantInterface {
+  joint: string;
+  kinds: string[];
+  is_added: boolean;
+}
+
+/** A link below another one. */
+export interface AssistantLink {
+  name: string;
+  parent: string;
+  joint: string;
+  kind: string;
+  is_solid: boolean;
+}
+
+/** A session: the config package and its robot. */
+export interface AssistantValue {
+  package_name: string;
+  ros_version: number;
+  file: string;
+  author_name: string;
+  author_email: string;
+  trials: number;
+  pairs: AssistantPair[];
+  virtual_joints: AssistantVirtualJoint[];
+  groups: AssistantGroup[];
+  states: AssistantState[];
+  end_effectors: AssistantEffector[];
+  passive_joints: string[];
+  controllers: AssistantController[];
+  interfaces: AssistantInterface[];
+  state_interfaces: string[];
+  session: number;
+  folder: string;
+  links: AssistantLink[];
+  robot: MotionRobot;
+}
+
+/** What the page may begin with: robots' files, and config packages that are there. */
+export interface AssistantStart {
+  robots: string[];
+  packages: string[];
+  folder: string;
+}
+
+/** A file that is to be written: new, same, changed or edited. */
+export interface AssistantFile {
+  path: string;
+  state: string;
+}
+
+/** What was written, what was edited and kept, and what to type next. */
+export interface AssistantWritten {
+  written: string[];
+  kept: string[];
+  next: string[];
+}
+
 /** A topic of a bag. */
 export interface BagTopic {
   name: string;

@@ -190,6 +190,15 @@ const OTHERS: readonly PanelKind[] = [
       new (await import('./parameters')).Parameters(connection, host),
   },
   {
+    kind: 'moveit_setup_assistant',
+    title: 'Setup Assistant',
+    group: 'Robot Tools',
+    aliases: ['setup_assistant'],
+    about: 'Makes a MoveIt config package for a robot',
+    make: async (connection, host) =>
+      new (await import('../setup_assistant/panel')).SetupAssistantPanel(connection, host),
+  },
+  {
     kind: 'rqt_robot_steering',
     title: 'Robot Steering',
     group: 'Robot Tools',

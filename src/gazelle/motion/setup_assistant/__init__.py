@@ -18,7 +18,12 @@ from gazelle.motion.setup_assistant.package_files import (
     planned_files,
     write_package,
 )
-from gazelle.motion.setup_assistant.proposal import CollisionSearch, propose, with_groups
+from gazelle.motion.setup_assistant.proposal import (
+    CollisionSearch,
+    propose,
+    regrouped,
+    with_groups,
+)
 from gazelle.motion.setup_assistant.read_package import read_config_package
 from gazelle.motion.setup_assistant.robot_source import load_robot, read_robot
 from gazelle.motion.setup_assistant.self_collisions import (
@@ -50,6 +55,7 @@ __all__ = [
     "propose",
     "read_config_package",
     "read_robot",
+    "regrouped",
     "self_collision_matrix",
     "with_groups",
     "write_package",

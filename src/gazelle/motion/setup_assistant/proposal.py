@@ -34,6 +34,7 @@ __all__ = [
     "package_name_for",
     "passive_joints_for",
     "propose",
+    "regrouped",
     "virtual_joints_for",
     "with_groups",
 ]
@@ -50,12 +51,14 @@ class CollisionSearch:
         always_fraction: from this share of collisions on a pair counts as always colliding.
         seed: of the configurations.
         progress: is told how much is done, 0 to 1.
+        include_never: look for pairs that never collide, which takes the longest.
     """
 
     trials: int = 10_000
     always_fraction: float = 0.95
     seed: int = 0
     progress: Progress | None = None
+    include_never: bool = True
 
 
 def propose(
@@ -87,6 +90,7 @@ def propose(
         bare,
         trials=search.trials,
         always_fraction=search.always_fraction,
+        include_never=search.include_never,
         seed=search.seed,
         progress=search.progress,
         diagnostics=diagnostics,
@@ -140,6 +144,47 @@ def with_groups(
         added_joints=added_joints(model, interfaces, config.ros_version),
         adds_plugin=not has_manager_plugin(model),
         initial_positions=initial_positions(robot, interfaces),
+    )
+
+
+def regrouped(
+    config: SetupAssistantConfig,
+    model: Model,
+    groups: Sequence[Group],
+    end_effectors: Sequence[EndEffector],
+) -> SetupAssistantConfig:
+    """Return a configuration with other groups; what was chosen for those that stay is kept.
+
+    Args:
+        config: what was chosen so far.
+        model: the robot.
+        groups: planning groups.
+        end_effectors: those among them that are mounted on others.
+    """
+    fresh = with_groups(config, model, groups, end_effectors)
+    old = {group.name: replace(group, span=None) for group in config.srdf.groups}
+    kept = {group.name for group in groups if old.get(group.name) == replace(group, span=None)}
+    states = [
+        *(state for state in config.srdf.states if state.group in kept),
+        *(state for state in fresh.srdf.states if state.group not in kept),
+    ]
+    solvers = {
+        group: config.kinematics.get(group, choice) if group in kept else choice
+        for group, choice in fresh.kinematics.items()
+    }
+    told = Diagnostics()
+    robot = RobotModel.build(model, fresh.srdf, diagnostics=told)
+    joints = {joint for name in kept if name in robot.groups for joint in robot.groups[name].joints}
+    controllers = [item for item in config.controllers if set(item.joints) <= joints]
+    taken = {joint for item in controllers for joint in item.joints}
+    controllers += [item for item in fresh.controllers if not taken & set(item.joints)]
+    return replace(
+        config,
+        srdf=replace(fresh.srdf, states=tuple(states)),
+        kinematics=solvers,
+        planners={group: config.planners.get(group, "RRTConnect") for group in fresh.planners},
+        controllers=tuple(controllers),
+        initial_positions={**fresh.initial_positions, **config.initial_positions},
     )
 
 

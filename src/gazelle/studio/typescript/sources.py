@@ -94,6 +94,21 @@ from gazelle.studio.scenes.shapes import (
     PageGeometry,
 )
 from gazelle.studio.settings.rviz_files import RvizDisplay, RvizFile, RvizTool, RvizView
+from gazelle.studio.setup_assistant.values import (
+    AssistantChain,
+    AssistantController,
+    AssistantEffector,
+    AssistantFile,
+    AssistantGroup,
+    AssistantInterface,
+    AssistantLink,
+    AssistantPair,
+    AssistantStart,
+    AssistantState,
+    AssistantValue,
+    AssistantVirtualJoint,
+    AssistantWritten,
+)
 from gazelle.studio.typescript.interfaces import interface, ros_interfaces, type_text
 from gazelle.studio.world.models import ModelEntry
 from gazelle.studio.world.streams import PageScene, WorldJoint
@@ -117,6 +132,10 @@ _PARTS = (InertialValue, SensorValue, LightValue, BodyValue, MimicValue, JointVa
 _WORLD = (WorldStats, WorldJoint, PropertyRow, ModelEntry)
 _MOTION_PARTS = (MotionVariable, MotionJoint, MotionMimic, MotionEffector, MotionGroup)
 _MOTION = (*_MOTION_PARTS, MotionRobot, MotionMesh, PlanningScene)
+_ASSISTANT_SRDF = (AssistantPair, AssistantVirtualJoint, AssistantChain, AssistantGroup)
+_ASSISTANT_PARTS = (AssistantState, AssistantEffector, AssistantController, AssistantInterface)
+_ASSISTANT_FILES = (AssistantStart, AssistantFile, AssistantWritten)
+_ASSISTANT = (*_ASSISTANT_SRDF, *_ASSISTANT_PARTS, AssistantLink, AssistantValue)
 _BAGS = (BagTopic, RecorderState, PlayerState, BagState)
 _PORTING = (PortedWidget, PortedForm, PortedPlugin)
 _PANELS = (PanelEntry, PanelInfo, PanelEvent, PanelState, *_PORTING)
@@ -134,7 +153,17 @@ MESSAGES: tuple[type, ...] = (
         *_DISPLAYS,
         *_MARKERS,
     ),
-    *(*_SHAPES, *_PARTS, SceneValue, *_WORLD, *_MOTION, *_BAGS, *_PANELS),
+    *(
+        *_SHAPES,
+        *_PARTS,
+        SceneValue,
+        *_WORLD,
+        *_MOTION,
+        *_ASSISTANT,
+        *_ASSISTANT_FILES,
+        *_BAGS,
+        *_PANELS,
+    ),
 )
 """`TypedDict` classes, and `NamedTuple` ones that are sent as such."""
 
