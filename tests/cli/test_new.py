@@ -56,3 +56,24 @@ def test_bad_names_are_refused(tmp_path, capsys) -> None:
     assert main(["new", "robot", "My-Bot"]) == 1
     assert "(REP 144); 'my_bot' would do" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+def test_a_robot_without_a_name_or_with_its_file_opens_the_setup_assistant(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ROS_NAMESPACE", "/")
+    started: list[list[str]] = []
+    monkeypatch.setattr("gazelle.nodes.__main__.main", lambda words: started.append(words) or 0)
+    node = "moveit_setup_assistant/moveit_setup_assistant"
+    assert main(["new", "robot"]) == 0
+    assert main(["new", "robot", "arm.urdf"]) == 1
+    assert "new: there is no file arm.urdf" in capsys.readouterr().err
+    (tmp_path / "arm.urdf").write_text("<robot/>", encoding="utf-8")
+    assert main(["new", "robot", "arm.urdf"]) == 0
+    assert started == [[node], [node, "--urdf_path", "arm.urdf"]]
+
+
+def test_other_packages_need_a_name(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["new", "world"])
+    assert "the name of the package is missing" in capsys.readouterr().err

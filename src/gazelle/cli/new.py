@@ -1,6 +1,7 @@
 """``gazelle new robot|world|package NAME``: a package that runs at once.
 
-``gazelle new moveit_config ROBOT.urdf`` is `gazelle.cli.new_moveit_config`.
+``gazelle new moveit_config ROBOT.urdf`` is `gazelle.cli.new_moveit_config`; ``gazelle new robot``
+without a name, or with a robot's file, opens the page's Setup Assistant.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ from gazelle.workspace.scaffold import KINDS, ScaffoldError, check_package_name,
 __all__ = ["main"]
 
 _MOVEIT_CONFIG = "moveit_config"
+_ASSISTANT = "moveit_setup_assistant/moveit_setup_assistant"
+_DESCRIPTIONS = (".urdf", ".xacro")
 
 
 def main(argv: list[str]) -> int:
@@ -24,7 +27,12 @@ def main(argv: list[str]) -> int:
         from gazelle.cli import new_moveit_config
 
         return new_moveit_config.main(argv[1:], _source_folder(Path.cwd()))
-    options = _parser().parse_args(argv)
+    parser = _parser()
+    options = parser.parse_args(argv)
+    if options.kind == "robot" and (options.name or _DESCRIPTIONS[0]).endswith(_DESCRIPTIONS):
+        return _open_assistant(options.name)
+    if options.name is None:
+        parser.error("the name of the package is missing")
     check_package_name(options.name)
     parent = options.into or _source_folder(Path.cwd())
     taken = Workspace.discover().packages.get(options.name)
@@ -48,12 +56,26 @@ def _parser() -> argparse.ArgumentParser:
     )
     add = parser.add_argument
     add("kind", choices=KINDS, help="a robot with its world, a world, or a node")
-    add("name", help="of the package")
+    add(
+        "name",
+        nargs="?",
+        help="of the package; of a robot its URDF or xacro, or nothing: the page's Setup Assistant",
+    )
     ros_version = parser.add_mutually_exclusive_group()
     ros_version.add_argument("--ros1", action="store_true", help="for ROS 1, catkin (the default)")
     ros_version.add_argument("--ros2", action="store_true", help="for ROS 2, ament_python")
     add("--into", type=Path, metavar="FOLDER", help="where to (default: src here, else here)")
     return parser
+
+
+def _open_assistant(file: str | None) -> int:
+    """Show the page's Setup Assistant, on a robot's file if there is one, until Ctrl-C."""
+    from gazelle.nodes.__main__ import main as run_node
+
+    if file is not None and not Path(file).is_file():
+        raise ScaffoldError(f"there is no file {file}")
+    os.environ.setdefault("ROS_NAMESPACE", "/")
+    return run_node([_ASSISTANT, *(["--urdf_path", file] if file else [])])
 
 
 def _source_folder(here: Path) -> Path:

@@ -29,7 +29,7 @@ export class CollisionsStep extends Step {
       type: 'number',
       min: 1,
       max: 1_000_000,
-      step: 1000,
+      step: 1,
       value: this.trials,
       'aria-label': 'Random configurations',
     });

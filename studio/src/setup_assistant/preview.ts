@@ -1,6 +1,6 @@
 /** The robot in 3D beside the steps: where its joints are, and which links a step is about. */
 import * as THREE from 'three';
-import type { MotionRobot } from '../generated/messages';
+import type { MotionRobot, PageScene } from '../generated/messages';
 import { Ghost, paint } from '../motion/ghost';
 import { Kinematics, type Positions } from '../motion/robot';
 import { gridLines } from '../scene/grid';
@@ -35,7 +35,7 @@ export class Preview {
     this.shown = key;
     const view = this.view ?? this.makeView();
     if (this.ghost) view.scene.remove(this.ghost.root);
-    this.ghost = new Ghost(robot.scene, 'robot', () => this.meshCame());
+    this.ghost = new Ghost(seen(robot.scene), 'robot', () => this.meshCame());
     view.scene.add(this.ghost.root);
     this.positions = { ...robot.defaults };
     this.draw();
@@ -112,4 +112,12 @@ export class Preview {
     this.draw();
     this.look();
   }
+}
+
+/** Links that have no looks are shown by what collides. */
+function seen(scene: PageScene): PageScene {
+  const bodies = scene.bodies.map((body) =>
+    body.visuals.length ? body : { ...body, visuals: body.collisions },
+  );
+  return { ...scene, bodies };
 }

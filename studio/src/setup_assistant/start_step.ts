@@ -89,7 +89,7 @@ export class StartStep extends Step {
         h(
           'p',
           { role: 'status', class: 'assistant-loaded' },
-          `${value.robot.name}: ${value.links.length} links, ${value.robot.joints.length} joints that move, ${value.groups.length} planning groups proposed. The steps at the left show everything that is proposed.`,
+          `${value.robot.name}: ${value.links.length} links, ${value.robot.joints.length} joints that move, planning groups: ${value.groups.map((group) => group.name).join(', ') || 'none'}. The steps at the left show all of it, proposed until you change it.`,
         ),
       );
     return parts;

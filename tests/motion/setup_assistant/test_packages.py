@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from tests.motion.setup_assistant.conftest import HERON, proposed, seven_of
 
+from gazelle.description.loader import load_models
 from gazelle.description.moveit import read_moveit_config
 from gazelle.diagnostics import Diagnostics, Severity
 from gazelle.doctor import examine
@@ -128,12 +129,25 @@ def test_what_nobody_knows_is_kept(tmp_path: Path) -> None:
     assert "parallel: true" in texts["config/moveit_controllers.yaml"]
 
 
-def test_a_fixed_root_is_fixed_in_gazebo_too(tmp_path: Path) -> None:
-    texts = {item.path: item.text for item in planned_files(seven_of(2), tmp_path)}
-    assert "<child>base</child>" in texts["config/seven.urdf.xacro"]
-    texts = {item.path: item.text for item in planned_files(seven_of(1), tmp_path)}
-    assert "<child>base</child>" in texts["config/gazebo_seven.urdf.xacro"]
-    assert "PositionJointInterface" in texts["config/gazebo_seven.urdf.xacro"]
+@pytest.mark.parametrize("ros_version", [1, 2])
+def test_a_fixed_root_is_fixed_in_gazebo_and_stays_the_root_for_moveit(
+    tmp_path: Path, ros_version: int
+) -> None:
+    config = seven_of(ros_version)
+    write_package(config, tmp_path / config.package_name)
+    workspace = Workspace.discover(environ={}, extra=[tmp_path])
+    name = "seven" if ros_version == 2 else "gazebo_seven"
+    file = tmp_path / config.package_name / "config" / f"{name}.urdf.xacro"
+
+    def parents(inserts: bool, **mappings: str) -> set[str]:
+        (model,) = load_models(
+            file, workspace=workspace, diagnostics=Diagnostics(), mappings=mappings, inserts=inserts
+        )
+        assert len(model.transmissions) == (8 if ros_version == 1 else 0)
+        return {joint.parent for joint in model.joints if joint.child == "base"}
+
+    assert parents(True, use_sim="true") == {"world"}
+    assert parents(False, use_sim="true") == set()
 
 
 def test_sensors_are_written_as_each_ros_has_them(tmp_path: Path) -> None:

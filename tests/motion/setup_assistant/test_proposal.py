@@ -13,8 +13,9 @@ from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.moveit import read_moveit_config
 from gazelle.diagnostics import Diagnostics
-from gazelle.motion.setup_assistant import RobotSource, propose, read_robot
+from gazelle.motion.setup_assistant import RobotSource, planned_files, propose, read_robot
 from gazelle.motion.setup_assistant.hardware import command_interfaces
+from gazelle.motion.setup_assistant.next_steps import next_steps
 from gazelle.motion.setup_assistant.package_files import SetupAssistantError
 from gazelle.motion.setup_assistant.proposal import package_name_for
 from gazelle.workspace import Workspace
@@ -113,3 +114,34 @@ def test_a_robot_of_no_package_is_copied(tmp_path: Path) -> None:
     assert source.copied_text == file.read_text(encoding="utf-8")
     assert replace(source, xacro_args="a:=1 b:=x").mappings == {"a": "1", "b": "x"}
     assert model.name == "own"
+
+
+def test_the_argument_that_chooses_mirroring_hardware_is_found_for_the_demo(tmp_path: Path) -> None:
+    config, _ = proposed(HERON)
+    assert (config.source.demo_args, config.source.has_demo) == ("use_sim:=false", True)
+    texts = {item.path: item.text for item in planned_files(config, tmp_path)}
+    assert '.robot_description(mappings={"use_sim": "false"})' in texts["launch/demo.launch.py"]
+    assert "mappings" not in texts["launch/move_group.launch.py"]
+    assert next_steps(config)[0].endswith("heron_moveit_config demo.launch.py")
+
+
+def test_a_robot_with_gazebos_hardware_alone_has_no_demo(tmp_path: Path) -> None:
+    control = (
+        '<ros2_control name="s" type="system"><hardware><plugin>gz_ros2_control/GazeboSimSystem'
+        '</plugin></hardware><joint name="j"><command_interface name="velocity"/></joint>'
+        "</ros2_control>"
+    )
+    package = tmp_path / "src" / "own_description"
+    (package / "urdf").mkdir(parents=True)
+    (package / "package.xml").write_text(
+        "<package><name>own_description</name><version>1.0.0</version></package>", encoding="utf-8"
+    )
+    file = package / "urdf" / "own.urdf"
+    text = f'<robot name="own">{link("a")}{link("b")}{joint("j", "a", "b")}{control}</robot>'
+    file.write_text(text, encoding="utf-8")
+    workspace = Workspace.discover(environ={}, cwd=tmp_path)
+    source, model = read_robot(file, workspace=workspace, diagnostics=Diagnostics())
+    assert (source.package, source.has_demo) == ("own_description", False)
+    config = propose(model, source, diagnostics=Diagnostics())
+    assert config.command_interfaces == {"j": ("velocity",)}
+    assert [line.split(":")[0] for line in next_steps(config)] == ["in Gazebo", "look for slips"]

@@ -20,10 +20,17 @@ __all__ = [
     "RobotSource",
     "RosVersion",
     "SetupAssistantConfig",
+    "mappings_of",
 ]
 
 RosVersion = Literal[1, 2]
 KDL_SOLVER = "kdl_kinematics_plugin/KDLKinematicsPlugin"
+
+
+def mappings_of(words: str) -> dict[str, str]:
+    """Return values by name of words ``NAME:=VALUE`` with spaces between."""
+    parted = [word.partition(":=") for word in words.split() if ":=" in word]
+    return {name: value for name, _, value in parted}
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +42,10 @@ class RobotSource:
         package: the package it lies in; empty when it lies in none.
         relative_path: of the file in that package.
         xacro_args: words ``NAME:=VALUE`` for xacro, with spaces between.
+        demo_args: what chooses hardware that only mirrors what it is told, where the robot's own
+            ``<ros2_control>`` has other hardware by default.
+        gazebo_args: what chooses Gazebo's, where it has other hardware by default.
+        has_demo: the robot can do without Gazebo and without its real hardware.
         copied_text: the URDF that the config package itself holds, because no other package does.
     """
 
@@ -42,13 +53,15 @@ class RobotSource:
     package: str = ""
     relative_path: str = ""
     xacro_args: str = ""
+    demo_args: str = ""
+    gazebo_args: str = ""
+    has_demo: bool = True
     copied_text: str = field(default="", repr=False)
 
     @property
     def mappings(self) -> dict[str, str]:
         """Values of xacro's arguments by name."""
-        words = [word.partition(":=") for word in self.xacro_args.split() if ":=" in word]
-        return {name: value for name, _, value in words}
+        return mappings_of(self.xacro_args)
 
     @property
     def is_xacro(self) -> bool:

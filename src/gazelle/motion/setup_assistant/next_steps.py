@@ -16,8 +16,9 @@ def next_steps(config: SetupAssistantConfig) -> list[str]:
         if config.ros_version == 1
         else ("demo.launch.py", "gazebo.launch.py")
     )
+    has_demo = config.ros_version == 1 or config.source.has_demo
     return [
-        f"plan with it:   {launch} {name} {demo}",
+        *([f"plan with it:   {launch} {name} {demo}"] if has_demo else []),
         f"in Gazebo:      {launch} {name} {world}",
         f"look for slips: gazelle doctor {name}",
     ]

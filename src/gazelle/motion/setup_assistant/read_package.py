@@ -77,12 +77,12 @@ class _Reader:
         setup = _tree(self._yaml(SETUP_FILE).get("moveit_setup_assistant_config"))
         manifest = self._manifest()
         version: RosVersion = 2 if manifest.build_type.startswith("ament") else 1
-        source = self._source(_part(setup, "urdf"), manifest.name)
+        own = _part(setup, "gazelle")
+        source = self._source(_part(setup, "urdf"), own, manifest.name)
         model = load_robot(source, self._workspace, self._diagnostics)
         path = str(_part(setup, "srdf").get("relative_path") or f"config/{model.name}.srdf")
         srdf, others = self._srdf(path, model, source)
         author = _part(setup, "package_settings") or _part(setup, "config")
-        own = _part(setup, "gazelle")
         driven, added = self._hardware(model, version)
         states = _part(setup, "control_xacro").get("state") or ("position", "velocity")
         managers = self._yaml(
@@ -138,7 +138,7 @@ class _Reader:
         except (YamlError, OSError, UnicodeDecodeError) as error:
             raise SetupAssistantError(f"cannot read {file}: {error}") from error
 
-    def _source(self, urdf: Tree, own_name: str) -> RobotSource:
+    def _source(self, urdf: Tree, own: Tree, own_name: str) -> RobotSource:
         relative = str(urdf.get("relative_path") or "")
         package = str(urdf.get("package") or "")
         if not relative:
@@ -148,9 +148,12 @@ class _Reader:
             text = file.read_text(encoding="utf-8") if is_file(file) else ""
             return RobotSource(file, "", relative, copied_text=text)
         folder = self._workspace.package(package).path
-        return RobotSource(
-            folder / relative, package, relative, str(urdf.get("xacro_args") or "").strip()
+        words = (
+            str(part or "").strip()
+            for part in (urdf.get("xacro_args"), own.get("demo_args"), own.get("gazebo_args"))
         )
+        has_demo = bool(own.get("has_demo", True))
+        return RobotSource(folder / relative, package, relative, *words, has_demo)
 
     def _srdf(self, path: str, model: Model, source: RobotSource) -> tuple[Srdf, tuple[Tag, ...]]:
         file = self._folder / path

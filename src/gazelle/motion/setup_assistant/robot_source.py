@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.xacro import expand_xacro
+from gazelle.description.xml import read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.documents import read_text_limited
 from gazelle.motion.setup_assistant.config import RobotSource
 from gazelle.motion.setup_assistant.package_files import SetupAssistantError
 from gazelle.workspace import Workspace
 
-__all__ = ["load_robot", "read_robot"]
+__all__ = ["load_robot", "read_robot", "with_hardware_arguments"]
+
+_OPPOSITES = {"true": "false", "false": "true"}
+_MOCK = ("mock_components/", "fake_components/")
+_GAZEBO = re.compile(r"gazebo|^gz_|^ign_", re.IGNORECASE)
 
 
 def read_robot(
@@ -37,7 +45,8 @@ def read_robot(
         folder = package.path.resolve()
         if file.is_relative_to(folder):
             relative = file.relative_to(folder).as_posix()
-            return RobotSource(file, package.name, relative, xacro_args), model
+            found = RobotSource(file, package.name, relative, xacro_args)
+            return with_hardware_arguments(found, model, workspace), model
     path = f"config/{model.name}.urdf"
     text = _expanded(source, workspace, diagnostics)
     return RobotSource(file, "", path, "", copied_text=text), model
@@ -62,6 +71,36 @@ def load_robot(source: RobotSource, workspace: Workspace, diagnostics: Diagnosti
     if not models[0].links:
         raise SetupAssistantError(f"the robot in {source.file} has no links")
     return models[0]
+
+
+def with_hardware_arguments(source: RobotSource, model: Model, workspace: Workspace) -> RobotSource:
+    """Return a source with the words for xacro that choose mirroring hardware, and Gazebo's.
+
+    Looked for are arguments that are true or false, as ``use_sim`` of many robots.
+    """
+    if not model.ros2_controls:
+        return source
+    root = read_xml(source.file, Diagnostics()) if source.is_xacro else None
+    tags = () if root is None else root.find_all("xacro:arg")
+    found = {_hardware(model): ""}
+    for tag in tags:
+        name, default = (tag.attributes.get(key, "") for key in ("name", "default"))
+        if default.lower() not in _OPPOSITES or name in source.mappings:
+            continue
+        word = f"{name}:={_OPPOSITES[default.lower()]}"
+        tried = replace(source, xacro_args=f"{source.xacro_args} {word}".strip())
+        with suppress(SetupAssistantError):
+            found.setdefault(_hardware(load_robot(tried, workspace, Diagnostics())), word)
+    demo, gazebo = found.get("mock", ""), found.get("gazebo", "")
+    return replace(source, demo_args=demo, gazebo_args=gazebo, has_demo="mock" in found)
+
+
+def _hardware(model: Model) -> str:
+    """Which hardware the blocks of ``<ros2_control>`` name."""
+    names = [block.element.text_of("hardware", "plugin") for block in model.ros2_controls]
+    if names and all(name.startswith(_MOCK) for name in names):
+        return "mock"
+    return "gazebo" if any(_GAZEBO.search(name) for name in names) else "other"
 
 
 def _expanded(source: RobotSource, workspace: Workspace, diagnostics: Diagnostics) -> str:

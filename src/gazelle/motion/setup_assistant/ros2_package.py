@@ -6,7 +6,11 @@ from typing import Any
 from xml.sax.saxutils import quoteattr
 
 from gazelle.description.srdf.writer import srdf_text
-from gazelle.motion.setup_assistant.config import ControllerChoice, SetupAssistantConfig
+from gazelle.motion.setup_assistant.config import (
+    ControllerChoice,
+    SetupAssistantConfig,
+    mappings_of,
+)
 from gazelle.motion.setup_assistant.texts import (
     cartesian_limits_yaml,
     filled,
@@ -81,8 +85,14 @@ def ros2_files(config: SetupAssistantConfig) -> dict[str, str]:
     if config.planners:
         found["config/ompl_planning.yaml"] = _ompl(config)
     for name, words in _LAUNCHES.items():
+        chosen = source.demo_args if name == "demo" else ""
         found[f"launch/{name}.launch.py"] = filled(
-            "ros2/usual.launch.py", words=words, name=name, robot=robot, package=package
+            "ros2/usual.launch.py",
+            words=words,
+            name=name,
+            robot=robot,
+            package=package,
+            mappings=_mappings(config, chosen),
         )
     return found
 
@@ -181,12 +191,21 @@ def _macro(robot: str) -> str:
 
 def _gazebo(config: SetupAssistantConfig) -> str:
     names = [_BROADCASTER, *(item.name for item in config.controllers)]
-    mappings = '.robot_description(mappings={"use_sim": "true"})' if config.adds_hardware else ""
+    words = "use_sim:=true" if config.adds_hardware else config.source.gazebo_args
     listed = "[" + ", ".join(f'"{name}"' for name in names) + "]"
     return filled(
         "ros2/gazebo.launch.py",
         robot=config.robot_name,
         package=config.package_name,
         controllers=listed,
-        mappings=mappings,
+        mappings=_mappings(config, words),
     )
+
+
+def _mappings(config: SetupAssistantConfig, words: str) -> str:
+    """The call that expands the robot with other arguments of xacro; empty for none."""
+    if not words:
+        return ""
+    given = {**config.source.mappings, **mappings_of(words)}
+    listed = ", ".join(f'"{name}": "{value}"' for name, value in given.items())
+    return f".robot_description(mappings={{{listed}}})"

@@ -197,6 +197,9 @@ def setup_assistant_file(config: SetupAssistantConfig, written: Mapping[str, str
         "always_fraction": config.always_fraction,
         # A package of ROS 2 has a file for them.
         **({"initial_positions": config.initial_positions} if config.ros_version == 1 else {}),
+        **({"demo_args": source.demo_args} if source.demo_args else {}),
+        **({"gazebo_args": source.gazebo_args} if source.gazebo_args else {}),
+        **({} if source.has_demo else {"has_demo": False}),
         "files": dict(sorted(written.items())),
     }
     for key, value in config.others.items():

@@ -259,20 +259,21 @@ def with_pairs(session: AssistantSession, trials: int) -> None:
 
     found = Diagnostics()
     bare = RobotModel.build(session.model, diagnostics=found)
-    config = session.config
     matrix = self_collision_matrix(
         bare,
         trials=trials,
-        always_fraction=config.always_fraction,
+        always_fraction=session.config.always_fraction,
         progress=told,
         diagnostics=found,
     )
     disabled = {(pair.link1, pair.link2): pair for pair in matrix.disabled()}
+    # A person may have gone on while this was looking.
+    config = session.config
     for pair in config.srdf.disabled_pairs:
         if pair.reason == DisabledReason.USER.value:
             disabled.setdefault((min(pair.link1, pair.link2), max(pair.link1, pair.link2)), pair)
-    srdf = replace(session.config.srdf, disabled_pairs=tuple(disabled.values()))
-    session.config = replace(session.config, srdf=srdf, collision_trials=trials)
+    srdf = replace(config.srdf, disabled_pairs=tuple(disabled.values()))
+    session.config = replace(config, srdf=srdf, collision_trials=trials)
 
 
 def _all_pairs(config: SetupAssistantConfig, links: list[str]) -> list[AssistantPair]:
