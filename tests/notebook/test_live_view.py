@@ -13,6 +13,7 @@ import pytest
 from tests.patience import eventually
 from tests.studio.page import Page
 
+from gazelle.graph import Graph
 from gazelle.interfaces import message_type
 from gazelle.notebook import live_view
 from gazelle.simulator import Simulation
@@ -93,6 +94,28 @@ def test_a_closed_view_lets_nobody_in_and_the_others_go_on(sim: Simulation) -> N
     one.close()
     assert (_status(one), _status(other)) == (403, 200)
     assert one.watchers == 0
+
+
+def test_the_last_view_that_closes_ends_the_server_and_another_one_begins_anew(
+    sim: Simulation,
+) -> None:
+    view = sim.view()
+    view.close()
+    with pytest.raises(OSError):
+        _status(view)
+    sim.run(seconds=0.1)
+    assert _status(sim.view()) == 200
+
+
+def test_a_simulation_on_a_graph_is_looked_at_there(free_port: int) -> None:
+    with Graph.open(port=free_port, role="hub", environ={}) as graph:
+        node = graph.create_node("gazebo", rosout=False)
+        with Simulation.load(_CART, world=None, node=node) as sim:
+            for _ in range(2):
+                view = sim.view()
+                with _page(view) as page:
+                    assert page.hello["graph"]["port"] == free_port
+                view.close()
 
 
 def test_a_simulation_that_closes_ends_its_views() -> None:

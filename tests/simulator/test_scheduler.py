@@ -156,3 +156,15 @@ def test_what_a_task_raises_is_told_and_the_others_run() -> None:
     assert told == [(bad, "integer division or modulo by zero")]
     with pytest.raises(ZeroDivisionError):
         scheduler.run_due(2)
+
+
+def test_what_nobody_wants_is_put_to_rest_before_it_is_due() -> None:
+    scheduler, ticks, wanted = Scheduler(MS), [], [False]
+    task = Task("t", Fraction(1), lambda: ticks.append(1), wanted=lambda: wanted[0])
+    scheduler.add(task)
+    scheduler.add(Task("other", Fraction(20), lambda: ticks.append(20)))
+    scheduler.rest()
+    assert scheduler.next_due() == 20
+    wanted[0] = True
+    scheduler.look()
+    assert scheduler.next_due() == 1

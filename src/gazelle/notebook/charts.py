@@ -41,6 +41,8 @@ _LEGEND_PX = 17.0
 _MAX_LINES = 24
 _MAX_BINS, _ALL_BINS = 500, 3000
 _MARGIN = 0.06
+# As wide as a bar of the scale with its words.
+_MIN_PX = 160.0
 
 
 class Line(NamedTuple):
@@ -138,7 +140,7 @@ def plane_of(
     scale = size_px / float((high - low).max())
     width, height = ((high - low) * scale).tolist()
     plane = Plane(8.0, top, scale, float(low[0]), float(high[1]))
-    return plane, max(width, 60.0) + 16.0, max(height, 40.0) + top + 8.0
+    return plane, max(width, _MIN_PX) + 16.0, max(height, 40.0) + top + 8.0
 
 
 def scale_bar(plane: Plane, width: float, height: float) -> tuple[Stroke | Label, ...]:

@@ -43,7 +43,7 @@ class View:
         self._sim = sim
         self._live = live
         self._height_px = height_px
-        self._frame = live.server.open_frame(origin)
+        self._frame = live.open_frame(origin)
         self._recorder = _recorder(sim)
         self._still = _still(sim)
         self._begin_s = time.monotonic()
@@ -71,7 +71,7 @@ class View:
         if not self._is_open:
             return
         self._is_open = False
-        self._live.server.close_frame(self._frame)
+        self._live.close_frame(self._frame)
         if self._recorder is not None:
             self._recorder.stop()
         if self._handle is not None:
@@ -165,7 +165,8 @@ def show(
     origin: str | None = None,
 ) -> tuple[View, LiveWorld]:
     """Open a view, and what it needs of the simulation where that is not open yet."""
-    live = live or LiveWorld(sim)
+    if live is None or live.is_closed:
+        live = LiveWorld(sim)
     view = View(sim, live, height_px=height_px, origin=origin)
     shell = _shell()
     if shell is not None:

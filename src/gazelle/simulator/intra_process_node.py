@@ -137,14 +137,9 @@ class LocalParameters:
 
 
 class LocalNode:
-    """A node without a graph.
-
-    Attributes:
-        has_views: topics and services for viewers are offered here.
-    """
+    """A node without a graph."""
 
     def __init__(self) -> None:
-        self.has_views = False
         self._callbacks: dict[str, list[Callback]] = {}
         self._publishers: list[LocalPublisher] = []
         self._subscriptions: dict[LocalSubscription, None] = {}

@@ -213,6 +213,17 @@ class Scheduler:
             else:
                 self._asleep.append(task)
 
+    def rest(self) -> None:
+        """Put to sleep what nobody wants now; otherwise that happens when it is due first."""
+        idle = [
+            entry[3]
+            for entry in self._heap
+            if entry[3].wanted is not None and not entry[3].wanted()
+        ]
+        for task in idle:
+            self.remove(task)
+        self._asleep += idle
+
     def restart(self) -> None:
         """Start all tasks over after simulated time went back to zero."""
         tasks = tuple(self)

@@ -37,6 +37,7 @@ export function gazelleReplay(place: HTMLElement, buffer: ArrayBuffer): Replay {
   const motion = new Motion(recording);
   const topics = new TopicsPanel(recording, motion, (time_s) => player.seek(time_s));
   const side = h('aside', { class: 'replay-side', 'aria-label': 'Topics' }, topics.element);
+  side.hidden = topics.topics.length === 0;
   place.replaceChildren();
   place.className = 'replay';
   const head = h('header', { class: 'replay-head' });
@@ -75,7 +76,7 @@ function sceneControls(stage: Stage, player: Player, side: HTMLElement): HTMLEle
       title: `Show ${kind.toLowerCase()}`,
     }),
   );
-  const topics = toggle('Topics', true, (on) => (side.hidden = !on), {
+  const topics = toggle('Topics', !side.hidden, (on) => (side.hidden = !on), {
     title: 'Show topics and curves',
   });
   const other = button(
