@@ -53,6 +53,14 @@ def test_keys_reach_everything_around_the_panels(robot: Any, look: Any) -> None:
     keys.press("Enter")
     dialog.wait_for(state="detached")
     assert helps.evaluate("(element) => element === document.activeElement")
+    # From one group of panels to the next.
+    keys.press("F6")
+    first = page.evaluate("document.activeElement.textContent")
+    keys.press("F6")
+    assert {first, page.evaluate("document.activeElement.textContent")} == {
+        "Topic Monitor",
+        "Console",
+    }
     # The list of shortcuts, and a tab that is closed by a key.
     keys.press("?")
     page.get_by_role("dialog", name="Keyboard shortcuts").wait_for()
