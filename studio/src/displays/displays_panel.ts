@@ -6,7 +6,7 @@ import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
 import { activeScene, onActiveScene } from '../scene/active_scene';
 import type { ScenePanel } from '../scene/scene_panel';
-import { button, h, notice, toolbar } from '../widgets/dom';
+import { button, h, notice, roleWhileFilled, toolbar } from '../widgets/dom';
 import { openMenu } from '../widgets/menu';
 import { insertFile } from '../world/actions';
 import { askText } from '../shell/dialog';
@@ -27,7 +27,6 @@ export class DisplaysPanel extends BasePanel {
   private unwatch: () => void = () => undefined;
   private readonly tree = h('div', {
     class: 'display-tree',
-    role: 'tree',
     'aria-label': 'Displays',
   });
   private readonly globals = h('div', { class: 'display-body' });
@@ -67,6 +66,7 @@ export class DisplaysPanel extends BasePanel {
       h('div', { class: 'displays-scroll' }, this.globals, this.tree),
       this.viewsPlace,
     );
+    roleWhileFilled(this.tree, 'tree');
     this.tree.addEventListener('keydown', (event) => this.key(event));
     this.atEnd(onActiveScene(() => this.attach()));
     this.atEnd(() => this.unwatch());

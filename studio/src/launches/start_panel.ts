@@ -16,6 +16,8 @@ export class StartPanel extends BasePanel {
   private readonly recent = h('ul', { class: 'recent-launches' });
   private readonly lead = h('p', { class: 'start-lead', role: 'status' });
   private shownText = '';
+  /** Something runs on the graph, and a second world has no place there. */
+  private isBusy = false;
   private timer = 0;
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
@@ -50,11 +52,16 @@ export class StartPanel extends BasePanel {
 
   private lookAround(): void {
     const nodes = this.host.graph.value.nodes.filter((node) => node.name !== '/rosout');
+    if (this.isBusy !== nodes.length > 0) {
+      this.isBusy = nodes.length > 0;
+      this.shownText = '';
+      void this.refresh();
+    }
     setText(
       this.lead,
       nodes.length === 0
         ? 'Nothing runs yet. Start a demo, launch something in a terminal, or look at a robot file.'
-        : `${nodes.length === 1 ? 'A node runs' : `${nodes.length} nodes run`}. The menus Panels and Layout show what they do.`,
+        : `${nodes.length === 1 ? 'A node runs' : `${nodes.length} nodes run`}. The menus Panels and Layout show what goes on; a demo can be started when it has ended.`,
     );
   }
 
@@ -95,7 +102,10 @@ export class StartPanel extends BasePanel {
           title: `Start the demo: ${demo.title}`,
         });
     start.setAttribute('aria-label', `${runs ? 'Stop' : 'Start'}: ${demo.title}`);
-    start.disabled = value.running !== '' && !runs;
+    if (!runs && (value.running !== '' || this.isBusy)) {
+      start.disabled = true;
+      start.title = 'Something runs: end it first';
+    }
     const picture = demo.picture
       ? h('img', { src: demo.picture, alt: '', width: 480, height: 270, loading: 'lazy' })
       : h('div', { class: 'no-picture', 'aria-hidden': 'true' }, demo.name);
@@ -152,7 +162,7 @@ export class StartPanel extends BasePanel {
     const time = today ? when.toLocaleTimeString() : when.toLocaleDateString();
     const wrong = launch.errors ? `, ${launch.errors} error${launch.errors > 1 ? 's' : ''}` : '';
     const demo = demos?.demos.find((each) => each.name === launch.demo);
-    const mayStart = demo && demos?.may_start && demos.running === '';
+    const mayStart = demo && demos?.may_start && demos.running === '' && !this.isBusy;
     return h(
       'li',
       { class: 'recent-launch' },

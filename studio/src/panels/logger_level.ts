@@ -2,7 +2,7 @@
 
 import type { LoggerRow } from '../generated/messages';
 import { textOf, type JsonObject } from '../json';
-import { button, h, notice, toolbar } from '../widgets/dom';
+import { button, h, roleWhileFilled, notice, toolbar } from '../widgets/dom';
 import { BasePanel } from './base';
 
 const LEVELS = ['Debug', 'Info', 'Warn', 'Error', 'Fatal'] as const;
@@ -15,25 +15,25 @@ export class LoggerLevel extends BasePanel {
   private levels = new Map<string, string>();
   private readonly nodes = h('div', {
     class: 'choice-list',
-    role: 'listbox',
     'aria-label': 'Nodes',
     tabindex: -1,
   });
   private readonly loggers = h('div', {
     class: 'choice-list',
-    role: 'listbox',
     'aria-label': 'Loggers',
     tabindex: -1,
   });
   private readonly choices = h('div', {
     class: 'choice-list',
-    role: 'listbox',
     'aria-label': 'Levels',
     tabindex: -1,
   });
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
+    roleWhileFilled(this.nodes, 'listbox');
+    roleWhileFilled(this.loggers, 'listbox');
+    roleWhileFilled(this.choices, 'listbox');
     this.element.append(
       toolbar(
         'Logger level',

@@ -3,7 +3,7 @@
 import type { EndpointRow, NodeInfo } from '../generated/messages';
 import { textOf, type JsonObject } from '../json';
 import { confirmDanger } from '../shell/dialog';
-import { button, h, notice, spacer, toolbar } from '../widgets/dom';
+import { button, h, roleWhileFilled, notice, spacer, toolbar } from '../widgets/dom';
 import { BasePanel } from './base';
 
 const LISTS = [
@@ -26,13 +26,13 @@ export class Nodes extends BasePanel {
   });
   private readonly list = h('div', {
     class: 'choice-list',
-    role: 'listbox',
     'aria-label': 'Nodes',
   });
   private readonly body = h('div', { class: 'scroll node-info' }, notice('Choose a node.'));
 
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
+    roleWhileFilled(this.list, 'listbox');
     this.search.addEventListener('input', () => this.showList());
     this.element.append(
       h(

@@ -1,7 +1,7 @@
 /** Dynamic Reconfigure: parameters of running nodes with sliders, ticks and choices, live. */
 
 import { isObject, textOf, textsOf, type Json, type JsonObject } from '../json';
-import { button, h, notice, toolbar } from '../widgets/dom';
+import { button, h, notice, roleWhileFilled, toolbar } from '../widgets/dom';
 import { valueControl, type ValueControl } from '../widgets/value_control';
 import { BasePanel } from './base';
 import { readGroups, readNodeParameters, type ParameterGroup } from './reconfigure_groups';
@@ -20,7 +20,6 @@ export class Reconfigure extends BasePanel {
   private timer = 0;
   private readonly nodes = h('div', {
     class: 'choice-list',
-    role: 'listbox',
     'aria-label': 'Nodes',
   });
   private readonly search = h('input', {
@@ -33,6 +32,7 @@ export class Reconfigure extends BasePanel {
   constructor(...args: ConstructorParameters<typeof BasePanel>) {
     super(...args);
     this.element.classList.add('reconfigure');
+    roleWhileFilled(this.nodes, 'listbox');
     this.search.addEventListener('input', () => this.showNodes());
     this.element.append(
       h(

@@ -33,6 +33,8 @@ export interface Place {
 /** What part of the page those panels get that commands ask for while others are looked at. */
 const BESIDE = 0.4;
 const SAVE_AFTER_MS = 400;
+/** In narrower windows all panels are tabs of one group. */
+const NARROW_PX = 620;
 
 /** The dock of the page. */
 export class Dock {
@@ -103,6 +105,7 @@ export class Dock {
         ? { kind: name, direction: 'within', group: tabs.id }
         : { kind: name, direction: 'right' },
     );
+    if (this.api.width < NARROW_PX) return;
     const group = this.api.activeGroup;
     this.besides = group?.id ?? '';
     if (tabs || !group) return;
@@ -174,6 +177,16 @@ export class Dock {
     if (!panel) return;
     if (panel.api.isMaximized()) panel.api.exitMaximized();
     else panel.api.maximize();
+  }
+
+  /** Gives the focus to the tab in front of the next group, or the one before. */
+  focusGroup(step: 1 | -1): void {
+    const { groups, activeGroup } = this.api;
+    if (groups.length === 0) return;
+    const at = activeGroup ? groups.indexOf(activeGroup) : -1;
+    const next = groups[(at + step + groups.length) % groups.length];
+    next.activePanel?.api.setActive();
+    next.element.querySelector<HTMLElement>('[role=tab][aria-selected=true]')?.focus();
   }
 
   /** Tells what the panel with the focus is for. */
@@ -257,6 +270,9 @@ export class Dock {
   }
 
   private position(place: Place | undefined): object {
+    const first = this.api.panels[0];
+    if (this.api.width < NARROW_PX && first)
+      return { position: { referencePanel: first.id, direction: 'within' } };
     if (!place) return {};
     const beside = place.beside ? this.panelOf(place.beside) : undefined;
     const reference = beside

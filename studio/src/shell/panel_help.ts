@@ -41,6 +41,11 @@ export class HelpButton implements IHeaderActionsRenderer {
   }
 }
 
+/** The page's file in the sources: what there is where nobody knows the published pages. */
+function fileOf(page: string): string {
+  return `docs/${page.replace(/\/(#.*)?$/, '')}.md`;
+}
+
 /** Shows the help of a kind of panel. */
 export function showPanelHelp(kind: PanelKind, connection: Connection): void {
   const { help } = kind;
@@ -62,6 +67,6 @@ export function showPanelHelp(kind: PanelKind, connection: Connection): void {
             `More about ${kind.title} in the documentation`,
           ),
         )
-      : h('p', { class: 'dim' }, `Documentation: docs/${help.docs}`),
+      : h('p', { class: 'dim' }, `Documentation: ${fileOf(help.docs)}`),
   );
 }

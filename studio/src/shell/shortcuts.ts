@@ -14,7 +14,7 @@ const ROWS = [
   ['M', 'Maximize the panel, or restore it'],
   ['Alt+W', 'Close the panel'],
   ['L', 'Light or dark'],
-  ['F6', 'Next group of panels'],
+  ['F6', 'Next group of panels; with Shift the one before'],
   ['F1', 'Help on the panel'],
   ['?', 'This list'],
 ] as const;
@@ -53,6 +53,7 @@ function actionFor(
   const key = event.key.toLowerCase();
   if (event.ctrlKey && key === 'r' && world.present)
     return () => world.reset(event.shiftKey ? 'poses' : 'world');
+  if (key === 'f6') return () => dock.focusGroup(event.shiftKey ? -1 : 1);
   if (key === 'f1') return () => dock.helpOnActive();
   if (event.altKey && key === 'w') return () => dock.closeActive();
   if (event.ctrlKey || event.altKey || event.metaKey) return null;

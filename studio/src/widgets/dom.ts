@@ -202,6 +202,16 @@ export function spacer(): HTMLSpanElement {
   return h('span', { class: 'spacer' });
 }
 
+/** Gives an element the role of a list while it has something of it: an empty one says so in words. */
+export function roleWhileFilled(element: HTMLElement, role: string): void {
+  const look = (): void => {
+    const isFilled = element.querySelector('[role]') !== null;
+    element.setAttribute('role', isFilled ? role : 'group');
+  };
+  look();
+  new MutationObserver(look).observe(element, { childList: true });
+}
+
 /** What a panel says when it has nothing to show. */
 export function notice(text: string): HTMLDivElement {
   return h('div', { class: 'notice' }, text);

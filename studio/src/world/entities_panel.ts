@@ -4,7 +4,7 @@ import { BasePanel } from '../panels/base';
 import type { PanelHost } from '../panel';
 import type { ModelValue, PageScene } from '../generated/messages';
 import { activeScene } from '../scene/active_scene';
-import { button, h, notice, toolbar } from '../widgets/dom';
+import { button, h, notice, roleWhileFilled, toolbar } from '../widgets/dom';
 import { entityMenu, follow, moveTo, remove } from './actions';
 import { worldStore, type Selection, type WorldStore } from './store';
 
@@ -24,7 +24,6 @@ export class EntitiesPanel extends BasePanel {
   });
   private readonly tree = h('div', {
     class: 'entity-tree',
-    role: 'tree',
     'aria-label': 'Entities',
   });
   private readonly unfolded = new Set<string>();
@@ -53,6 +52,7 @@ export class EntitiesPanel extends BasePanel {
       this.tree,
     );
     this.element.classList.add('entities-panel');
+    roleWhileFilled(this.tree, 'tree');
     this.tree.addEventListener('keydown', (event) => this.key(event));
     this.atEnd(this.world.onScene(() => this.draw()));
     this.atEnd(this.world.onSelection(() => this.mark()));

@@ -8,7 +8,7 @@ import type { PanelHost } from '../panel';
 import { activeScene } from '../scene/active_scene';
 import { sceneIcon } from '../scene/icons';
 import type { ScenePanel } from '../scene/scene_panel';
-import { button, h, notice, toolbar } from '../widgets/dom';
+import { button, h, notice, roleWhileFilled, toolbar } from '../widgets/dom';
 import { insert, insertFile, insertPrimitive } from './actions';
 
 /** Gazebo's Insert tab. */
@@ -20,7 +20,7 @@ export class InsertPanel extends BasePanel {
     placeholder: 'Search models',
     'aria-label': 'Search models',
   });
-  private readonly list = h('div', { class: 'model-list', role: 'list', 'aria-label': 'Models' });
+  private readonly list = h('div', { class: 'model-list', 'aria-label': 'Models' });
 
   constructor(connection: Connection, host: PanelHost) {
     super(connection, host);
@@ -61,6 +61,7 @@ export class InsertPanel extends BasePanel {
       ),
       this.list,
     );
+    roleWhileFilled(this.list, 'list');
     void this.load();
   }
 

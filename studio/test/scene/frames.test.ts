@@ -1,4 +1,4 @@
-import { expect, test } from 'vitest';
+import { expect, test, vi } from 'vitest';
 import type { ChannelHandlers } from '../../src/channel';
 import type { Connection } from '../../src/connection';
 import { Frames } from '../../src/scene/frames';
@@ -24,6 +24,19 @@ test('frames are found with and without a slash before them', () => {
 
 test('there is no pose of a frame without a way to it, nor of one nobody told of', () => {
   expect([frames().at('lost'), frames().at('elsewhere')]).toEqual([-1, -1]);
+});
+
+test('tf has time to come up before what is missing is missing', () => {
+  vi.useFakeTimers();
+  const made = frames();
+  let told = 0;
+  made.onRenamed(() => {
+    told += 1;
+  });
+  expect(made.settled).toBe(false);
+  vi.advanceTimersByTime(3000);
+  expect([made.settled, told]).toEqual([true, 1]);
+  vi.useRealTimers();
 });
 
 test('the fixed frame needs no tf', () => {

@@ -47,8 +47,24 @@ def test_robot_is_drawn_at_its_frames_and_tells_of_lost_links(rviz: RvizPage, be
     rviz.seen.shot()
 
 
+def test_the_first_look_is_at_the_robot(rviz: RvizPage, bench: Any) -> None:
+    link = (
+        "<link name='base_link'><visual><geometry><box size='.4 .4 .2'/></geometry></visual></link>"
+    )
+    bench.graph.parameters.set("/robot_description", f"<robot name='bot'>{link}</robot>")
+    rviz.shows("RobotModel", links=1, placed=1)
+
+    def camera() -> Any:
+        return rviz.seen.page.evaluate("gazelle.scene('rviz').camera")
+
+    # base_link is at x = 1.5 m of map, and half a metre wide.
+    rviz.eventually(lambda: camera()["focal"] == pytest.approx([1.5, 0.0, 0.0], abs=0.05))
+    assert 0.4 < camera()["distance"] < 1.2
+
+
 def test_robot_without_a_description_is_told(rviz: RvizPage) -> None:
-    rviz.eventually(lambda: rviz.display("RobotModel")["level"] == "error")
+    # Who describes it may be started later.
+    rviz.eventually(lambda: rviz.display("RobotModel")["level"] == "warn")
     assert "robot_description" in rviz.display("RobotModel")["status"]["URDF"]
 
 
