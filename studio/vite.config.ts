@@ -4,7 +4,13 @@ import { join } from 'node:path';
 import { defineConfig, type Plugin } from 'vite';
 
 const SOURCES = import.meta.dirname;
-const FILES = ['index.html', 'package-lock.json', 'tsconfig.json', 'vite.config.ts'];
+const FILES = [
+  'index.html',
+  'package-lock.json',
+  'tsconfig.json',
+  'vite.config.ts',
+  'vite.replay.config.ts',
+];
 const FOLDERS = ['src', 'public'];
 
 /** Paths of all that the page is made of, below this folder, with forward slashes. */
@@ -18,7 +24,7 @@ function sources(): string[] {
 }
 
 /** Write what the page was built from; `tests/studio/test_build.py` compares it with what is there. */
-function builtFrom(): Plugin {
+export function builtFrom(): Plugin {
   return {
     name: 'built-from',
     apply: 'build',

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from tests.patience import eventually, stretched
 
-from gazelle import numba_jit
+from gazelle import announcements, numba_jit
 
 KERNEL = """
 from gazelle.numba_jit import njit
@@ -109,11 +109,141 @@ def test_nobody_waits_for_ever(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(numba_jit, "_MAX_WAIT_S", 0.05)
     descriptor = os.open(tmp_path / "a.lock", os.O_RDWR | os.O_CREAT)
     try:
-        assert numba_jit._locked(descriptor)
+        assert numba_jit._locked(descriptor, tmp_path / "a.lock")
         with numba_jit._turn(tmp_path / "a.lock"):
             pass
     finally:
         os.close(descriptor)
+
+
+_TOLD = """
+from gazelle import numba_jit
+from gazelle.announcements import announce_by
+from numba.core import event
+
+class Compiled(event.Listener):
+    def on_start(self, event):
+        print("compiled")
+
+    def on_end(self, event):
+        pass
+
+announce_by(print)
+numba_jit.AREAS = (numba_jit.Area("tested", "tests", 7),)
+import sys, types
+package = types.ModuleType("gazelle.tested")
+package.__path__ = ["."]
+sys.modules["gazelle.tested"] = package
+from gazelle.tested.kernel import twice
+with event.install_listener("numba:compile", Compiled()):
+    assert twice(2) == 4
+    assert twice(2.0) == 4.0
+"""
+
+
+def test_what_is_compiled_is_said_once_before_it_is_and_nothing_when_it_is_kept(
+    start: Start,
+) -> None:
+    said = start(_TOLD).communicate(timeout=stretched())[0].splitlines()
+    assert said == [
+        "compiling the kernels of tests for this machine: up to 7 s of computing, once "
+        "('gazelle warm' does it ahead)",
+        "compiled",
+        "compiled",
+    ]
+    assert start(_TOLD).communicate(timeout=stretched())[0] == ""
+
+
+def test_who_waits_for_another_process_says_so_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(announcements, "_told", set())
+    monkeypatch.setattr(numba_jit, "_PATIENCE_S", -1.0)
+    locks = iter([False, False, True])
+    monkeypatch.setattr(numba_jit, "_lock", lambda _descriptor: next(locks))
+    with announcements.announced_by(said.append):
+        assert numba_jit._locked(0, tmp_path / "gazelle.motion.planning.sweep.lock")
+    assert said == [
+        "waiting for another process, which is compiling the kernels of arm planning for this "
+        "machine, once"
+    ]
+
+
+_LITERALS = """
+from gazelle.numba_jit import njit
+
+
+@njit(cache=True)
+def _times(a, b):
+    return a * b
+
+
+@njit(cache=True)
+def area(x):
+    return _times(2, x) + _times(3, x)
+
+
+print(area(10), len(_times.signatures))
+"""
+
+
+def test_a_kernel_is_not_compiled_for_each_number_that_it_is_given(
+    start: Start, tmp_path: Path
+) -> None:
+    (tmp_path / "literals.py").write_text(_LITERALS, encoding="utf-8")
+    assert start("import literals").communicate(timeout=stretched())[0].split() == ["50", "1"]
+
+
+_BY_ADDRESS = """
+import numpy as np
+from gazelle.numba_jit import njit
+
+
+@njit(cache=True, is_called_by_address=True)
+def scaled(values, factor):
+    total = 0.0
+    for k in range(len(values)):
+        values[k] *= {factor} * factor
+        total += values[k]
+    return total, len(values)
+
+
+@njit(cache=True)
+def _between(values):
+    return scaled(values, 2.0)
+
+
+@njit(cache=True)
+def whole(values):
+    return _between(values)[0] + scaled(values, 1.0)[1]
+
+
+values = np.arange(3.0)
+print(whole(values), values[2], len(scaled.signatures), sum(whole.stats.cache_hits.values()))
+"""
+
+
+def test_a_kernel_that_is_called_by_address_does_the_same_compiled_kept_and_changed(
+    start: Start, tmp_path: Path
+) -> None:
+    seen = []
+    for factor in ("1.0", "1.0", "10.0", "10.0"):
+        text = _BY_ADDRESS.format(factor=factor)
+        if not seen or text != (tmp_path / "linked.py").read_text(encoding="utf-8"):
+            (tmp_path / "linked.py").write_text(text, encoding="utf-8")
+        seen.append(start("import linked").communicate(timeout=stretched())[0].strip())
+    assert seen == ["9.0 4.0 1 0", "9.0 4.0 1 1", "63.0 400.0 1 0", "63.0 400.0 1 1"]
+
+
+def test_a_caller_is_compiled_anew_where_what_it_calls_by_address_is_not_there(
+    start: Start, tmp_path: Path
+) -> None:
+    (tmp_path / "linked.py").write_text(_BY_ADDRESS.format(factor="1.0"), encoding="utf-8")
+    assert start("import linked").wait(stretched()) == 0
+    for file in (tmp_path / "cache").rglob("linked.scaled*"):
+        file.unlink()
+    assert start("import linked").communicate(timeout=stretched())[0].strip() == "9.0 4.0 1 1"
 
 
 _CALLEE = """

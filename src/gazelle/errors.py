@@ -17,6 +17,7 @@ defined there:
         EngineError
             SimulationDivergedError
         ExtensionError
+        FilmError
         GraphError
             FrameError
             GoalStateError
@@ -46,12 +47,14 @@ defined there:
         MapWriteError
         MassError
         MeshError
+        NoWorldError
         NotFoundError
         ReconfigureError
         RosArgumentError
         SavedGraphError
         ScaffoldError
         ScriptError
+        SetupAssistantError
         SpawnUsageError
         StudioError
         ToolError

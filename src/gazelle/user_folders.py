@@ -17,6 +17,7 @@ from pathlib import Path
 __all__ = [
     "cache_folder",
     "config_folder",
+    "lives",
     "own_prefix",
     "ros_home",
     "ros_log_folder",
@@ -82,12 +83,13 @@ def sweep(folder: Path, prefix: str) -> None:
     with contextlib.suppress(OSError):
         for left in folder.glob(f"{prefix}*-*"):
             pid = left.name.removeprefix(prefix).partition("-")[0]
-            if not _lives(pid):
+            if not lives(pid):
                 with contextlib.suppress(OSError):
                     left.unlink()
 
 
-def _lives(pid: str) -> bool:
+def lives(pid: str | int) -> bool:
+    """Return whether a process is there, by its number; of any user."""
     if os.name != "posix":
         # A file that is in use cannot be removed there.
         return False

@@ -4,6 +4,7 @@ import { Channel, type ChannelHandlers, type StatusLevel } from './channel';
 import { CallError } from './errors';
 import { readFrame } from './binary_frame';
 import type { Hello, Show } from './generated/messages';
+import { serverPath } from './server_path';
 import { isObject, numberOf, textOf, type Json, type JsonObject } from './json';
 
 export type ConnectionState = 'connecting' | 'open' | 'lost';
@@ -215,5 +216,6 @@ export class Connection {
 export function socketUrl(place: Location = location): string {
   const scheme = place.protocol === 'https:' ? 'wss' : 'ws';
   const token = new URLSearchParams(place.search).get('token');
-  return `${scheme}://${place.host}/ws${token ? `?token=${encodeURIComponent(token)}` : ''}`;
+  const query = token ? `?token=${encodeURIComponent(token)}` : '';
+  return `${scheme}://${place.host}${serverPath('/ws', place)}${query}`;
 }

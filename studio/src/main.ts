@@ -30,8 +30,9 @@ function start(): void {
   const connection = new Connection(socketUrl());
   watchPlugins(connection);
   const toasts = new Toasts(part('toasts'));
-  const dock = new Dock(part('dock'), connection, new GraphStore(connection), toasts);
-  const layouts = new Layouts(connection, dock, new LayoutStore(connection), toasts);
+  const graph = new GraphStore(connection);
+  const dock = new Dock(part('dock'), connection, graph, toasts);
+  const layouts = new Layouts(connection, dock, new LayoutStore(connection), toasts, graph);
   const world = new WorldControls(connection, toasts);
   const panels = buildTopbar(part('topbar'), connection, dock, layouts, world, help);
   listenForKeys(dock, world, panels);

@@ -54,6 +54,18 @@ export const PANEL_GROUPS = [
 ] as const;
 export type PanelGroup = (typeof PANEL_GROUPS)[number];
 
+/** What the `?` of a panel tells. */
+export interface PanelHelp {
+  /** What it is, by its name in Gazebo, RViz or rqt where it has one. */
+  readonly what: string;
+  /** What to do first. */
+  readonly first: string;
+  /** Keys, and what they do; those of the whole page are told by the page. */
+  readonly keys: readonly (readonly [string, string])[];
+  /** A page of the documentation. */
+  readonly docs: string;
+}
+
 /** One kind of panel: how it is named, found and made. */
 export interface PanelKind {
   /** The command that opens it: `rqt_plot`. */
@@ -68,6 +80,7 @@ export interface PanelKind {
   readonly single?: boolean;
   /** A short line for the menu's tooltip. */
   readonly about?: string;
+  readonly help?: PanelHelp;
   /** What the menu shows at the right; the kind's name otherwise. */
   readonly note?: string;
   /** Greyed in the menu: it opens and tells why it is no panel. */

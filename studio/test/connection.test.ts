@@ -1,5 +1,6 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { Connection, socketUrl } from '../src/connection';
+import { serverPath } from '../src/server_path';
 import type { JsonObject } from '../src/json';
 
 /** A WebSocket whose server is the test. */
@@ -140,7 +141,18 @@ test('a binary frame goes to the channel of its header', () => {
 
 test("the token of the page's address goes along", () => {
   const place = (search: string, protocol = 'http:') =>
-    ({ protocol, host: 'robot:8090', search }) as Location;
+    ({ protocol, host: 'robot:8090', pathname: '/', search }) as Location;
   expect(socketUrl(place(''))).toBe('ws://robot:8090/ws');
   expect(socketUrl(place('?token=a%2Bb', 'https:'))).toBe('wss://robot:8090/ws?token=a%2Bb');
+});
+
+test('a page in a folder of the server finds everything below it', () => {
+  const place = {
+    protocol: 'http:',
+    host: 'here:1',
+    pathname: '/frame/abc/',
+    search: '',
+  } as Location;
+  expect(socketUrl(place)).toBe('ws://here:1/frame/abc/ws');
+  expect(serverPath('/mesh/base', place)).toBe('/frame/abc/mesh/base');
 });

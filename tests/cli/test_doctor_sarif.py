@@ -157,7 +157,7 @@ def test_rules_are_entries_of_the_catalogue() -> None:
 def test_rules_point_at_the_published_page_where_there_is_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("gazelle.cli.doctor.sarif._documentation", lambda: "https://docs.invalid")
+    monkeypatch.setattr("gazelle.cli.doctor.sarif.pages_address", lambda: "https://docs.invalid")
     driver = sarif(Diagnostic("urdf.no-links", Severity.ERROR, "m"))["tool"]["driver"]
     assert driver["informationUri"] == "https://docs.invalid/howto/doctor/"
     assert driver["rules"][0]["helpUri"] == ("https://docs.invalid/diagnostics/#urdfno-links-error")

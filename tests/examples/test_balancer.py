@@ -68,7 +68,7 @@ def balancer() -> Iterator[Callable[..., Upright]]:
         sim = gazelle.Simulation.load(
             PACKAGE / "urdf" / "balancer.urdf.xacro",
             world=PACKAGE / "worlds" / "court.world",
-            pose=Pose.from_xyz_rpy((0.0, 0.0, 0.15 + 0.1 * abs(lean_rad)), (0.0, lean_rad, 0.0)),
+            pose=Pose.from_xyz_rpy((0.0, 0.0, 0.1 * abs(lean_rad)), (0.0, lean_rad, 0.0)),
             workspace=Workspace.discover(extra=[EXAMPLE]),
         )
         opened.append(sim)
@@ -101,7 +101,7 @@ def test_it_stays_up_when_it_is_pushed_and_comes_back(
 ) -> None:
     robot = balancer(late=2)
     robot.sim.run(seconds=1.0)
-    robot.sim.link("balancer::base_link").apply_wrench(force_n=(force_n, 0, 0), seconds=0.2)
+    robot.sim.link("balancer::base_footprint").apply_wrench(force_n=(force_n, 0, 0), seconds=0.2)
     robot.sim.run(seconds=1.0)
     assert max(map(abs, robot.leans)) > 0.05
     robot.sim.run(seconds=9.0)

@@ -10,10 +10,12 @@ from typing import Any
 import pytest
 from tests.patience import stretched
 
+from gazelle import announcements
 from gazelle.graph import Graph, Kind
 from gazelle.graph.ros2_parameter_values import value_from_message, value_message
 from gazelle.interfaces import message_type
-from gazelle.nodes.parameters import ticks
+from gazelle.nodes.arguments import NodeArguments
+from gazelle.nodes.parameters import start_node, ticks
 
 MS = 1_000_000
 
@@ -114,3 +116,15 @@ def test_nodes_that_say_more_have_their_services_once(bench: Any) -> None:
     servers = [one for one in bench.graph.entities() if one.name == "/turtlesim/get_parameters"]
     assert [one.kind for one in servers].count(Kind.SERVICE) == 1
     assert bench.stop() == [0]
+
+
+def test_what_a_node_waits_for_is_said_in_its_log(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(announcements, "_process", [])
+    monkeypatch.setattr(announcements, "_told", set())
+    node = start_node(NodeArguments(name="planner"), graph)
+    said: list[tuple[str, str]] = []
+    monkeypatch.setattr(node, "log", lambda level, text: said.append((level, text)))
+    announcements.announce("compiling the kernels of arm planning")
+    assert said == [("info", "compiling the kernels of arm planning")]

@@ -79,10 +79,10 @@ class Stream:
 class Page:
     """A connection to a server."""
 
-    def __init__(self, port: int, **headers: str) -> None:
+    def __init__(self, port: int, path: str = "", **headers: str) -> None:
         self._stack = contextlib.ExitStack()
         opening = connect(
-            f"ws://127.0.0.1:{port}/ws?token={token_of_user()}",
+            f"ws://127.0.0.1:{port}{path or f'/ws?token={token_of_user()}'}",
             compression=None,
             max_size=None,
             additional_headers=headers,

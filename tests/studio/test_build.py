@@ -16,7 +16,13 @@ _SOURCES = _ROOT / "studio"
 _PAGE = _ROOT / "src" / "gazelle" / "studio" / "page"
 _MAX_BYTES = 500_000
 # What the page is made of; vite.config.ts names the same.
-_FILES = ("index.html", "package-lock.json", "tsconfig.json", "vite.config.ts")
+_FILES = (
+    "index.html",
+    "package-lock.json",
+    "tsconfig.json",
+    "vite.config.ts",
+    "vite.replay.config.ts",
+)
 _FOLDERS = ("src", "public")
 
 

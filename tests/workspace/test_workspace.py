@@ -220,6 +220,32 @@ def test_example_workspaces_are_found(examples_dir: Path, discover, folder, name
     assert not len(workspace.diagnostics)
 
 
+def test_a_package_of_a_demo_is_found_by_name_everywhere(tmp_path: Path, discover):
+    workspace = discover(tmp_path)
+    assert "heron_bringup" not in list(workspace.packages)
+    assert workspace.user_package("heron_bringup") is None
+    package = workspace.package("heron_bringup")
+    assert not package.is_builtin
+    # Those beside it belong to it; other demos stay unseen.
+    assert set(own(workspace)) == {"heron_bringup", "heron_description", "heron_moveit_config"}
+    assert workspace.resolve("package://heron_description/meshes/base.stl").path is not None
+
+
+def test_a_package_of_a_demo_hides_none_of_the_user_s(tmp_path: Path, discover):
+    folder = tmp_path / "src" / "heron_description"
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>heron_description</name></package>")
+    workspace = discover(tmp_path)
+    assert workspace.package("heron_bringup").path != folder.with_name("heron_bringup")
+    assert workspace.package("heron_description").path == folder
+
+
+def test_a_name_that_no_demo_has_is_not_found(tmp_path: Path, discover):
+    workspace = discover(tmp_path)
+    assert "heron_bringu" not in workspace.packages
+    assert own(workspace) == []
+
+
 def test_generations_of_the_example_packages_are_known(examples_dir: Path, discover):
     workspace = discover(extra=(examples_dir,))
     assert workspace.package("scout_robot").ros_version == 1

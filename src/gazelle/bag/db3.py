@@ -19,6 +19,7 @@ from gazelle.bag.storage import (
     Summary,
     Wanted,
 )
+from gazelle.rich_display import shown_by
 
 __all__ = ["SQLITE_MAGIC", "SqliteBag", "SqliteWriter"]
 
@@ -137,6 +138,7 @@ class SqliteWriter:
         self._database.close()
 
 
+@shown_by("bags:bag_bundle")
 class SqliteBag:
     """An open ``.db3``, of any schema version.
 

@@ -17,6 +17,7 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.errors import GazelleError
 from gazelle.interfaces import Duration, Time, TypeStore, from_cdr, from_ros1
 from gazelle.interfaces.stamps import seconds_of
+from gazelle.sensors.film_files import FilmError, open_film
 
 __all__ = ["FORMATS", "export_bag", "picture", "reader_of", "row_of"]
 
@@ -242,10 +243,6 @@ def _png(bag: BagReader, one: Connection, read: _Read, stem: Path, _rate_hz: flo
 
 
 def _mp4(bag: BagReader, one: Connection, read: _Read, stem: Path, rate_hz: float) -> list[Path]:
-    try:
-        import imageio_ffmpeg
-    except ImportError:
-        raise BagError(f"MP4 files need imageio-ffmpeg; {_EXTRA}") from None
     path = stem.with_name(f"{stem.name}.mp4")
     items = bag.messages(lambda other: other.topic == one.topic)
     stamps = [item.stamp_ns for item in bag.messages(lambda other: other.topic == one.topic)]
@@ -253,14 +250,13 @@ def _mp4(bag: BagReader, one: Connection, read: _Read, stem: Path, rate_hz: floa
     first = next(frames, None)
     if first is None:
         return []
-    size = (first.shape[1] // 2 * 2, first.shape[0] // 2 * 2)
-    film = imageio_ffmpeg.write_frames(
-        str(path), size, fps=rate_hz or _median_rate_hz(stamps), macro_block_size=2
-    )
-    film.send(None)
-    for frame in chain([first], frames):
-        film.send(frame[: size[1], : size[0]].tobytes())
-    film.close()
+    size = (first.shape[1], first.shape[0])
+    try:
+        with open_film(path, size, rate_hz or _median_rate_hz(stamps)) as film:
+            for frame in chain([first], frames):
+                film.add(frame)
+    except FilmError as error:
+        raise BagError(str(error)) from None
     return [path]
 
 

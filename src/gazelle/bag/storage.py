@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple, Protocol
 
 from gazelle.errors import GazelleError
+from gazelle.rich_display import shown_by
 
 __all__ = [
     "BagError",
@@ -74,6 +75,7 @@ class Connection:
     type_hash: str = ""
 
 
+@shown_by("bags:bag_message_bundle")
 class BagMessage(NamedTuple):
     """One message as it lies in the bag; `stamp_ns` is when it was received, since 1970."""
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import shlex
+import signal
 import subprocess
 import sys
 import threading
@@ -15,12 +17,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
-from gazelle.demo import DEMOS, Demo, copy_demo, find_demo, panel_params, workspace_folder
+from gazelle.demo import DEMOS, Demo, Panel, copy_demo, find_demo, panel_params, workspace_folder
 from gazelle.errors import GazelleError
 from gazelle.process_lifetime import PARENT_VARIABLE, at_stop_signal, interrupts_held
 
 if TYPE_CHECKING:
     from gazelle.graph import Graph
+    from gazelle.studio import Server
 
 __all__ = ["main"]
 
@@ -101,17 +104,32 @@ def _run(demo: Demo, options: argparse.Namespace) -> int:
             raise GazelleError(_runs_already(demo, graph.port))
         print(f"{demo.title}: {demo.summary} (ROS {demo.ros_version})", flush=True)
         print(f"  started:  {_typed(demo.launch)}", flush=True)
-        show = _Show(demo, is_verbose=options.verbose)
+        show = _Processes(demo, is_verbose=options.verbose)
+        show.start(demo.launch)
         try:
-            show.start(demo.launch)
             for program in demo.programs:
                 show.start(program)
-            with _page(demo, graph, with_browser=options.browser):
-                _tell_when_there(demo, graph, show, stop, began)
-                show.wait(stop)
+            with _page(graph) as server:
+                if server is not None:
+                    print(f"  page:     {server.url}", flush=True)
+                    _show(server, demo, demo.panels[:1])
+                try:
+                    if _waited(demo, graph, show, stop):
+                        _begin(demo, server, began, with_browser=options.browser)
+                    show.wait(stop)
+                finally:
+                    code = show.end()
+                    _leave_soon(code)
         finally:
             code = show.end()
     return code
+
+
+def _leave_soon(code: int) -> None:
+    """End the process in some seconds: the page may be in the midst of a picture nobody awaits."""
+    late = threading.Timer(_KILL_S, os._exit, (code,))
+    late.daemon = True
+    late.start()
 
 
 def _runs_already(demo: Demo, port: int) -> str:
@@ -123,55 +141,60 @@ def _runs_already(demo: Demo, port: int) -> str:
 
 
 @contextmanager
-def _page(demo: Demo, graph: Graph, *, with_browser: bool) -> Iterator[None]:
-    """Serve the page with the demo's panels; whoever wants none (``GAZELLE_STUDIO=0``) has none."""
-    from gazelle.studio.windows.page_owner import is_switched_off, offer, open_browser, page_port
+def _page(graph: Graph) -> Iterator[Server | None]:
+    """Serve the page; whoever wants none (``GAZELLE_STUDIO=0``) has none."""
+    from gazelle.studio.windows.page_owner import is_switched_off, offer, page_port
 
     if is_switched_off():
-        yield
+        yield None
         return
     from gazelle.studio import Server, Studio
 
     with Server(Studio(graph), port=page_port(graph)) as server:
         offer(server)
-        for panel in demo.panels:
-            server.studio.pages.show(panel.kind, panel_params(demo, panel))
-        print(f"  page:     {server.url}", flush=True)
-        if with_browser:
-            open_browser(server.url)
-        yield
+        yield server
 
 
-def _tell_when_there(
-    demo: Demo, graph: Graph, show: _Show, stop: threading.Event, began: float
-) -> None:
+def _show(server: Server, demo: Demo, panels: Sequence[Panel]) -> None:
+    for panel in panels:
+        server.studio.pages.show(panel.kind, panel_params(demo, panel))
+
+
+def _waited(demo: Demo, graph: Graph, show: _Processes, stop: threading.Event) -> bool:
+    """Wait for the demo's sign; False when it is over before."""
     while not any(topic.name == demo.sign and topic.publishers for topic in graph.topics()):
         if stop.wait(_LOOK_S) or show.is_over:
-            return
-    seconds = time.monotonic() - began
+            return False
+    return True
+
+
+def _begin(demo: Demo, server: Server | None, began: float, *, with_browser: bool) -> None:
+    """Show the rest, whose topics are there now, and say what to do."""
+    from gazelle.studio.windows.page_owner import open_browser
+
+    print(f"  there after {time.monotonic() - began:.1f} s", flush=True)
+    if server is not None:
+        _show(server, demo, demo.panels[1:])
+        if with_browser:
+            open_browser(server.url)
     steps = [
         line for step in demo.try_next for line in (f"  {step.what}:", f"      {step.command}")
     ]
-    print(
-        "\n".join(
-            [
-                f"  there after {seconds:.1f} s",
-                "",
-                *demo.seen,
-                "",
-                "Try next, in another terminal:",
-                *steps,
-                "  make it your own:",
-                f"      gazelle demo {demo.name} --copy my_{demo.name}",
-                "",
-                "Ctrl-C ends it.",
-            ]
-        ),
-        flush=True,
-    )
+    lines = [
+        "",
+        *demo.seen,
+        "",
+        "Try next, in another terminal:",
+        *steps,
+        "  make it your own:",
+        f"      gazelle demo {demo.name} --copy my_{demo.name}",
+        "",
+        "Ctrl-C ends it.",
+    ]
+    print("\n".join(lines), flush=True)
 
 
-class _Show:
+class _Processes:
     """The processes of a demo; the first one is the launch, and the show is over with it."""
 
     def __init__(self, demo: Demo, *, is_verbose: bool) -> None:
@@ -179,6 +202,8 @@ class _Show:
         self._is_verbose = is_verbose
         self._running: list[subprocess.Popen[str]] = []
         self._readers: list[threading.Thread] = []
+        self._code = 0
+        self._is_ending = False
         self._last: deque[str] = deque(maxlen=_LAST_LINES)
 
     @property
@@ -214,22 +239,27 @@ class _Show:
 
     def end(self) -> int:
         """End what runs, the launch last; return 1 and tell why where it had failed by itself."""
+        if not self._running:
+            return self._code
+        self._is_ending = True
         failed = self.is_over and self._running[0].returncode != 0
         for process in reversed(self._running):
             _end(process)
         for reader in self._readers:
             reader.join(_KILL_S)
+        self._running.clear()
         if not failed:
             return 0
+        self._code = 1
         print("the launch ended by itself; it printed at last:", file=sys.stderr)
         print("\n".join(self._last), file=sys.stderr)
-        return 1
+        return self._code
 
     def _read(self, lines: IO[str]) -> None:
         for line in lines:
             text = line.rstrip("\n")
             self._last.append(text)
-            if any(sign in text for sign in _FAILED):
+            if not self._is_ending and any(sign in text for sign in _FAILED):
                 print(text, file=sys.stderr, flush=True)
 
 
@@ -247,11 +277,9 @@ def _environment(demo: Demo) -> Mapping[str, str]:
 
 
 def _end(process: subprocess.Popen[str]) -> None:
-    import signal
-
     for number, patience_s in ((signal.SIGINT, _STOP_S), (signal.SIGTERM, _KILL_S)):
         if process.poll() is None:
-            process.send_signal(number)
+            _tell(process, number)
             try:
                 process.wait(patience_s)
             except subprocess.TimeoutExpired:
@@ -259,3 +287,12 @@ def _end(process: subprocess.Popen[str]) -> None:
     if process.poll() is None:
         process.kill()
         process.wait()
+
+
+def _tell(process: subprocess.Popen[str], number: int) -> None:
+    """Send a signal to what a terminal would: ``ros2 run`` leaves it to its program to end."""
+    if not hasattr(os, "killpg"):
+        process.send_signal(number)
+        return
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, number)

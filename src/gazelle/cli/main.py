@@ -9,6 +9,7 @@ from importlib import import_module
 from gazelle._version import __version__
 from gazelle.cli.commands import COMMANDS
 from gazelle.cli.error_text import error_text
+from gazelle.cli.launch_journals import journal_of
 from gazelle.errors import GazelleError, UserFileError, file_refusal_text
 from gazelle.process_lifetime import drop_output
 
@@ -72,9 +73,15 @@ def _run(name: str, rest: list[str]) -> int:
             f"gazelle: '{name}' is not a command; {hint or 'see gazelle --help'}", file=sys.stderr
         )
         return 2
+    with journal_of([name, *rest]) as outcome:
+        outcome.code = _run_module(name, command.module, rest)
+        return outcome.code
+
+
+def _run_module(name: str, module_name: str, rest: list[str]) -> int:
     try:
-        module = import_module(command.module)
-        if command.module in _SHARED_MODULES:
+        module = import_module(module_name)
+        if module_name in _SHARED_MODULES:
             rest = [name, *rest]
         return int(module.main(rest))
     except UserFileError as error:
@@ -83,16 +90,25 @@ def _run(name: str, rest: list[str]) -> int:
         render(error.diagnostics)
         return 1
     except GazelleError as error:
+        _keep(str(error))
         print(f"{name}: {error_text(error)}", file=sys.stderr)
         return 1
     except OSError as error:
         text = file_refusal_text(error)
         if not text:
             raise
+        _keep(text)
         print(f"{name}: {text}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 130
+
+
+def _keep(text: str) -> None:
+    """Keep an error for whoever looks at the launch later."""
+    from gazelle.diagnostics.launch_journal import keep_error
+
+    keep_error(text)
 
 
 def _usage() -> str:

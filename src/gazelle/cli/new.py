@@ -1,4 +1,7 @@
-"""``gazelle new robot|world|package NAME``: a package that runs at once."""
+"""``gazelle new robot|world|package NAME``: a package that runs at once.
+
+``gazelle new moveit_config ROBOT.urdf`` is `gazelle.cli.new_moveit_config`.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +15,15 @@ from gazelle.workspace.scaffold import KINDS, ScaffoldError, check_package_name,
 
 __all__ = ["main"]
 
+_MOVEIT_CONFIG = "moveit_config"
+
 
 def main(argv: list[str]) -> int:
     """Write the package and say how to start it."""
+    if argv[:1] == [_MOVEIT_CONFIG]:
+        from gazelle.cli import new_moveit_config
+
+        return new_moveit_config.main(argv[1:], _source_folder(Path.cwd()))
     options = _parser().parse_args(argv)
     check_package_name(options.name)
     parent = options.into or _source_folder(Path.cwd())
@@ -34,6 +43,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="gazelle new",
         description="Write a package with manifest, launch file and what it launches.",
+        epilog=f"gazelle new {_MOVEIT_CONFIG} ROBOT.urdf writes a MoveIt config package; "
+        f"gazelle new {_MOVEIT_CONFIG} --help says how.",
     )
     add = parser.add_argument
     add("kind", choices=KINDS, help="a robot with its world, a world, or a node")

@@ -17,13 +17,10 @@ from gazelle.diagnostics import Diagnostics, nearest_names, render
 from gazelle.errors import GazelleError, NotFoundError
 from gazelle.geometry import Pose
 from gazelle.workspace import Package, Workspace
+from gazelle.workspace.robot_files import ROBOT_SUFFIXES, robot_files
 
-__all__ = ["main", "robot_files"]
+__all__ = ["main"]
 
-_ROBOT_FOLDERS = ("urdf", "robots", "robot", "xacro", "models", "sdf", "worlds", ".")
-_ROBOT_SUFFIXES = (".urdf", ".urdf.xacro", ".xacro", ".sdf", ".world")
-_PIECES = ("macro", "common", "material", "gazebo", "properties", "inertial", "plugin", "sensor")
-"""Words in the names of xacro files that other files include."""
 _SIZE = re.compile(r"(\d+)x(\d+)")
 
 
@@ -55,21 +52,6 @@ def main(argv: list[str]) -> int:
     return 0
 
 
-def robot_files(package: Package) -> tuple[Path, ...]:
-    """Return the descriptions in a package that stand for themselves, likeliest first."""
-    found: dict[Path, None] = {}
-    for folder in _ROBOT_FOLDERS:
-        here = package.path / folder
-        if not here.is_dir():
-            continue
-        files = sorted(here.iterdir() if folder == "." else here.rglob("*"))
-        for suffix in _ROBOT_SUFFIXES:
-            found |= {path: None for path in files if path.name.endswith(suffix)}
-    whole = [path for path in found if not _is_piece(path)]
-    robots = [path for path in whole if path.suffix != ".world"]
-    return tuple(robots or whole or found)
-
-
 def _find_viewed(
     argv: list[str],
     *,
@@ -99,10 +81,6 @@ def _find_viewed(
         raise _not_found(word, workspace)
     world = load_world(word, workspace=workspace, diagnostics=diagnostics, mappings=mappings)
     return _Viewed(world, _stem(Path(word.rstrip("/"))))
-
-
-def _is_piece(path: Path) -> bool:
-    return path.suffix == ".xacro" and any(word in path.name.lower() for word in _PIECES)
 
 
 def _named(
@@ -141,7 +119,7 @@ def _package_at(folder: Path, workspace: Workspace) -> str:
 
 def _robot_of(package: Package) -> Path | None:
     """Return the package's one description, or the one that carries its name."""
-    files = robot_files(package)
+    files = robot_files(package.path)
     plain = package.name.removesuffix("_description").removesuffix("_gazebo")
     same = [path for path in files if _stem(path) in {plain, package.name}]
     if len(files) <= 1 or same:
@@ -158,7 +136,7 @@ def _file_in(package: Package, name: str) -> Path:
     found = [direct] if direct.is_file() else sorted(package.path.rglob(Path(name).name))
     if found:
         return found[0]
-    names = [path.name for path in robot_files(package)]
+    names = [path.name for path in robot_files(package.path)]
     raise NotFoundError(
         "robot file",
         name,
@@ -174,7 +152,7 @@ def _not_found(word: str, workspace: Workspace) -> NotFoundError:
     files = {
         str(item if path.is_absolute() else path.parent / item.name)
         for item in around.iterdir()
-        if item.name.endswith(_ROBOT_SUFFIXES)
+        if item.name.endswith(ROBOT_SUFFIXES)
     }
     names = {*files, *workspace.packages, *workspace.models}
     return NotFoundError(

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import builtins
-import contextlib
 import hashlib
 import os
 import re
@@ -16,6 +15,7 @@ import sys
 from types import CodeType
 from typing import Any
 
+from gazelle.cache_folders import is_trusted, is_usable, tell_not_kept
 from gazelle.compat.warn_once import is_first_time
 from gazelle.user_folders import cache_folder
 
@@ -139,15 +139,18 @@ def translated(source: str) -> str:
     root = cache_folder() / "python2"
     key = hashlib.sha256(source.encode()).hexdigest()[:24]
     cached = root / f"{key}.py"
-    if cached.is_file():
+    if is_trusted(root) and cached.is_file():
         return cached.read_text(encoding="utf-8")
     result = _translation(source)
     # Where nothing can be kept it is done again.
-    with contextlib.suppress(OSError):
-        root.mkdir(parents=True, exist_ok=True)
+    if is_usable(root):
         part = root / f"{key}.{os.getpid()}"
-        part.write_text(result, encoding="utf-8")
-        part.replace(cached)
+        try:
+            part.write_text(result, encoding="utf-8")
+            part.replace(cached)
+        except OSError as error:
+            tell_not_kept("translated sources", root, error)
+            part.unlink(missing_ok=True)
     return result
 
 

@@ -13,12 +13,12 @@ import json
 import os
 import tempfile
 from collections.abc import Iterable
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from zlib import crc32
 
+from gazelle.cache_folders import is_trusted, is_usable, tell_not_kept
 from gazelle.description.xml import Tag, parse_xml, with_spans
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.user_folders import cache_folder
@@ -72,17 +72,24 @@ def digest_of(keys: Iterable[int]) -> str:
 
 
 def save_map(source_map: SourceMap) -> None:
-    """Keep a map; without a word when the folder cannot be written, since it is a help only."""
+    """Keep a map; where that cannot be it is told once, since it is a help only."""
     head = json.dumps({"version": _VERSION})
     data = f"{head}\n{json.dumps(_packed(source_map), separators=(',', ':'))}\n"
     folder = _folder()
-    with suppress(OSError):
-        folder.mkdir(parents=True, exist_ok=True)
+    if not is_usable(folder):
+        return
+    made: Path | None = None
+    try:
         number, name = tempfile.mkstemp(dir=folder, prefix=".new-")
+        made = Path(name)
         with os.fdopen(number, "w", encoding="utf-8") as stream:
             stream.write(data)
-        Path(name).replace(folder / f"{digest_of(source_map.keys)}.json")
+        made.replace(folder / f"{digest_of(source_map.keys)}.json")
         _drop_oldest(folder)
+    except OSError as error:
+        tell_not_kept("places of xacro files", folder, error)
+        if made is not None:
+            made.unlink(missing_ok=True)
 
 
 def load_map(name: str) -> SourceMap | None:
@@ -90,6 +97,8 @@ def load_map(name: str) -> SourceMap | None:
 
     Places in files that have changed since are left out.
     """
+    if not is_trusted(_folder()):
+        return None
     try:
         lines = (_folder() / f"{name}.json").read_text(encoding="utf-8").split("\n")
         known = json.loads(lines[0])["version"] == _VERSION

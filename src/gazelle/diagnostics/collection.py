@@ -12,6 +12,7 @@ from gazelle.diagnostics.catalogue import entry_for
 from gazelle.diagnostics.diagnostic import Diagnostic, Severity, SourceSpan
 from gazelle.diagnostics.share_links import as_written
 from gazelle.errors import UserFileError
+from gazelle.rich_display import shown_by
 
 __all__ = ["Brief", "Diagnostics", "brief", "grouped", "groups"]
 
@@ -35,6 +36,7 @@ class Brief(NamedTuple):
     kept: tuple[Diagnostic, ...]
 
 
+@shown_by("findings:findings_bundle")
 class Diagnostics:
     """Collects findings; the same finding at the same place is kept once.
 

@@ -6,6 +6,7 @@ import enum
 from dataclasses import dataclass, replace
 
 from gazelle.diagnostics.share_links import as_written
+from gazelle.rich_display import shown_by
 
 __all__ = ["Diagnostic", "Severity", "SourceSpan"]
 
@@ -56,6 +57,7 @@ class Severity(enum.IntEnum):
         return self.name.lower()
 
 
+@shown_by("findings:finding_bundle")
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
     """A finding: what, where, why and how to fix it.

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import re
 import sys
+from importlib import metadata
 
 from gazelle.diagnostics.catalogue import Entry, all_entries
 
-__all__ = ["anchor", "catalogue_markdown"]
+__all__ = ["anchor", "catalogue_markdown", "entry_address", "pages_address"]
+
+_DISTRIBUTION = "gazelle-sim"
+_DOCUMENTATION = "Documentation"
 
 _HEAD = """# Diagnostics
 
@@ -32,6 +36,21 @@ def anchor(entry: Entry) -> str:
     """Return the name by which links reach an entry of the page."""
     kept = re.sub(r"[^\w\s-]", "", _headline(entry).replace("`", "")).strip().lower()
     return re.sub(r"[\s-]+", "-", kept)
+
+
+def pages_address() -> str:
+    """Return where the pages of this release are, as its metadata say; empty when they do not."""
+    try:
+        urls = metadata.metadata(_DISTRIBUTION).get_all("Project-URL") or []
+    except metadata.PackageNotFoundError:
+        return ""
+    named = dict(url.split(", ", 1) for url in urls if ", " in url)
+    return str(named.get(_DOCUMENTATION, "")).rstrip("/")
+
+
+def entry_address(entry: Entry, pages: str) -> str:
+    """Return where an entry stands in pages of `pages_address`; empty where there are none."""
+    return f"{pages}/diagnostics/#{anchor(entry)}" if pages else ""
 
 
 def _headline(entry: Entry) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, NamedTuple, TextIO
 
 from gazelle.diagnostics.collection import grouped
 from gazelle.diagnostics.diagnostic import Diagnostic, Severity
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from gazelle.diagnostics.diagnostic import SourceSpan
 
-__all__ = ["SourceLines", "render", "render_text", "styled"]
+__all__ = ["Excerpt", "SourceLines", "excerpt", "render", "render_text", "styled"]
 
 _COLOURS = {Severity.INFO: "cyan", Severity.WARNING: "yellow", Severity.ERROR: "red"}
 _MAX_WIDTH = 160
@@ -24,6 +24,22 @@ _MAX_LENGTH = 2000
 _MORE = "…"
 # A remedy that only points at the message has said nothing.
 _NO_FIX = "see the message"
+
+
+class Excerpt(NamedTuple):
+    """What is shown of a source line.
+
+    Attributes:
+        line: its number.
+        text: the line, or the piece of a long one around the place.
+        column: where the caret stands in the text, from 1; 0 when only the line is known.
+        width: characters under which there are carets.
+    """
+
+    line: int
+    text: str
+    column: int
+    width: int
 
 
 class SourceLines:
@@ -70,17 +86,23 @@ def render(
 
     Args:
         diagnostics: what to print, in this order.
-        stream: where to; standard error when None.
+        stream: where to; standard error when None, and then the journal of the launch that this
+            process belongs to has them, too.
         sources: texts of spans that are no files, by `SourceSpan.file`.
     """
     found = grouped(diagnostics)
     if not found:
         # Most launches and commands have nothing to tell, and rich takes long to import.
         return
+    lines = SourceLines(sources)
+    if stream is None:
+        # Imported late: it takes the excerpts of this module.
+        from gazelle.diagnostics.launch_journal import keep
+
+        keep(found, lines)
     from rich.console import Console
 
     console = Console(file=stream or sys.stderr, soft_wrap=True, highlight=False)
-    lines = SourceLines(sources)
     for item in found:
         console.print(styled(item, lines))
 
@@ -119,16 +141,24 @@ def styled(item: Diagnostic, lines: SourceLines, *, with_phrase: bool = True) ->
     return text
 
 
-def _append_source(text: Text, span: SourceSpan, lines: SourceLines, colour: str) -> None:
+def excerpt(span: SourceSpan, lines: SourceLines) -> Excerpt | None:
+    """Return what is shown of the line that a span is in; None where that cannot be read."""
     line = lines.line(span)
     if line is None:
-        return
+        return None
     shown, column = _window(line.replace("\t", " "), span.column)
-    text.append(f"\n  {span.line:>5} | {shown}")
-    if column:
-        width = max(1, min(span.length or 1, len(shown) - column + 1))
-        text.append(f"\n  {'':>5} | {'':>{column - 1}}")
-        text.append("^" * width, style=f"bold {colour}")
+    width = max(1, min(span.length or 1, len(shown) - column + 1)) if column else 0
+    return Excerpt(span.line, shown, column, width)
+
+
+def _append_source(text: Text, span: SourceSpan, lines: SourceLines, colour: str) -> None:
+    shown = excerpt(span, lines)
+    if shown is None:
+        return
+    text.append(f"\n  {shown.line:>5} | {shown.text}")
+    if shown.column:
+        text.append(f"\n  {'':>5} | {'':>{shown.column - 1}}")
+        text.append("^" * shown.width, style=f"bold {colour}")
 
 
 def _window(line: str, column: int) -> tuple[str, int]:

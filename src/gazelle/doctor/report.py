@@ -9,6 +9,7 @@ from pathlib import Path
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.doctor.script_topics import TopicEnd
+from gazelle.rich_display import shown_by
 from gazelle.workspace import Workspace
 
 __all__ = ["Examination", "Options", "Report", "Section"]
@@ -52,6 +53,7 @@ class Section:
     subject: str = ""
 
 
+@shown_by("findings:report_bundle")
 @dataclass(frozen=True, slots=True)
 class Report:
     """Everything said about a target.

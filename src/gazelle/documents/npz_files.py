@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-import os
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING, Any
 
+from gazelle.cache_folders import is_trusted, is_usable, tell_not_kept
 from gazelle.documents.files import HOW_TO_RAISE, scaled
 
 if TYPE_CHECKING:
@@ -50,6 +50,8 @@ def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
 
 def kept_arrays(file: Path) -> dict[str, NDArray[Any]] | None:
     """Return the arrays of a file by name, of any shape; None when it is not there or damaged."""
+    if not is_trusted(file.parent):
+        return None
     try:
         return read_arrays(file)
     except (OSError, ArchiveError):
@@ -59,28 +61,29 @@ def kept_arrays(file: Path) -> dict[str, NDArray[Any]] | None:
 def keep_arrays(file: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
     """Write arrays of any shape beside and rename, so that a reader never sees half a file.
 
-    A read-only home only costs the time of the next run.
+    A read-only home, or a full one, only costs the time of the next run, and is told once.
     """
     import numpy as np
 
     # Typed loosely: NumPy before 2.2 knows no other argument, and would save one as an array.
     loose: dict[str, Any] = dict(arrays)
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        with NamedTemporaryFile(dir=file.parent, suffix=".tmp", delete=False) as target:
-            np.savez(target, **loose)
-        Path(target.name).replace(file)
-    except OSError:
+    if not is_usable(file.parent):
         return
+    made: Path | None = None
+    try:
+        with NamedTemporaryFile(dir=file.parent, suffix=".tmp", delete=False) as target:
+            made = Path(target.name)
+            np.savez(target, **loose)
+        made.replace(file)
+    except OSError as error:
+        tell_not_kept("convex pieces of meshes", file.parent, error)
+        if made is not None:
+            made.unlink(missing_ok=True)
 
 
 def keeps_arrays(folder: Path) -> bool:
     """Tell whether files can be kept in a folder, which is made where it is missing."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
-        return False
-    return os.access(folder, os.W_OK)
+    return is_usable(folder)
 
 
 def _check_size(packed: zipfile.ZipFile) -> None:

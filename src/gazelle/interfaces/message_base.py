@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Protocol, TypeVar
 
 from gazelle.interfaces.definition import Definition, Field, RosVersion
 from gazelle.interfaces.definition_library import Source
+from gazelle.rich_display import shown_by
 
 __all__ = ["MessageBase", "Types"]
 
@@ -43,6 +44,7 @@ class Types(Protocol):
         ...
 
 
+@shown_by("messages:message_bundle")
 class MessageBase:
     """Base of all message classes.
 

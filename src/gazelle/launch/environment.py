@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gazelle.cache_folders import own_cache
 from gazelle.user_folders import cache_folder
 
 if TYPE_CHECKING:
@@ -86,7 +87,11 @@ def command_folder() -> Path:
     import hashlib
 
     key = hashlib.sha256(f"{sys.executable}\0{__file__}".encode()).hexdigest()[:12]
-    folder = cache_folder() / "bin" / key
+    top = own_cache("bin")
+    if top is None:
+        # Says which folder cannot be used, and why.
+        top = cache_folder() / "bin"
+    folder = top / key
     folder.mkdir(parents=True, exist_ok=True)
     for name in ROS_COMMANDS:
         script = folder / name

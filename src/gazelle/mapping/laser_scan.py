@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.mapping.se2 import transform_points
+from gazelle.rich_display import shown_by
 
 __all__ = ["Scan"]
 
 
+@shown_by("scans:mapping_scan_bundle")
 @dataclass(frozen=True, slots=True, eq=False)
 class Scan:
     """A scan of a lidar whose plane is parallel to the ground.

@@ -20,6 +20,7 @@ from gazelle.motion.model import JointGroup, RobotModel
 from gazelle.motion.planning import ErrorCode, Path, PlanningError, Search, configured, plan
 from gazelle.motion.scene import PlanningScene
 from gazelle.motion.timing import Trajectory, method_of, parameterise
+from gazelle.rich_display import shown_by
 from gazelle.workspace import Workspace
 
 __all__ = ["Goal", "PlannedMotion", "Planner", "Search"]
@@ -32,6 +33,7 @@ _DRAWS = 40
 _USUAL = Search()
 
 
+@shown_by("joint_motions:motion_bundle")
 @dataclass(frozen=True)
 class PlannedMotion:
     """A motion of a group.

@@ -40,6 +40,14 @@ WINDOWS = (
         role=NodeRole.VIEW,
     ),
     NodeSpec(
+        package="moveit_setup_assistant",
+        executable="moveit_setup_assistant",
+        entry="gazelle.studio.windows.window_nodes:moveit_setup_assistant",
+        does="makes MoveIt config packages",
+        is_light=False,
+        role=NodeRole.VIEW,
+    ),
+    NodeSpec(
         package="rqt_gui",
         executable="rqt_gui",
         entry="gazelle.studio.windows.window_nodes:rqt",

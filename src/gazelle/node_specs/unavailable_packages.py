@@ -321,7 +321,7 @@ PACKAGES = (
     *_rows(_VISION, "apriltag_ros aruco_ros find_object_2d yolo_ros"),
     *_rows(_FIRMWARE, "mavros micro_ros_agent rosserial_python turtlebot3_node"),
     *_rows(_CONTROL, "ros2_control_test_assets"),
-    *_rows(_MOVEIT, "moveit_hybrid_planning moveit_servo moveit_setup_assistant"),
+    *_rows(_MOVEIT, "moveit_hybrid_planning moveit_servo"),
     *_rows(_NAV2, "nav2_loopback_sim nav2_route opennav_docking"),
     *_rows(_PICTURES, "image_transport", Sends.NOTHING),
     *_rows(_PICTURES, "image_transport_plugins"),

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from gazelle.announcements import announce_by
 from gazelle.diagnostics import Diagnostic, Diagnostics, brief
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Level, Node, TimeJumpError, offer_loggers
@@ -37,6 +38,7 @@ __all__ = [
     "start_ros2_node",
     "ticks",
     "tree_of_node",
+    "use_own_sim_time",
 ]
 
 
@@ -104,6 +106,7 @@ def start_node(arguments: NodeArguments, graph: Graph, *, offers_parameters: boo
             if offers_parameters:
                 _offer_given(node, arguments.params)
         keep_log(node, arguments.log_file, arguments.output)
+        announce_by(lambda text: node.log("info", text))
         offer_loggers(node)
     if arguments.log_level:
         node.log_level = level_of(arguments.log_level)
@@ -116,9 +119,17 @@ def start_ros2_node(arguments: NodeArguments, graph: Graph) -> tuple[Node, dict[
     """Make the graph node; returns it and its parameters, nested, for `offer_parameters`."""
     node = start_node(arguments, graph, offers_parameters=False)
     tree = nested(arguments.params)
-    if tree.get("use_sim_time") in (True, "true", "True"):
-        node.clock.use(True)
+    use_own_sim_time(node, tree)
     return node, tree
+
+
+def use_own_sim_time(node: Node, params: Mapping[str, Any]) -> None:
+    """Let ROS 2's parameter ``use_sim_time`` count before a simulator is there to say it for all.
+
+    Who starts before the simulator would stamp its first messages with wall time otherwise.
+    """
+    if params.get("use_sim_time") in (True, "true", "True"):
+        node.clock.use(True)
 
 
 def node_parameters(

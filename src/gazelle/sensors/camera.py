@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gazelle.description.model import CameraSpec
 from gazelle.geometry import Pose
 from gazelle.noise import PictureNoise
+from gazelle.rich_display import shown_by
 from gazelle.sensors.camera_kernel_arguments import Lighting, Output, Packet, Surfaces, View
 from gazelle.sensors.distortion import distort, is_distorting
 from gazelle.sensors.embree import packet_buffer
@@ -34,6 +35,7 @@ _COHERENT = 1 << 16
 _ALL_FEATURES = 0xFFFFFFFF
 
 
+@shown_by("cameras:camera_bundle")
 @dataclass(frozen=True, slots=True, eq=False)
 class CameraRecord:
     """One exposure.

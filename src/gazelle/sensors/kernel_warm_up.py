@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Any
+from contextlib import nullcontext
 
+from gazelle.announcements import announced_by
 from gazelle.description.model import Box, CameraSpec, Light, LightType, Link, Model, Visual, World
 from gazelle.geometry import IDENTITY_POSE, Pose
 
@@ -17,7 +18,8 @@ def warm_up(progress: Callable[[str], None] | None = None) -> float:
 
     Args:
         progress: told in a sentence when compiling starts and when it is done; silent when the
-            kernels come from the cache (which takes about 0.4 s).
+            kernels come from the cache (which takes about 0.4 s). Without it who listens to this
+            process is told that it starts.
 
     Returns:
         seconds it took.
@@ -26,22 +28,14 @@ def warm_up(progress: Callable[[str], None] | None = None) -> float:
         EmbreeError: Embree cannot be loaded.
     """
     started = time.perf_counter()
-    from numba.core import event
+    told: list[str] = []
 
-    told: list[bool] = []
+    def say(text: str) -> None:
+        told.append(text)
+        if progress is not None:
+            progress(text)
 
-    class CompileListener(event.Listener):  # type: ignore[misc]
-        """Hears from numba of what was not in its cache."""
-
-        def on_start(self, event: Any) -> None:
-            if progress is not None and not told:
-                progress("compiling camera kernels: a few seconds, once on this machine")
-            told.append(True)
-
-        def on_end(self, event: Any) -> None:
-            """Wait for the last one before saying so."""
-
-    with event.install_listener("numba:compile", CompileListener()):
+    with nullcontext() if progress is None else announced_by(say):
         _exercise()
     seconds = time.perf_counter() - started
     if progress is not None and told:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gazelle.description.model import LidarSpec
 from gazelle.geometry import Pose
 from gazelle.noise import NoiseStream
+from gazelle.rich_display import shown_by
 from gazelle.sensors.embree import NOTHING, PACKET, PACKET_BYTES, library, packet_buffer
 from gazelle.sensors.ray_scene import SHADOW_BIT, RayScene
 
@@ -41,6 +42,7 @@ class ScanAngles:
     vertical_increment: float
 
 
+@shown_by("scans:lidar_bundle")
 @dataclass(frozen=True, slots=True, eq=False)
 class LidarRecord:
     """One scan; row 0 is the lowest elevation, column 0 the smallest yaw.

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from typing import Literal, TypedDict, assert_never
 
 from gazelle.description.model import (
+    CameraSpec,
     Joint,
     Light,
     Link,
@@ -283,12 +284,16 @@ def _inertial(link: Link) -> InertialValue | None:
 
 
 def _sensor(sensor: Sensor) -> SensorValue:
-    return {
+    value: SensorValue = {
         "name": sensor.name,
         "type": sensor.type,
         "pose": pose_value(sensor.T_link_sensor),
         "rate_hz": sensor.update_rate_hz,
     }
+    if isinstance(sensor.spec, CameraSpec):
+        value["fov_rad"] = sensor.spec.horizontal_fov_rad
+        value["lens"] = pose_value(sensor.spec.T_sensor_camera)
+    return value
 
 
 def _material(material: Material | None) -> MaterialValue | None:

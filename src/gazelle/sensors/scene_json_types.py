@@ -187,12 +187,19 @@ class InertialValue(TypedDict):
 
 
 class SensorValue(TypedDict):
-    """A sensor, at a pose in its body."""
+    """A sensor, at a pose in its body.
+
+    Attributes:
+        fov_rad: of a camera: its full horizontal angle of view.
+        lens: of a camera: where it is in the sensor's frame.
+    """
 
     name: str
     type: str
     pose: Floats7
     rate_hz: float
+    fov_rad: NotRequired[float]
+    lens: NotRequired[Floats7]
 
 
 class LightValue(TypedDict):

@@ -14,12 +14,13 @@ from gazelle.description.model import CameraSpec, Light, LightType, Link, Model,
 from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
+from gazelle.rich_display import shown_by
 from gazelle.sensors.camera import render
 from gazelle.sensors.ray_scene import RayScene
 from gazelle.sensors.view_cameras import Shot, camera_spec, fitting_camera, view_direction
 from gazelle.sensors.view_overlays import OVERLAYS, overlay_world, scene_points
 
-__all__ = ["SHOWN", "Picture", "take_picture"]
+__all__ = ["SHOWN", "Picture", "lit_world", "take_picture"]
 
 SHOWN = ("visuals", *OVERLAYS)
 """What `take_picture` can show."""
@@ -62,6 +63,7 @@ _STUDIO = (
 )
 
 
+@shown_by("cameras:picture_bundle")
 class Picture(NamedTuple):
     """A picture, (H, W, 3) uint8, and the views it is made of."""
 
@@ -106,7 +108,7 @@ def take_picture(
     """
     found = Diagnostics() if diagnostics is None else diagnostics
     _check(show, views)
-    scenery = _scenery(world, background)
+    scenery = lit_world(world, background)
     layers, points = _layers(scenery, show, found)
     names = views if T_world_camera is None else ("camera",)
     shots = []
@@ -122,6 +124,22 @@ def take_picture(
     return Picture(rgb, tuple(shots))
 
 
+def lit_world(world: World, background: tuple[float, float, float] | None = None) -> World:
+    """Return a world to look at: one without lights (a robot, a model) gets two lamps.
+
+    Args:
+        world: what is shown.
+        background: red, green, blue, 0…1, in place of the world's own.
+    """
+    scene, lights = world.scene, world.lights
+    if not lights:
+        lights = _STUDIO
+        scene = Scene(ambient=(0.4, 0.4, 0.4, 1.0), background=_BACKGROUND)
+    if background is not None:
+        scene = replace(scene, background=(*background, 1.0), sky=False)
+    return replace(world, lights=lights, scene=scene)
+
+
 def _check(show: Sequence[str], views: Sequence[str]) -> None:
     for word in show:
         if word not in SHOWN:
@@ -131,16 +149,6 @@ def _check(show: Sequence[str], views: Sequence[str]) -> None:
         raise ValueError("a picture needs something to show and a view of it")
     for view in views:
         view_direction(view)
-
-
-def _scenery(world: World, background: tuple[float, float, float] | None) -> World:
-    scene, lights = world.scene, world.lights
-    if not lights:
-        lights = _STUDIO
-        scene = Scene(ambient=(0.4, 0.4, 0.4, 1.0), background=_BACKGROUND)
-    if background is not None:
-        scene = replace(scene, background=(*background, 1.0), sky=False)
-    return replace(world, lights=lights, scene=scene)
 
 
 def _layers(

@@ -1,7 +1,8 @@
 """Topics, services and parameters inside this process, with no transport at all.
 
 A `Simulation` uses it when no graph is open: plug-ins publish and listen as ever, messages go
-from publisher to subscriber as a direct call with the same object.
+from publisher to subscriber as a direct call with the same object. A graph may be joined later
+(`LocalNode.join`), for those who want to look.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ from gazelle.errors import NotFoundError
 from gazelle.graph.parameter_tree import ParameterTree
 
 if TYPE_CHECKING:
-    from gazelle.graph import Qos
+    from gazelle.graph import MessageInfo, Node, Qos
+    from gazelle.simulator.node_interfaces import PublisherPort, ServicePort, SubscriptionPort
 
 __all__ = ["LocalNode", "LocalParameters", "LocalPublisher", "LocalService", "LocalSubscription"]
 
@@ -33,52 +35,73 @@ class LocalPublisher:
         self.topic = topic
         self.message_type = message_type
         self.latched: Any = None
-        self._latch = latch
+        self.uplink: PublisherPort | None = None
+        self.is_latching = latch
         self._node = node
         self._callbacks = node._callbacks.setdefault(topic, [])
 
     @property
     def matched(self) -> bool:
         """True when somebody subscribes."""
-        return bool(self._callbacks)
+        return bool(self._callbacks) or (self.uplink is not None and self.uplink.matched)
 
     def publish(self, message: Any) -> None:
         """Call every subscriber with this very object."""
-        if self._latch:
+        if self.is_latching:
             self.latched = message
         for callback in tuple(self._callbacks):
             callback(message)
+        if self.uplink is not None and (self.is_latching or self.uplink.matched):
+            self.uplink.publish(message)
 
     def unregister(self) -> None:
         """Stop offering the topic; subscribers stay for the next publisher."""
         self._node._publishers = [item for item in self._node._publishers if item is not self]
+        if self.uplink is not None:
+            self.uplink.unregister()
 
 
 class LocalSubscription:
     """Subscription of a `LocalNode`."""
 
-    def __init__(self, node: LocalNode, topic: str, callback: Callback) -> None:
+    def __init__(
+        self, node: LocalNode, topic: str, message_type: Any, callback: Callback, announced: str
+    ) -> None:
         self.topic = topic
-        self._callback = callback
+        self.message_type = message_type
+        self.announced = announced
+        self.callback = callback
+        self.uplink: SubscriptionPort | None = None
+        self._node = node
         self._callbacks = node._callbacks.setdefault(topic, [])
         self._callbacks.append(callback)
 
     def unregister(self) -> None:
         """Stop receiving; calling it twice does nothing."""
-        if self._callback in self._callbacks:
-            self._callbacks.remove(self._callback)
+        if self.callback in self._callbacks:
+            self._callbacks.remove(self.callback)
+        self._node._subscriptions.pop(self, None)
+        if self.uplink is not None:
+            self.uplink.unregister()
 
 
 class LocalService:
     """Service of a `LocalNode`."""
 
-    def __init__(self, node: LocalNode, name: str) -> None:
+    def __init__(
+        self, node: LocalNode, name: str, service_type: Any, handler: Callable[..., Any]
+    ) -> None:
         self.name = name
+        self.service_type = service_type
+        self.handler = handler
+        self.uplink: ServicePort | None = None
         self._node = node
 
     def unregister(self) -> None:
         """Stop answering."""
         self._node._services.pop(self.name, None)
+        if self.uplink is not None:
+            self.uplink.unregister()
 
 
 class LocalParameters:
@@ -114,12 +137,20 @@ class LocalParameters:
 
 
 class LocalNode:
-    """A node without a graph."""
+    """A node without a graph.
+
+    Attributes:
+        has_views: topics and services for viewers are offered here.
+    """
 
     def __init__(self) -> None:
+        self.has_views = False
         self._callbacks: dict[str, list[Callback]] = {}
         self._publishers: list[LocalPublisher] = []
-        self._services: dict[str, Callable[[Any], Any]] = {}
+        self._subscriptions: dict[LocalSubscription, None] = {}
+        self._services: dict[str, LocalService] = {}
+        self._outlets: dict[tuple[str, Any], PublisherPort] = {}
+        self._graph_node: Node | None = None
         self.parameters = LocalParameters()
 
     @property
@@ -145,7 +176,22 @@ class LocalNode:
         """Offer a topic; all but `latch` means nothing without a transport."""
         publisher = LocalPublisher(self, _absolute(topic), message_type, latch)
         self._publishers.append(publisher)
+        self._link_publisher(publisher)
         return publisher
+
+    def publish(self, topic: str, message: Any) -> None:
+        """Publish one message, without offering the topic."""
+        name = _absolute(topic)
+        for callback in tuple(self._callbacks.get(name, ())):
+            callback(message)
+        if self._graph_node is None:
+            return
+        outlet = self._outlets.get((name, type(message)))
+        if outlet is None:
+            outlet = self._graph_node.create_publisher(name, type(message))
+            self._outlets[name, type(message)] = outlet
+        if outlet.matched:
+            outlet.publish(message)
 
     def create_subscription(
         self,
@@ -162,7 +208,10 @@ class LocalNode:
         for publisher in self._publishers:
             if publisher.topic == name and publisher.latched is not None:
                 callback(publisher.latched)
-        return LocalSubscription(self, name, callback)
+        made = LocalSubscription(self, name, message_type, callback, announced)
+        self._subscriptions[made] = None
+        self._link_subscription(made)
+        return made
 
     def create_service(
         self,
@@ -173,9 +222,11 @@ class LocalNode:
         with_caller: bool = False,
     ) -> LocalService:
         """Offer a service; `with_caller` gives the handler nobody's name, as nobody has one."""
-        wanted = (lambda request: handler(request, "")) if with_caller else handler
-        self._services[_absolute(name)] = wanted
-        return LocalService(self, _absolute(name))
+        taking = handler if with_caller else lambda request, _caller: handler(request)
+        made = LocalService(self, _absolute(name), service_type, taking)
+        self._services[_absolute(name)] = made
+        self._link_service(made)
+        return made
 
     def publisher_names(self, topic: str) -> tuple[str, ...]:
         """Return nothing: whoever publishes here has no node's name."""
@@ -191,10 +242,10 @@ class LocalNode:
         Raises:
             NotFoundError: nobody offers it.
         """
-        handler = self._services.get(_absolute(name))
-        if handler is None:
+        service = self._services.get(_absolute(name))
+        if service is None:
             raise NotFoundError("service", name, nearest=nearest_names(name, self._services))
-        return handler(request)
+        return service.handler(request, "")
 
     def resolve_name(self, name: str) -> str:
         """Return the absolute name; there are no remappings here."""
@@ -203,6 +254,75 @@ class LocalNode:
     def log(self, level: Any, text: str) -> None:
         """Say something through the standard logging module."""
         _LOGGER.log(logging.getLevelName(str(level).upper()), text)
+
+    def join(self, node: Node) -> None:
+        """Have a node of a graph offer and receive all that is offered and received here, too.
+
+        What is published here does not come back from there. Subscriptions of any type that
+        announce none stay inside this process.
+
+        Args:
+            node: of the graph; its owner shuts it down after `leave`.
+        """
+        self._graph_node = node
+        with node.announced_together():
+            for publisher in self._publishers:
+                self._link_publisher(publisher)
+            for subscription in self._subscriptions:
+                self._link_subscription(subscription)
+            for service in self._services.values():
+                self._link_service(service)
+
+    def leave(self) -> None:
+        """Be on no graph any more."""
+        self._graph_node = None
+        ends: list[LocalPublisher | LocalSubscription | LocalService] = [
+            *self._publishers,
+            *self._subscriptions,
+            *self._services.values(),
+        ]
+        for end in ends:
+            if end.uplink is not None:
+                end.uplink.unregister()
+                end.uplink = None
+        for outlet in self._outlets.values():
+            outlet.unregister()
+        self._outlets.clear()
+
+    def _link_publisher(self, publisher: LocalPublisher) -> None:
+        node = self._graph_node
+        if node is None:
+            return
+        latch = publisher.is_latching
+        publisher.uplink = node.create_publisher(
+            publisher.topic, publisher.message_type, latch=latch, reliable=latch
+        )
+        if publisher.latched is not None:
+            publisher.uplink.publish(publisher.latched)
+
+    def _link_subscription(self, subscription: LocalSubscription) -> None:
+        node = self._graph_node
+        if node is None or (subscription.message_type is None and not subscription.announced):
+            return
+
+        def take(message: Any, info: MessageInfo) -> None:
+            if info.publisher != node.name:
+                subscription.callback(message)
+
+        subscription.uplink = node.create_subscription(
+            subscription.topic,
+            subscription.message_type,
+            take,
+            with_info=True,
+            inline=True,
+            announced=subscription.announced,
+        )
+
+    def _link_service(self, service: LocalService) -> None:
+        if self._graph_node is not None:
+            service.uplink = self._graph_node.create_service(
+                service.name, service.service_type, service.handler, with_caller=True
+            )
 
 
 def _absolute(name: str) -> str:

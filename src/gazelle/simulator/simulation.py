@@ -7,16 +7,19 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Self
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Self, cast
 
 from gazelle.description.model import Model, World
 from gazelle.diagnostics import Diagnostics
 from gazelle.diagnostics.suggestions import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
+from gazelle.rich_display import shown_by
 from gazelle.simulator.description_sources import Source, loaded_from, models_from, world_from
 from gazelle.simulator.intra_process_node import LocalNode
 from gazelle.simulator.node_interfaces import NodePort, SubscriptionPort
+from gazelle.simulator.run_history import RunHistory
 from gazelle.simulator.simulation_handles import (
     SimJoint,
     SimLink,
@@ -30,11 +33,13 @@ from gazelle.workspace import Workspace
 
 if TYPE_CHECKING:
     from gazelle.graph.actions import LocalGoal
+    from gazelle.simulator.notebook_ports import LiveWorldPort, PlotPort, ViewPort
     from gazelle.simulator.simulation_handles import SimControllers
 
 __all__ = ["Simulation", "full_name"]
 
 
+@shown_by("robots:simulation_bundle")
 class Simulation:
     """A world with its robots, stepped from Python.
 
@@ -82,6 +87,10 @@ class Simulation:
             controls=controls,
             progress=_say_to_person,
         )
+        self._history = RunHistory(self.server)
+        self._live: LiveWorldPort | None = None
+        self._views: list[ViewPort] = []
+        self._pace: float | None = None
 
     @classmethod
     def load(  # noqa: PLR0913 - users give all by keyword
@@ -146,7 +155,14 @@ class Simulation:
         self.close()
 
     def close(self) -> None:
-        """Release topics, services and threads."""
+        """End views; release topics, services and threads."""
+        for view in self._views:
+            view.close()
+        self._views.clear()
+        if self._live is not None:
+            self._live.close()
+            self._live = None
+        self._history.close()
         self.server.close()
 
     @property
@@ -172,17 +188,77 @@ class Simulation:
     def run(self, *, seconds: float) -> None:
         """Let this much simulated time pass, rounded up to whole steps.
 
+        It takes as little real time as it can; see `view` for when somebody looks.
+
         Raises:
             ValueError: a negative or infinite time.
             SimulationDivergedError: the state became non-finite.
         """
         if not 0 <= seconds < math.inf:
             raise ValueError(f"run() needs a time of 0 s or more, not {seconds}")
-        self.step(math.ceil(round(seconds * 1e9) / self.server.engine.step_ns))
+        count = math.ceil(round(seconds * 1e9) / self.server.engine.step_ns)
+        if self._live is None:
+            self.step(count)
+        else:
+            self._live.run(count, self._pace)
 
     def step(self, count: int = 1) -> None:
         """Take steps; everything due on the way (plug-ins, sensors with subscribers) happens."""
         self.server.step(count)
+
+    def view(
+        self,
+        *,
+        height_px: int = 480,
+        real_time_factor: float | None = 1.0,
+        origin: str | None = None,
+    ) -> ViewPort:
+        """Show the world live: in the cell of a notebook, elsewhere at the `url` that is returned.
+
+        The page is there until `close` of what is returned or of the simulation; cells go on and
+        step the simulation meanwhile. Where the page cannot be reached, and in a notebook that is
+        saved, the cell shows a picture, and a replay of the run once something has moved.
+
+        Args:
+            height_px: of the page in the cell.
+            real_time_factor: `run` is not faster than so many times real time while a page looks;
+                None lets it be as fast as it can. `step` always is.
+            origin: of the notebook's page, such as ``http://localhost:8888``; the first page on
+                this machine that shows the view when None. No other page can.
+
+        Raises:
+            GazelleError: no port is free for the page's server.
+        """
+        # Studio is a layer above.
+        show = import_module("gazelle.notebook.live_view").show
+        self._pace = real_time_factor
+        view, self._live = show(self, self._live, height_px=height_px, origin=origin)
+        self._views.append(view)
+        return cast("ViewPort", view)
+
+    def plot(self, *names: str) -> PlotPort:
+        """Plot joints, links, sensors and topics over the run; a notebook shows it as a chart.
+
+        Joints and links are recorded from the start. Efforts, sensors and topics are from the
+        first plot of them on: plot, run, and look at the plot again.
+
+        Args:
+            names: ``JOINT/position``, ``/velocity`` or ``/effort``; ``LINK/x``, ``y``, ``z``,
+                ``roll``, ``pitch`` or ``yaw`` in the world, or a model's; a number of a sensor's
+                record, ``imu/linear_acceleration_m_s2[0]``; or of a topic's messages,
+                ``/odom/twist/twist/linear/x``.
+
+        Raises:
+            NotFoundError: there is no such thing; the message names the nearest.
+            GazelleError: nothing was named, or it is no number.
+
+        Example:
+            >>> sim.run(seconds=5)
+            >>> sim.plot("joint_1/position", "joint_1/velocity").save("joint_1.png")
+        """
+        # Charts are a layer above.
+        made = import_module("gazelle.notebook.plots").plot(self, self._history, names)
+        return cast("PlotPort", made)
 
     def pause(self) -> None:
         """Stop time for a server that runs on its own (`WorldServer.run`)."""
@@ -307,7 +383,11 @@ class Simulation:
 
         Messages of other simulations and processes are reached when `node` is a graph's.
         """
-        publisher = self.server.node.create_publisher(topic, type(message))
+        node = self.server.node
+        if isinstance(node, LocalNode):
+            node.publish(topic, message)
+            return
+        publisher = node.create_publisher(topic, type(message))
         publisher.publish(message)
         publisher.unregister()
 

@@ -11,6 +11,7 @@ from gazelle.diagnostics import nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Pose
 from gazelle.parameters.trees import flattened
+from gazelle.rich_display import shown_by
 
 if TYPE_CHECKING:
     from gazelle.engine import JointHandle, LinkHandle
@@ -109,6 +110,7 @@ class SimLink:
         self.handle.apply_wrench(force_n, torque_nm, duration_ns=duration_ns)
 
 
+@shown_by("robots:sim_model_bundle")
 class SimModel:
     """A model."""
 
@@ -199,6 +201,7 @@ class SimSensor:
         return self._server.sensors.read(self._place)
 
 
+@shown_by("robots:controllers_bundle")
 class SimControllers:
     """Loads, starts and stops controllers; no time passes for it.
 

@@ -6,10 +6,13 @@ import threading
 from typing import Any, Literal, Protocol, TypedDict
 
 from gazelle._version import __version__
+from gazelle.diagnostics.documentation import pages_address
 from gazelle.graph import Node
 from gazelle.studio.json_text import json_text
 
 __all__ = ["GraphPlace", "Hello", "Page", "Pages", "Show"]
+
+_ROSOUT = "/rosout"
 
 
 class GraphPlace(TypedDict):
@@ -25,6 +28,8 @@ class Hello(TypedDict):
     Attributes:
         node: the server's own on the graph.
         panels: those that commands asked for.
+        docs: where the pages of this release are; empty where that is not known.
+        is_idle: whether nothing runs on the graph.
     """
 
     op: Literal["hello"]
@@ -33,6 +38,8 @@ class Hello(TypedDict):
     node: str
     graph: GraphPlace
     panels: list[str]
+    docs: str
+    is_idle: bool
 
 
 class Show(TypedDict):
@@ -77,6 +84,8 @@ class Pages:
             "node": self._node.name,
             "graph": {"port": graph.port, "domain": graph.domain},
             "panels": [name for name, _ in waiting],
+            "docs": pages_address(),
+            "is_idle": self._is_idle(),
         }
         return [first, *(_show(name, params) for name, params in waiting if params)]
 
@@ -102,6 +111,10 @@ class Pages:
                 self._panels.append((panel, params or {}))
         for page in pages:
             page.post(json_text(_show(panel, params or {})))
+
+    def _is_idle(self) -> bool:
+        # Names that begin with an underscore are those of tools, and are not told.
+        return set(self._node.graph.node_names()) <= {_ROSOUT}
 
 
 def _show(panel: str, params: dict[str, Any]) -> Show:

@@ -10,8 +10,10 @@ from gazelle.studio.bags import methods as bags
 from gazelle.studio.displays import methods as displays
 from gazelle.studio.downloads import download, save_file
 from gazelle.studio.graph_view import methods as graph_view
+from gazelle.studio.launches import methods as launches
 from gazelle.studio.motion import methods as motion
 from gazelle.studio.plugins import methods as plugins
+from gazelle.studio.robot_files import methods as robot_files
 from gazelle.studio.routing import Method, Route, methods_of, methods_without, routes_of, streams_of
 from gazelle.studio.scenes.assets import mesh_answer, texture_answer
 from gazelle.studio.scenes.robot import get_robot
@@ -23,6 +25,7 @@ from gazelle.studio.settings.layouts import (
 )
 from gazelle.studio.settings.rqt_perspectives import open_perspective
 from gazelle.studio.settings.rviz_files import open_rviz
+from gazelle.studio.setup_assistant import methods as setup_assistant
 from gazelle.studio.streams import StreamKind
 from gazelle.studio.studio import Studio
 from gazelle.studio.world import methods as world
@@ -43,8 +46,12 @@ METHODS: dict[str, Method[Studio]] = {
     **methods_of(lambda studio: studio.world, world.METHODS),
     **methods_of(lambda studio: studio.bags, bags.METHODS),
     **methods_without(_SETTINGS),
+    **methods_without(launches.METHODS),
+    **methods_of(lambda studio: studio.demos, launches.DEMO_METHODS),
     **methods_of(lambda studio: studio.shown_panels, plugins.METHODS),
     **methods_of(lambda studio: studio.robots, {**motion.METHODS, "robot.get": get_robot}),
+    **methods_of(lambda studio: studio.robot_files, robot_files.METHODS),
+    **methods_of(lambda studio: studio.setup_assistant, setup_assistant.METHODS),
     **displays.METHODS,
     **methods_of(lambda studio: studio.downloads, {"file.save": save_file}),
 }
@@ -53,11 +60,13 @@ STREAMS: dict[str, StreamKind[Studio]] = {
     **streams_of(lambda studio: studio.displays, displays.STREAMS),
     **streams_of(lambda studio: studio.world, world.STREAMS),
     **streams_of(lambda studio: studio.bags, bags.STREAMS),
+    **streams_of(lambda studio: studio.node.graph.port, launches.STREAMS),
     **streams_of(lambda studio: studio.shown_panels, plugins.STREAMS),
     **streams_of(lambda studio: studio.subscriptions, motion.STREAMS),
 }
 ROUTES: dict[str, Route[Studio]] = {
     **world.ROUTES,
+    **launches.ROUTES,
     **routes_of(lambda studio: studio.shown_panels, plugins.ROUTES),
     **routes_of(lambda studio: studio.downloads, {"file": download}),
     **routes_of(lambda studio: studio.assets, {"mesh": mesh_answer, "texture": texture_answer}),

@@ -129,14 +129,21 @@ class Guard(NamedTuple):
         A ``Host`` of another name is DNS rebinding, an ``Origin`` of another one is a foreign
         page; browsers write both themselves.
         """
+        strange = self.strangeness(headers)
+        if strange:
+            return strange
+        if not self._knows_token(path, headers):
+            return "open the address that was printed; it carries a token"
+        return ""
+
+    def strangeness(self, headers: Headers) -> str:
+        """Return why a request gets 403 whatever it knows, empty when it comes from here."""
         host = headers.get_all("Host")
         if len(host) != 1 or not self._is_own_host(host[0]):
             return "this server answers only to its own address"
         origins = headers.get_all("Origin")
         if any(urlsplit(origin).netloc.lower() != host[0].lower() for origin in origins):
             return "pages of other origins may not talk to this server"
-        if not self._knows_token(path, headers):
-            return "open the address that was printed; it carries a token"
         return ""
 
     def has_token(self, path: str) -> bool:

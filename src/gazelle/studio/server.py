@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
 import threading
 from functools import partial
 from http import HTTPStatus
-from typing import Self
+from typing import NamedTuple, Self
 from urllib.parse import urlsplit
 
 from websockets.asyncio.server import Server as WebSocketServer
@@ -17,13 +18,14 @@ from websockets.http11 import Request, Response
 from gazelle.errors import GazelleError
 from gazelle.graph.glibc_malloc import keep_freed_memory
 from gazelle.studio.connection import Connection
+from gazelle.studio.frame_passes import FRAME, FramePasses
 from gazelle.studio.http_answers import answer_to, response
 from gazelle.studio.protocol import ROUTES
 from gazelle.studio.security import guard_for
 from gazelle.studio.studio import Studio
 from gazelle.studio.workers import in_thread
 
-__all__ = ["DEFAULT_PORT", "Server"]
+__all__ = ["DEFAULT_PORT", "Frame", "Server"]
 
 DEFAULT_PORT = 8090
 _PORTS_TRIED = 20
@@ -32,6 +34,27 @@ _WRITE_LIMIT_BYTES = 1 << 20
 _STARTING_S = 10.0
 # A busy machine may take long to read a mesh; a browser's spare connections wait as long.
 _ANSWER_S = 120.0
+
+
+class Frame(NamedTuple):
+    """A page that another one may show in a frame.
+
+    Attributes:
+        token: of its pass.
+        port: of its server, on 127.0.0.1.
+    """
+
+    token: str
+    port: int
+
+    def __repr__(self) -> str:
+        """Without the token: logs and tracebacks show values."""
+        return f"Frame(token='***', port={self.port})"
+
+    @property
+    def path(self) -> str:
+        """Where the page is on the server."""
+        return f"/{FRAME}/{self.token}/"
 
 
 class Server:
@@ -70,8 +93,11 @@ class Server:
         self._started = threading.Event()
         self._stop = asyncio.Event()
         self._error: OSError | None = None
+        self._passes = FramePasses()
+        self._framed: dict[str, set[ServerConnection]] = {}
         # Its port comes later; a secret that cannot be read is told here.
         self._guard = guard_for(host, 0)
+        studio.demos.may_start = self._guard.is_local
         keep_freed_memory()
         self._thread = threading.Thread(target=self._run, name="studio server", daemon=True)
         self._thread.start()
@@ -153,12 +179,53 @@ class Server:
             return server
         return None
 
+    def open_frame(self, origin: str | None = None) -> Frame:
+        """Let one other page show this one in a frame.
+
+        Args:
+            origin: of that page; the first one on this machine that does when None.
+        """
+        return Frame(self._passes.issue(origin), self.port)
+
+    def close_frame(self, frame: Frame) -> None:
+        """End what `open_frame` has begun, with the connections that were made by it."""
+        self._passes.withdraw(frame.token)
+        with contextlib.suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(self._end_connections, frame.token)
+
+    def is_reached(self, frame: Frame) -> bool:
+        """Return whether a browser has ever asked for a page of `open_frame`."""
+        return self._passes.is_reached(frame.token)
+
+    def _end_connections(self, token: str) -> None:
+        for socket in self._framed.pop(token, ()):
+            socket.transport.abort()
+
     async def _talk(self, socket: ServerConnection) -> None:
-        await Connection(self.studio, socket).run()
+        assert socket.request is not None
+        framed = self._passes.look(socket.request.path, socket.request.headers)
+        if framed is None:
+            await Connection(self.studio, socket).run()
+            return
+        sockets = self._framed.setdefault(framed.token, set())
+        sockets.add(socket)
+        try:
+            if self._passes.holds(framed.token):
+                await Connection(self.studio, socket).run()
+        finally:
+            sockets.discard(socket)
 
     async def _answer(self, _socket: ServerConnection, request: Request) -> Response | None:
         """Refuse strangers, serve files; None lets a WebSocket through."""
-        reason = self._guard.refusal(request.path, request.headers)
+        framed = self._passes.look(request.path, request.headers)
+        if framed is None:
+            reason = self._guard.refusal(request.path, request.headers)
+            return await self._served(request, reason)
+        reason = self._guard.strangeness(request.headers) or framed.refusal
+        answer = await self._served(Request(framed.path, request.headers), reason)
+        return None if answer is None else framed.admit(answer)
+
+    async def _served(self, request: Request, reason: str) -> Response | None:
         if reason:
             return response(HTTPStatus.FORBIDDEN, f"403: {reason}\n".encode())
         if urlsplit(request.path).path == "/ws":

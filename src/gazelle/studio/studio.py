@@ -13,11 +13,14 @@ from gazelle.studio.displays.topic_display import DisplayContext
 from gazelle.studio.downloads import Downloads
 from gazelle.studio.frame_manager import Frames
 from gazelle.studio.graph_view.methods import graph_parts
+from gazelle.studio.launches.demos import DemoRunner
 from gazelle.studio.lazy_parts import closed_with
 from gazelle.studio.pages import Pages
 from gazelle.studio.plugins.shown_panels import ShownPanels
+from gazelle.studio.robot_files.methods import robot_file_parts
 from gazelle.studio.scenes.assets import Assets
 from gazelle.studio.scenes.robot import RobotContext
+from gazelle.studio.setup_assistant.sessions import AssistantSessions
 from gazelle.studio.subscriptions import Subscriptions
 from gazelle.studio.workers import Workers
 from gazelle.studio.world.methods import world_parts
@@ -43,9 +46,12 @@ class Studio:
         graph_view: the graph itself: topics, nodes, parameters, frames.
         displays: what displays show messages with.
         robots: descriptions of robots.
+        robot_files: files of robots that were dropped on a page.
         world: the running world.
         bags: recorder and player.
+        setup_assistant: MoveIt config packages that pages make.
         shown_panels: the user's own panels.
+        demos: starts our demos, for pages of this machine.
     """
 
     def __init__(self, graph: Graph, folder: Path | None = None) -> None:
@@ -67,9 +73,13 @@ class Studio:
         self.graph_view = graph_parts(self.subscriptions, frames, self.pages, ending)
         self.displays = DisplayContext(self.subscriptions, frames, self.assets)
         self.robots = RobotContext(self.subscriptions, self.assets)
+        self.robot_files = robot_file_parts(self.assets, ending)
         self.world = world_parts(self.subscriptions, self.workers, self.assets, ending)
-        recording = Recording(graph, (folder or Path.cwd()).absolute())
+        written = (folder or Path.cwd()).absolute()
+        self.setup_assistant = AssistantSessions(written, self.assets)
+        recording = Recording(graph, written)
         self.bags = Bags(closed_with(ending, recording), closed_with(ending, Playing(graph)))
+        self.demos = closed_with(ending, DemoRunner(graph.port, self.pages))
         self.shown_panels = closed_with(ending, ShownPanels(graph))
 
     def close(self) -> None:

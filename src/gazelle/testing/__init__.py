@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gazelle.testing.isolated_graph import open_graph
+    from gazelle.graph.isolated_graph import open_graph
     from gazelle.testing.launch import Launch, launched
     from gazelle.testing.messages import Messages
 
@@ -19,7 +19,7 @@ _MODULES = {
     "Launch": "gazelle.testing.launch",
     "Messages": "gazelle.testing.messages",
     "launched": "gazelle.testing.launch",
-    "open_graph": "gazelle.testing.isolated_graph",
+    "open_graph": "gazelle.graph.isolated_graph",
 }
 
 

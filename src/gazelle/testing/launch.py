@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.graph import Entity, Graph, Kind, Node, Publisher, ServiceClient
+from gazelle.graph.isolated_graph import open_graph
 from gazelle.graph.key_expressions import ANY_TYPE
 from gazelle.interfaces import fill, service_type
 from gazelle.interfaces.stamps import seconds_of
-from gazelle.testing.isolated_graph import open_graph
 from gazelle.testing.messages import Messages, Waiting, existing
 from gazelle.testing.process_tree import ProcessTree, launch_environment
 

@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
 
+from gazelle.cache_folders import is_usable
 from gazelle.diagnostics.share_links import LINKS_FOLDER, SOURCE_LINK
 from gazelle.documents.files import exists
 from gazelle.user_folders import cache_folder
@@ -82,6 +83,9 @@ def _linked(folder: Path, name: str, files: Mapping[str, Path], texts: Mapping[s
     failure: OSError | None = None
     for top in _tops():
         made = top / digest
+        if not is_usable(top):
+            failure = PermissionError(f"'{top}' cannot be used")
+            continue
         try:
             if not made.is_dir():
                 _make(made, folder, name, files, texts)

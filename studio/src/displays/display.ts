@@ -51,6 +51,9 @@ export interface Drawing {
   make(site: Site): Drawer;
 }
 
+/** Where errors may go by themselves while tf comes up. */
+const WAITING = new Set(['Transform', 'URDF', 'Map']);
+
 /** A class of RViz's displays. */
 export type DisplayKind = DisplayRow & Drawing;
 
@@ -71,6 +74,9 @@ export class Display {
   onChange: (what: 'status' | 'properties') => void = () => undefined;
   private channel: Channel | null = null;
   private messages = 0;
+  /** Errors that are not called so yet. */
+  private readonly early = new Map<string, string>();
+  private readonly unwatch: () => void;
 
   constructor(
     readonly kind: DisplayKind,
@@ -100,6 +106,7 @@ export class Display {
       status: (what, level, words) => this.tell(what, level, words),
       offer: (spec) => void (this.props.add(spec) && this.onChange('properties')),
     });
+    this.unwatch = stage.frames.onRenamed(() => this.callErrors());
     this.drawer.changed?.('');
     this.begin();
   }
@@ -159,6 +166,7 @@ export class Display {
 
   dispose(): void {
     this.end();
+    this.unwatch();
     this.drawer.clear();
     this.drawer.dispose?.();
     this.stage.view.scene.remove(this.root);
@@ -223,6 +231,23 @@ export class Display {
   }
 
   private tell(what: string, level: StatusLevel, words: string): void {
+    this.early.delete(what);
+    if (level === 'error' && WAITING.has(what) && !this.stage.frames.settled) {
+      this.early.set(what, words);
+      return this.write(what, 'warn', `Waiting: ${words}`);
+    }
+    this.write(what, level, words);
+  }
+
+  /** What was waited for has not come. */
+  private callErrors(): void {
+    if (!this.stage.frames.settled) return;
+    const late = [...this.early];
+    this.early.clear();
+    for (const [what, words] of late) this.write(what, 'error', words);
+  }
+
+  private write(what: string, level: StatusLevel, words: string): void {
     const old = this.status.get(what);
     if (old?.level === level && old.text === words) return;
     this.status.set(what, { level, text: words });

@@ -121,6 +121,7 @@ export class DisplayList {
     const [shown, tools] = [displays, this.tools] as unknown as Json[];
     return {
       fixed_frame: this.fixedFrame,
+      frame_chosen: this.chosen,
       background: this.backgroundColour,
       displays: shown,
       tools,

@@ -11,7 +11,7 @@ import { openMenu } from '../widgets/menu';
 import { insertFile } from '../world/actions';
 import { askText } from '../shell/dialog';
 import { askDisplay } from './add_dialog';
-import type { Display } from './display';
+import type { Display, StatusLine } from './display';
 import { DisplayRow } from './display_row';
 import { editor, type Known } from './property_row';
 import { displayKind } from './registry';
@@ -176,19 +176,12 @@ export class DisplaysPanel extends BasePanel {
           scene.displays.setBackground(String(value)),
         ),
       ]);
-    const { infos } = scene.displays.stage.frames;
-    const isThere = infos.some(
-      (info) =>
-        info.name === scene.displays.fixedFrame || info.parent === scene.displays.fixedFrame,
-    );
+    const problem = frameProblem(scene);
     this.globals.replaceChildren(
       h(
         'div',
         { class: 'display-head' },
-        h('span', {
-          class: 'display-light',
-          'data-level': infos.length && !isThere ? 'error' : 'ok',
-        }),
+        h('span', { class: 'display-light', 'data-level': problem?.level ?? 'ok' }),
         h('span', { class: 'display-name' }, 'Global Options'),
       ),
       ...rows.map(([name, control]) =>
@@ -200,16 +193,15 @@ export class DisplaysPanel extends BasePanel {
         ),
       ),
     );
-    if (infos.length && !isThere) {
-      this.globals.append(
-        h(
-          'div',
-          { class: 'display-status status-error' },
-          h('span', { class: 'status-what' }, 'Fixed Frame'),
-          h('span', {}, `Unknown frame ${scene.displays.fixedFrame}`),
-        ),
-      );
-    }
+    if (!problem) return;
+    this.globals.append(
+      h(
+        'div',
+        { class: `display-status status-${problem.level}` },
+        h('span', { class: 'status-what' }, 'Fixed Frame'),
+        h('span', {}, problem.text),
+      ),
+    );
   }
 
   private choose(display: Display | null): void {
@@ -280,4 +272,24 @@ export class DisplaysPanel extends BasePanel {
 
 function typesOf(className: string): readonly string[] {
   return displayKind(className)?.types ?? [];
+}
+
+const MOST_NAMES = 4;
+
+/** What keeps the fixed frame from being one, and how sure that is. */
+function frameProblem(scene: ScenePanel): StatusLine | null {
+  const { displays } = scene;
+  const { infos, settled } = displays.stage.frames;
+  const { fixedFrame } = displays;
+  // Gazebo's view stands in the world, with tf or without.
+  if (infos.length === 0 || (scene.kind === 'gazebo' && displays.displays.length === 0))
+    return null;
+  if (infos.some((info) => info.name === fixedFrame || info.parent === fixedFrame)) return null;
+  if (!settled) return { level: 'warn', text: `Waiting for the frame ${fixedFrame}` };
+  const names = infos.map((info) => info.name);
+  const more = names.length > MOST_NAMES ? ` and ${names.length - MOST_NAMES} more` : '';
+  return {
+    level: 'error',
+    text: `Unknown frame ${fixedFrame}. tf has ${names.slice(0, MOST_NAMES).join(', ')}${more}: choose one of them above, or start who broadcasts ${fixedFrame}.`,
+  };
 }

@@ -125,7 +125,9 @@ class RobotDrawer implements Drawer {
     } catch (problem) {
       if (ask !== this.asked) return;
       const error = asCallError(problem);
-      this.site.status('URDF', 'error', [error.message, error.hint].filter(Boolean).join(' '));
+      // Whoever describes the robot may be started later; that is no fault of anything here.
+      const level = error.message.startsWith('there is no ') ? 'warn' : 'error';
+      this.site.status('URDF', level, [error.message, error.hint].filter(Boolean).join(' '));
       this.timer = window.setTimeout(() => void this.load(), RETRY_MS);
     }
   }
@@ -177,7 +179,13 @@ class RobotDrawer implements Drawer {
         place(node.root, node.value.pose);
       } else place(node.root, frames.poses, at);
     });
-    if (lost.length)
+    if (lost.length && frames.infos.length === 0)
+      status(
+        'Transform',
+        'warn',
+        'tf tells of no frame yet: the joints stand at zero. robot_state_publisher broadcasts the links.',
+      );
+    else if (lost.length)
       status(
         'Transform',
         'error',

@@ -17,6 +17,10 @@ export interface Hello {
   graph: GraphPlace;
   /** those that commands asked for. */
   panels: string[];
+  /** where the pages of this release are; empty where that is not known. */
+  docs: string;
+  /** whether nothing runs on the graph. */
+  is_idle: boolean;
 }
 
 /** A command asks for a panel. */
@@ -495,6 +499,10 @@ export interface SensorValue {
   type: string;
   pose: [number, number, number, number, number, number, number];
   rate_hz: number;
+  /** of a camera: its full horizontal angle of view. */
+  fov_rad?: number;
+  /** of a camera: where it is in the sensor's frame. */
+  lens?: [number, number, number, number, number, number, number];
 }
 
 /** A light. */
@@ -720,6 +728,236 @@ export interface PlanningScene {
   objects?: Json[];
   /** `moveit_msgs/AttachedCollisionObject` each. */
   attached?: Json[];
+}
+
+/** Two links; the reason is empty where they are checked for collision. */
+export interface AssistantPair {
+  link1: string;
+  link2: string;
+  reason: string;
+}
+
+/** What holds the root. */
+export interface AssistantVirtualJoint {
+  name: string;
+  type: string;
+  parent_frame: string;
+  child_link: string;
+}
+
+/** All joints between two links. */
+export interface AssistantChain {
+  base_link: string;
+  tip_link: string;
+}
+
+/** A planning group as it is written, and the solver of its inverse kinematics. */
+export interface AssistantGroup {
+  name: string;
+  chains: AssistantChain[];
+  links: string[];
+  joints: string[];
+  subgroups: string[];
+  solver: string;
+}
+
+/** A named pose, rad or m by joint. */
+export interface AssistantState {
+  name: string;
+  group: string;
+  values: Record<string, number>;
+}
+
+/** A group that is mounted on another. */
+export interface AssistantEffector {
+  name: string;
+  group: string;
+  parent_link: string;
+  parent_group: string;
+}
+
+/** A controller that trajectories are sent to. */
+export interface AssistantController {
+  name: string;
+  type: string;
+  plugin: string;
+  action_ns: string;
+  joints: string[];
+}
+
+/** What a joint is commanded by, and whether the package adds that to the robot. */
+export interface AssistantInterface {
+  joint: string;
+  kinds: string[];
+  is_added: boolean;
+}
+
+/** A link below another one. */
+export interface AssistantLink {
+  name: string;
+  parent: string;
+  joint: string;
+  kind: string;
+  is_solid: boolean;
+}
+
+/** A session: the config package and its robot. */
+export interface AssistantValue {
+  package_name: string;
+  ros_version: number;
+  file: string;
+  author_name: string;
+  author_email: string;
+  trials: number;
+  pairs: AssistantPair[];
+  virtual_joints: AssistantVirtualJoint[];
+  groups: AssistantGroup[];
+  states: AssistantState[];
+  end_effectors: AssistantEffector[];
+  passive_joints: string[];
+  controllers: AssistantController[];
+  interfaces: AssistantInterface[];
+  state_interfaces: string[];
+  session: number;
+  folder: string;
+  links: AssistantLink[];
+  robot: MotionRobot;
+}
+
+/** What the page may begin with: robots' files, and config packages that are there. */
+export interface AssistantStart {
+  robots: string[];
+  packages: string[];
+  folder: string;
+}
+
+/** A file that is to be written: new, same, changed or edited. */
+export interface AssistantFile {
+  path: string;
+  state: string;
+}
+
+/** What was written, what was edited and kept, and what to type next. */
+export interface AssistantWritten {
+  written: string[];
+  kept: string[];
+  next: string[];
+}
+
+/** A line of a user's file. */
+export interface SourceLine {
+  /** its number. */
+  line: number;
+  text: string;
+  /** where the caret stands in the text, from 1; 0 for none. */
+  column: number;
+  /** characters under the caret. */
+  width: number;
+}
+
+/** A finding about a user's file. */
+export interface LaunchFinding {
+  /** empty where an error has none. */
+  code: string;
+  severity: string;
+  /** of the code. */
+  title: string;
+  message: string;
+  /** why that matters. */
+  why: string;
+  /** what to write instead. */
+  fix: string;
+  /** what ROS or Gazebo says in this case. */
+  phrase: string;
+  /** file, line and column. */
+  place: string;
+  /** the way there, innermost first. */
+  via: string[];
+  /** the line; null where it cannot be read. */
+  source: SourceLine | null;
+  /** to the code's entry in the documentation; empty for none. */
+  link: string;
+}
+
+/** A command that launched. */
+export interface LaunchValue {
+  name: string;
+  /** as it is typed. */
+  command: string;
+  /** in which. */
+  folder: string;
+  started_s: number;
+  is_running: boolean;
+  /** the exit code; null while it runs, and where it was killed. */
+  code: number | null;
+  findings: LaunchFinding[];
+}
+
+/** The launches of a graph, the newest first: those that run, and the last one. */
+export interface FoundIn {
+  launches: LaunchValue[];
+}
+
+/** A command that launched. */
+export interface RecentLaunch {
+  name: string;
+  command: string;
+  /** the command with the change to its folder, for a terminal. */
+  copied: string;
+  folder: string;
+  started_s: number;
+  is_running: boolean;
+  /** the exit code; null while it runs, and where it was killed. */
+  code: number | null;
+  /** how many it told of. */
+  errors: number;
+  /** the demo that it starts, empty for none. */
+  demo: string;
+}
+
+/** A description that was dropped. */
+export interface RobotFile {
+  /** the one that is shown; its path below what was dropped. */
+  file: string;
+  /** all that can be shown. */
+  files: string[];
+  /** null where it cannot be read. */
+  scene: SceneValue<BoxGeometry | SphereGeometry | RoundGeometry | EllipsoidGeometry | PlaneGeometry | MeshGeometry | MissingGeometry> | null;
+  findings: LaunchFinding[];
+  /** of links, joints and the like, in words. */
+  counts: string;
+}
+
+/** Something to try while a demo runs: one line of what it does, and what is typed. */
+export interface DemoStep {
+  what: string;
+  command: string;
+}
+
+/** A demo. */
+export interface DemoCard {
+  name: string;
+  title: string;
+  summary: string;
+  /** whose commands it shows. */
+  ros_version: number;
+  /** starts it in a terminal. */
+  command: string;
+  /** path of its picture; empty for none. */
+  picture: string;
+  /** what there is to see. */
+  seen: string;
+  /** what to try when it runs. */
+  steps: DemoStep[];
+}
+
+/** The gallery. */
+export interface DemosValue {
+  demos: DemoCard[];
+  /** the demo that was started here and runs; empty for none. */
+  running: string;
+  /** whether the page may start one. */
+  may_start: boolean;
 }
 
 /** A topic of a bag. */

@@ -3,6 +3,7 @@ export const LATEST_STREAMS: ReadonlySet<string> = new Set([
   "bag",
   "display",
   "image",
+  "launch.findings",
   "motion.path",
   "motion.scene",
   "tf",

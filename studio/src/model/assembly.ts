@@ -21,6 +21,7 @@ export class Assembly {
   held: string | null = null;
   private keys: string[] = [];
   private refreshing = false;
+  private readonly loadListeners = new Set<() => void>();
 
   /** @param changed is called whenever there is something new to draw; `moved` for shadows. */
   constructor(private readonly changed: (moved: boolean) => void) {
@@ -55,6 +56,12 @@ export class Assembly {
     });
     old.forEach((node) => this.root.remove(node.root));
     this.applyModes();
+  }
+
+  /** Be called when meshes have come: boxes are larger then. Returns what ends it. */
+  onLoaded(listener: () => void): () => void {
+    this.loadListeners.add(listener);
+    return () => this.loadListeners.delete(listener);
   }
 
   /** Move all bodies: `poses` holds seven numbers for each body of the scene value. */
@@ -153,6 +160,7 @@ export class Assembly {
     setTimeout(() => {
       this.refreshing = false;
       this.applyModes();
+      this.loadListeners.forEach((listener) => listener());
     }, 60);
   }
 }

@@ -1,5 +1,6 @@
 /** Meshes and textures by key, read once and shared by all views of the page. */
 import * as THREE from 'three';
+import { serverPath } from '../server_path';
 import { unit } from './geometry';
 
 const HEADER_BYTES = 16;
@@ -7,6 +8,20 @@ const HAS_UV = 1;
 
 const meshes = new Map<string, Promise<THREE.BufferGeometry>>();
 const textures = new Map<string, THREE.Texture>();
+
+/** Where meshes and textures come from in place of the server. */
+export interface AssetSource {
+  mesh(key: string): Promise<THREE.BufferGeometry>;
+  /** A picture whose first row is the lowest. */
+  texture(key: string): Promise<ImageBitmap>;
+}
+
+let source: AssetSource | null = null;
+
+/** Take meshes and textures from somewhere else than the server. */
+export function useAssets(given: AssetSource): void {
+  source = given;
+}
 
 /** Read a mesh of the server: header, positions, normals, texture coordinates, corners. */
 export function readMesh(buffer: ArrayBuffer): THREE.BufferGeometry {
@@ -32,14 +47,14 @@ export function readMesh(buffer: ArrayBuffer): THREE.BufferGeometry {
 export function loadMesh(key: string): Promise<THREE.BufferGeometry> {
   let found = meshes.get(key);
   if (!found) {
-    found = fetchMesh(key);
+    found = source ? source.mesh(key) : fetchMesh(key);
     meshes.set(key, found);
   }
   return found;
 }
 
 async function fetchMesh(key: string): Promise<THREE.BufferGeometry> {
-  const answer = await fetch(`/mesh/${encodeURIComponent(key)}`);
+  const answer = await fetch(serverPath(`/mesh/${encodeURIComponent(key)}`));
   if (!answer.ok) {
     console.warn(`mesh ${key}: the server answered ${answer.status}`);
     meshes.delete(key);
@@ -53,7 +68,7 @@ export function loadTexture(key: string, u: number, v: number, done: () => void)
   const name = `${key} ${u} ${v}`;
   let found = textures.get(name);
   if (!found) {
-    found = new THREE.TextureLoader().load(`/texture/${encodeURIComponent(key)}`, done);
+    found = source ? texture(source.texture(key), done) : fetchTexture(key, done);
     found.wrapS = found.wrapT = THREE.RepeatWrapping;
     found.repeat.set(1 / (u || 1), 1 / (v || 1));
     found.colorSpace = THREE.NoColorSpace;
@@ -65,4 +80,19 @@ export function loadTexture(key: string, u: number, v: number, done: () => void)
     poll();
   }
   return found;
+}
+
+function fetchTexture(key: string, done: () => void): THREE.Texture {
+  return new THREE.TextureLoader().load(serverPath(`/texture/${encodeURIComponent(key)}`), done);
+}
+
+function texture(picture: Promise<ImageBitmap>, done: () => void): THREE.Texture {
+  const made = new THREE.Texture();
+  made.flipY = false;
+  void picture.then((image) => {
+    made.image = image;
+    made.needsUpdate = true;
+    done();
+  });
+  return made;
 }

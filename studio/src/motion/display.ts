@@ -173,7 +173,7 @@ class MotionDrawer implements Drawer {
 
   private build(): void {
     const { robot, problem } = this.store;
-    if (problem) this.site.status('Move Group', 'error', problem);
+    if (problem) this.site.status('Move Group', this.store.isWaiting ? 'warn' : 'error', problem);
     this.base.clear();
     this.dropMarker();
     this.trail = [];

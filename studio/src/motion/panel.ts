@@ -142,7 +142,7 @@ export class MotionPlanningPanel extends BasePanel {
       this.planning.refresh();
       this.say(
         problem
-          ? { level: 'error', text: problem }
+          ? { level: this.store.isWaiting ? 'warn' : 'error', text: problem }
           : { level: 'ok', text: this.store.robot ? '' : 'Looking for move_group …' },
       );
     }

@@ -265,6 +265,11 @@ export class MotionStore {
     this.again();
   }
 
+  /** Whether the problem is only that nobody plans yet: a launch starts move_group late. */
+  get isWaiting(): boolean {
+    return this.robot === null && this.problem.startsWith('no move_group is running');
+  }
+
   private takeScene(value: Json): void {
     if (!isObject(value)) return;
     const before = JSON.stringify(this.current);

@@ -27,8 +27,8 @@ export class ActionCaller extends BasePanel {
     notice('Choose an action.'),
   );
   private readonly status = h('strong', { class: 'action-state', role: 'status' });
-  private readonly feedback = h('pre', { class: 'mono', 'aria-label': 'Feedback' });
-  private readonly result = h('pre', { class: 'mono', 'aria-label': 'Result' });
+  private readonly feedback = h('pre', { class: 'mono', role: 'group', 'aria-label': 'Feedback' });
+  private readonly result = h('pre', { class: 'mono', role: 'group', 'aria-label': 'Result' });
   private readonly sendButton = button('Send goal', () => this.send(), {
     icon: 'send',
     class: 'primary',

@@ -5,7 +5,7 @@ import { textOf, textsOf, type Json, type JsonObject } from '../json';
 import { button, h, perFrame, setText, spacer, toggle, toolbar } from '../widgets/dom';
 import { download } from '../widgets/download';
 import { csvField } from '../widgets/format';
-import { cellRow, headings, VirtualList } from '../widgets/virtual_list';
+import { cellRow, VirtualList } from '../widgets/virtual_list';
 import { BasePanel } from './base';
 
 interface Line {
@@ -47,6 +47,7 @@ export class Console extends BasePanel {
     class: 'details mono',
     hidden: true,
     tabindex: 0,
+    role: 'group',
     'aria-label': 'Message',
   });
   private readonly controls = h('div', {});
@@ -58,18 +59,14 @@ export class Console extends BasePanel {
     this.list = new VirtualList<Line>({
       height: 22,
       label: 'Messages',
+      headings: ['Severity', 'Stamp', 'Node', 'Message', 'Location'],
       make: () => cellRow(5),
       fill: (element, line) => this.fill(element, line),
     });
     this.list.element.addEventListener('click', (event) =>
       this.select(this.list.rowAt(event.target) ?? null),
     );
-    this.element.append(
-      this.controls,
-      headings(['Severity', 'Stamp', 'Node', 'Message', 'Location']),
-      this.list.element,
-      this.details,
-    );
+    this.element.append(this.controls, this.list.element, this.details);
     this.showControls();
     this.list.follow(true);
     this.stream('rosout', { level: 'debug' }, { onData: (value) => this.take(value) });

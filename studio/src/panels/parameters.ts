@@ -3,7 +3,7 @@
 import { isObject, textOf, type Json, type JsonObject } from '../json';
 import { button, h, setText, spacer, toolbar } from '../widgets/dom';
 import { valueFromText } from '../widgets/value_text';
-import { headings, VirtualList } from '../widgets/virtual_list';
+import { VirtualList } from '../widgets/virtual_list';
 import { BasePanel } from './base';
 
 interface Row {
@@ -40,6 +40,7 @@ export class Parameters extends BasePanel {
     this.list = new VirtualList<Row>({
       height: 26,
       label: 'Parameters',
+      headings: ['Name', 'Value', 'Delete'],
       make: () => this.makeRow(),
       fill: (element, row) => fill(element, row),
     });
@@ -57,7 +58,6 @@ export class Parameters extends BasePanel {
         button('Set', () => void this.add(), { icon: 'plus' }),
         button('', () => void this.load(), { icon: 'refresh', title: 'Read again' }),
       ),
-      headings(['Name', 'Value', '']),
       this.list.element,
     );
   }

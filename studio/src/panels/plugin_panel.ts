@@ -1,5 +1,6 @@
 /** A panel of the user's own: draws the widgets that its Python class lists. */
 
+import { serverPath } from '../server_path';
 import '../styles/plugins.css';
 import type { Channel } from '../channel';
 import { inOneLine } from '../errors';
@@ -39,7 +40,7 @@ export class PluginPanel extends BasePanel implements ViewHost {
   ) {
     super(...args);
     this.title = name.split('.').pop() ?? name;
-    this.base = `/plugin/${encodeURIComponent(name)}/`;
+    this.base = serverPath(`/plugin/${encodeURIComponent(name)}/`);
     this.drawing = new Drawing({
       values: this.values,
       act: (widget, value) => this.act(widget, value),
@@ -93,7 +94,7 @@ export class PluginPanel extends BasePanel implements ViewHost {
     this.host.setTitle(title);
     setText(this.file, file.split('/').pop() ?? '');
     this.file.title = file;
-    this.drawing.source = module ?? '';
+    this.drawing.source = module ? serverPath(module) : '';
   }
 
   private failed(text: string): void {

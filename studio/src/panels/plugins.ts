@@ -58,6 +58,12 @@ function ownKind(kind: string, entry: Known): PanelKind {
     note: name,
     about: problem || (entry.about ?? ''),
     faded: problem !== '',
+    help: {
+      what: `A panel of yours, or of a package: the Python class ${name}.`,
+      first: 'What it does is in its file. Reload starts it anew after a change.',
+      keys: [],
+      docs: 'howto/panels/',
+    },
     make: async (connection, host) =>
       new (await import('./plugin_panel')).PluginPanel(name, connection, host),
   };
@@ -73,6 +79,13 @@ function foreignKind(kind: string, entry: Known): PanelKind {
     note: 'rqt',
     about: entry.about ?? '',
     faded: true,
+    help: {
+      what: `The plug-in ${name} of rqt, which is written for Qt.`,
+      first:
+        'Save the panel that is drafted from its forms, and fill in what the draft leaves open.',
+      keys: [],
+      docs: 'howto/panels/',
+    },
     make: async (connection, host) =>
       new (await import('./rqt_port_panel')).PortPanel(name, connection, host),
   };

@@ -55,7 +55,11 @@ export class PortPanel extends BasePanel {
       h('p', { class: 'dim' }, `Listed by ${manifest}${source ? `, written in ${source}` : ''}`),
       ...forms.flatMap((form) => formPart(form)),
       h('h3', {}, `A panel to begin with: ${target}`),
-      h('pre', { class: 'mono own-code', tabindex: 0, 'aria-label': 'Python code' }, this.code),
+      h(
+        'pre',
+        { class: 'mono own-code', tabindex: 0, role: 'group', 'aria-label': 'Python code' },
+        this.code,
+      ),
     );
   }
 

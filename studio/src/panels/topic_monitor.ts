@@ -8,7 +8,7 @@ import { h, perFrame, setText, spacer, toolbar } from '../widgets/dom';
 import { carryField } from '../widgets/field_drag';
 import { bandwidth, rate } from '../widgets/format';
 import { messageRows, type MessageRow } from '../widgets/message_rows';
-import { headings, VirtualList } from '../widgets/virtual_list';
+import { VirtualList } from '../widgets/virtual_list';
 import { BasePanel } from './base';
 
 interface Row {
@@ -46,6 +46,7 @@ export class TopicMonitor extends BasePanel {
       height: 24,
       role: 'treegrid',
       label: 'Topics',
+      headings: ['Topic', 'Type', 'Bandwidth', 'Hz', 'Value'],
       make: () => this.makeRow(),
       fill: (element, row) => this.fillRow(element, row),
     });
@@ -58,11 +59,7 @@ export class TopicMonitor extends BasePanel {
       { class: 'dim' },
       'Tick a topic to see its values; drag a value onto a plot',
     );
-    this.element.append(
-      toolbar('Topic Monitor', this.search, spacer(), hint),
-      headings(['Topic', 'Type', 'Bandwidth', 'Hz', 'Value']),
-      this.list.element,
-    );
+    this.element.append(toolbar('Topic Monitor', this.search, spacer(), hint), this.list.element);
     this.list.element.addEventListener('click', (event) => this.click(event));
     this.list.element.addEventListener('dragstart', (event) => this.drag(event));
     this.atEnd(this.host.graph.watch(() => this.rebuild()));

@@ -21,6 +21,7 @@ export class TypeBrowser extends BasePanel {
   private readonly text = h('pre', {
     class: 'scroll half mono',
     tabindex: 0,
+    role: 'group',
     'aria-label': 'Definition',
   });
 

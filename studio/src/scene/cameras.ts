@@ -58,6 +58,11 @@ export class CameraRig {
     return this.state.kind === 'TopDownOrtho' ? this.ortho : this.perspective;
   }
 
+  /** Width by height of the picture. */
+  get aspect(): number {
+    return this.width / this.height;
+  }
+
   /** Take new values of the state at once. */
   set(change: Partial<ViewState>): void {
     this.glide = null;

@@ -7,6 +7,10 @@ import { isObject, type Json } from '../json';
 
 const POSE_LENGTH = 7;
 const IDENTITY = [0, 0, 0, 0, 0, 0, 1];
+/** Broadcasters of a launch come up one after the other. */
+const PATIENCE_MS = 3000;
+/** When there is no tf at all, that is said after a while. */
+const LONG_PATIENCE_MS = 10_000;
 
 /** All frames, and who wants to know. */
 export class Frames {
@@ -16,12 +20,17 @@ export class Frames {
   fixed = '';
   /** The link that a robot on view stands on, of interest while tf tells of no frame. */
   robotRoot = '';
+  /** Whether tf has had time to come up: what is missing now is missing. */
+  settled = false;
+  private patience: ReturnType<typeof setTimeout> | undefined;
   private index = new Map<string, number>();
   private channel: Channel | null = null;
   private readonly moved = new Set<() => void>();
   private readonly renamed = new Set<() => void>();
 
-  constructor(private readonly connection: Connection) {}
+  constructor(private readonly connection: Connection) {
+    this.waitFor(LONG_PATIENCE_MS);
+  }
 
   /** Choose the fixed frame; opens the stream at first. */
   setFixed(name: string): void {
@@ -72,15 +81,27 @@ export class Frames {
   }
 
   dispose(): void {
+    clearTimeout(this.patience);
     this.channel?.close();
     this.channel = null;
   }
 
   private takeNames(value: Json): void {
     if (!isObject(value) || !Array.isArray(value.frames)) return;
+    const [had, has] = [this.infos.length > 0, value.frames.length > 0];
+    if (had !== has) this.waitFor(has ? PATIENCE_MS : LONG_PATIENCE_MS);
     this.infos = (value as unknown as FrameNames).frames;
     this.index = new Map(this.infos.map((info, index) => [info.name, index]));
     this.renamed.forEach((listener) => listener());
+  }
+
+  private waitFor(patience_ms: number): void {
+    clearTimeout(this.patience);
+    this.settled = false;
+    this.patience = setTimeout(() => {
+      this.settled = true;
+      this.renamed.forEach((listener) => listener());
+    }, patience_ms);
   }
 
   private takePoses(frame: Frame): void {

@@ -23,9 +23,17 @@ export function firstLevel(quality: Quality): Level {
 
 /** The choice of the address (`?quality=low`), else of the last visit. */
 export function wantedQuality(): Quality {
-  const wanted =
-    new URLSearchParams(location.search).get('quality') ?? localStorage.getItem('gazelle.quality');
+  const wanted = new URLSearchParams(location.search).get('quality') ?? lastChoice();
   return wanted === 'low' || wanted === 'high' ? wanted : 'auto';
+}
+
+/** A page in a frame of its own may keep nothing, and is told so by an exception. */
+function lastChoice(): string | null {
+  try {
+    return localStorage.getItem('gazelle.quality');
+  } catch {
+    return null;
+  }
 }
 
 let software: boolean | null = null;

@@ -1,5 +1,5 @@
 /** The panel with a 3D view: Gazebo's (the world) or RViz's (the displays). */
-import * as THREE from 'three';
+import type * as THREE from 'three';
 import type { Connection } from '../connection';
 import { DisplayList } from '../displays/display_list';
 import { learnAdded } from '../displays/registry';
@@ -18,7 +18,7 @@ import { dropScene, useScene } from './active_scene';
 import { Film } from './capture';
 import { stateAt, type ViewState } from './cameras';
 import { Frames } from './frames';
-import { freeYaw } from './framing';
+import { FirstLook } from './first_look';
 import { gridLines } from './grid';
 import { Highlight } from './highlight';
 import { surroundings } from './lighting';
@@ -50,7 +50,7 @@ export class ScenePanel implements Panel, Bench {
   private readonly grid: THREE.Object3D;
   private readonly line = h('div', { class: 'scene-line', role: 'status', 'aria-live': 'polite' });
   private readonly stops: (() => void)[] = [];
-  private framed = false;
+  private readonly firstLook: FirstLook;
 
   constructor(
     readonly kind: SceneKind,
@@ -76,6 +76,7 @@ export class ScenePanel implements Panel, Bench {
     this.film = new Film(this.view);
     this.contacts = new Contacts(this.view, connection);
     this.highlight = new Highlight(this.view, this.assembly, this.world);
+    this.firstLook = new FirstLook(this.view, this.assembly);
     this.grid = gridLines({
       cells: 20,
       size_m: 1,
@@ -101,7 +102,7 @@ export class ScenePanel implements Panel, Bench {
   open(params: JsonObject): void {
     if (isObject(params.view)) {
       this.view.rig.set(params.view as unknown as Partial<ViewState>);
-      this.framed = true;
+      this.firstLook.end();
     }
     if (isObject(params.modes)) {
       for (const [mode, on] of Object.entries(params.modes as ModeFlags))
@@ -127,7 +128,8 @@ export class ScenePanel implements Panel, Bench {
 
   /** Take displays of a layout or of a `.rviz` file. */
   loadDisplays(value: JsonObject): void {
-    this.displays.chosen = Boolean(value.fixed_frame);
+    // A layout may hold a frame that nobody chose, of another robot.
+    this.displays.chosen = Boolean(value.fixed_frame) && value.frame_chosen !== false;
     if (this.displays.load(value)) void this.addWaiting();
   }
 
@@ -155,6 +157,7 @@ export class ScenePanel implements Panel, Bench {
 
   dispose(): void {
     this.stops.forEach((stop) => stop());
+    this.firstLook.end();
     this.tool.end?.();
     this.contacts.set(false);
     this.highlight.dispose();
@@ -213,6 +216,7 @@ export class ScenePanel implements Panel, Bench {
     this.stops.push(this.graph.watch(() => undefined));
     if (this.kind === 'rviz') {
       this.grid.visible = false;
+      this.stops.push(this.displays.watch(() => this.firstLook.atRobots(this.displays.displays)));
       return;
     }
     this.stops.push(this.world.onScene(() => this.takeScene()));
@@ -226,33 +230,9 @@ export class ScenePanel implements Panel, Bench {
     this.element.classList.toggle('scene-empty', scene === null);
     if (!scene) return;
     this.view.lighting.set(surroundings(scene));
-    if (!this.framed && scene.view) {
-      this.framed = true;
-      this.grid.visible = scene.grid;
-      if (!this.view.rig.touched) this.view.rig.set(stateAt(scene.view));
-    }
-    if (!this.framed && scene.models.some((model) => !model.static)) {
-      this.framed = true;
-      // Meshes come later; the sizes of their boxes too.
-      setTimeout(() => this.frameModels(), 350);
-    }
+    if (scene.view && this.firstLook.take(stateAt(scene.view))) this.grid.visible = scene.grid;
+    this.firstLook.atWorld(scene);
     this.view.moved();
-  }
-
-  /** Look at what can move, the first time there is something; not against who has looked around. */
-  private frameModels(): void {
-    if (this.view.rig.touched) return;
-    const models = this.world.scene?.models ?? [];
-    const nodesOf = (are: typeof models) => are.flatMap((model) => this.assembly.nodes(model.name));
-    const nodes = nodesOf(models.filter((model) => !model.static).slice(0, 12));
-    const box = this.assembly.worldBox(nodes);
-    if (box.isEmpty()) return;
-    const radius = Math.max(box.getSize(new THREE.Vector3()).length() / 2, 0.25);
-    const centre = box.getCenter(new THREE.Vector3());
-    const distance = Math.min(60, radius * 4.2);
-    const walls = nodesOf(models.filter((model) => model.static)).map((node) => node.root);
-    const yaw = freeYaw(centre, { ...this.view.rig.state, distance }, this.view.camera, walls);
-    this.view.rig.set({ focal: [centre.x, centre.y, Math.max(centre.z, 0)], distance, yaw });
   }
 
   private beginDisplays(): void {

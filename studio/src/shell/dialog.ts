@@ -70,25 +70,35 @@ export function confirmDanger(title: string, text: string, verb: string): Promis
   });
 }
 
-/** Shows the shortcuts. */
-export function showShortcuts(rows: readonly (readonly [string, string])[]): void {
-  const list = h(
-    'dl',
-    { class: 'shortcuts' },
-    ...rows.flatMap(([keys, text]) => [h('dt', {}, h('kbd', {}, keys)), h('dd', {}, text)]),
-  );
+/** Opens a dialog to be read, with a button that closes it; what had the focus has it then again. */
+export function openDialog(title: string, ...content: readonly HTMLElement[]): HTMLDialogElement {
+  const before = document.activeElement;
   const dialog = h(
     'dialog',
-    { class: 'dialog', 'aria-label': 'Keyboard shortcuts' },
-    h('h2', {}, 'Keyboard shortcuts'),
-    list,
+    { class: 'dialog', 'aria-label': title },
+    h('h2', {}, title),
+    ...content,
     h(
       'div',
       { class: 'dialog-buttons' },
       button('Close', () => dialog.close()),
     ),
   );
-  dialog.addEventListener('close', () => dialog.remove());
+  dialog.addEventListener('close', () => {
+    dialog.remove();
+    if (before instanceof HTMLElement) before.focus();
+  });
   document.body.append(dialog);
   dialog.showModal();
+  dialog.querySelector<HTMLElement>('.dialog-buttons .button')?.focus();
+  return dialog;
+}
+
+/** Keys with what they do. */
+export function shortcutList(rows: readonly (readonly [string, string])[]): HTMLElement {
+  return h(
+    'dl',
+    { class: 'shortcuts' },
+    ...rows.flatMap(([keys, text]) => [h('dt', {}, h('kbd', {}, keys)), h('dd', {}, text)]),
+  );
 }

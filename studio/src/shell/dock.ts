@@ -11,8 +11,10 @@ import type { Connection } from '../connection';
 import type { GraphStore } from '../graph_store';
 import { isObject, type Json, type JsonObject } from '../json';
 import { findPanel, type Panel, type PanelHost } from '../panel';
-import { h } from '../widgets/dom';
+import { button, h } from '../widgets/dom';
 import { PanelFrame } from './panel_frame';
+import { HelpButton, showPanelHelp } from './panel_help';
+import { PanelTab } from './panel_tab';
 import type { Toasts } from './toasts';
 
 /** Where a panel goes in a default layout. */
@@ -51,10 +53,10 @@ export class Dock {
       theme: themeDark,
       defaultRenderer: 'always',
       createComponent: ({ id, name }) => this.createFrame(id, name),
-      createWatermarkComponent: () => ({
-        element: h('div', { class: 'watermark' }, 'Choose a panel from the Panels menu'),
-        init: () => undefined,
-      }),
+      createTabComponent: () => new PanelTab(),
+      defaultTabComponent: 'tab',
+      createRightHeaderActionComponent: () => new HelpButton(connection),
+      createWatermarkComponent: () => ({ element: this.watermark(), init: () => undefined }),
     });
     this.api.onDidLayoutChange(() => this.touch());
     this.api.onDidRemovePanel((panel) => this.removed(panel));
@@ -172,6 +174,27 @@ export class Dock {
     if (!panel) return;
     if (panel.api.isMaximized()) panel.api.exitMaximized();
     else panel.api.maximize();
+  }
+
+  /** Tells what the panel with the focus is for. */
+  helpOnActive(): void {
+    const kind = findPanel(this.api.activePanel?.view.contentComponent ?? '');
+    if (kind) showPanelHelp(kind, this.connection);
+  }
+
+  /** Whether a panel of this kind is all that is open. */
+  hasOnly(kind: string): boolean {
+    return this.api.panels.length === 1 && this.has(kind);
+  }
+
+  /** What is there when the last panel was closed. */
+  private watermark(): HTMLElement {
+    return h(
+      'div',
+      { class: 'watermark' },
+      h('p', {}, 'No panel is open. The menu Panels (P) has all of them.'),
+      button('Start page', () => this.show('start'), { icon: 'home' }),
+    );
   }
 
   private createFrame(id: string, name: string): PanelFrame {

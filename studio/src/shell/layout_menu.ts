@@ -1,22 +1,29 @@
 /** Which layout the page opens with, and the menu that saves, loads and resets layouts. */
 
 import type { Connection } from '../connection';
+import type { GraphStore } from '../graph_store';
 import { isObject, textOf, type JsonObject } from '../json';
 import { findPanel } from '../panel';
 import { openMenu, type MenuItem } from '../widgets/menu';
 import { askFile, askText } from './dialog';
 import type { Dock } from './dock';
 import type { LayoutStore } from './layout_store';
-import { companionsOf, NAMED_LAYOUTS, placesFor, placesForAll } from './layouts';
+import { companionsOf, IDLE, NAMED_LAYOUTS, placesFor, placesForAll } from './layouts';
 import type { Toasts } from './toasts';
 
 /** From here on two trees have room beside two views. */
 const ROOMY_PX = 1700;
 
+const FIRST_WINDOW_MS = 4000;
+const ROSOUT = '/rosout';
+
 /** The layouts of the page. */
 export class Layouts {
   private commands: readonly string[] = [];
   private begun = false;
+  /** The start page waits for something to run. */
+  private isIdle = false;
+  private waiting = 0;
   /** Kinds that commands asked for, whose parameters are still to come. */
   private readonly awaited = new Set<string>();
 
@@ -25,14 +32,17 @@ export class Layouts {
     private readonly dock: Dock,
     private readonly store: LayoutStore,
     private readonly toasts: Toasts,
+    graph: GraphStore,
   ) {
     connection.onHello((hello) => {
-      if (!this.begun) this.begin(hello.panels);
+      if (!this.begun) this.begin(hello.panels, hello.is_idle);
     });
     connection.onShow((panel, params) => this.show(panel, params));
     dock.onChange(() => {
-      if (this.begun) store.keepLast(this.commands, dock.save());
+      // The start page is nobody's layout.
+      if (this.begun && !dock.hasOnly('start')) store.keepLast(this.commands, dock.save());
     });
+    graph.watch(({ nodes }) => this.takeNodes(nodes.map((node) => node.name)));
   }
 
   /** The menu of the Layout button. */
@@ -69,15 +79,33 @@ export class Layouts {
   }
 
   /** What the page opens with: as this tab was before a reload, or the commands' panels as they were left. */
-  private begin(panels: readonly string[]): void {
+  private begin(panels: readonly string[], isIdle: boolean): void {
     const asked = new URLSearchParams(location.search).get('panels');
     const wanted = asked ? asked.split(',').filter(Boolean) : panels;
     const kept = wanted.length === 0 ? this.store.tab() : null;
     this.commands = kept?.commands ?? wanted;
-    if (!this.dock.restore(kept?.layout ?? this.store.last(this.commands)))
-      this.dock.arrange(placesForAll(this.commands, this.dock.width >= ROOMY_PX));
+    this.isIdle = isIdle && this.commands.length === 0 && !kept;
+    if (this.isIdle) this.dock.arrange(IDLE);
+    else if (!kept || !this.dock.restore(kept.layout)) this.openAsLast();
     for (const name of panels) this.awaited.add(findPanel(name)?.kind ?? name);
     this.begun = true;
+  }
+
+  private openAsLast(): void {
+    if (!this.dock.restore(this.store.last(this.commands)))
+      this.dock.arrange(placesForAll(this.commands, this.dock.width >= ROOMY_PX));
+  }
+
+  /** Something runs now: what it is seen with takes the place of the start page. */
+  private takeNodes(names: readonly string[]): void {
+    if (!this.isIdle || !this.dock.hasOnly('start')) return;
+    if (names.every((name) => name === ROSOUT)) return;
+    clearTimeout(this.waiting);
+    // A launch that opens windows asks for them a moment later.
+    this.waiting = window.setTimeout(() => {
+      if (this.isIdle && this.dock.hasOnly('start')) this.openAsLast();
+      this.isIdle = false;
+    }, FIRST_WINDOW_MS);
   }
 
   private show(panel: string, params: JsonObject): void {
@@ -90,8 +118,17 @@ export class Layouts {
       this.toasts.fail(
         new Error(`A command asks for the panel ${panel}, which this page does not have.`),
       );
+    else if (this.isIdle && this.dock.hasOnly('start')) this.showFirst(kind, params);
     else if (!this.awaited.delete(kind) || !this.dock.openIn(kind, params))
       this.showBeside(kind, params);
+  }
+
+  /** The first window takes the place of the start page. */
+  private showFirst(kind: string, params: JsonObject): void {
+    this.isIdle = false;
+    clearTimeout(this.waiting);
+    this.dock.arrange(placesForAll([kind], this.dock.width >= ROOMY_PX));
+    this.dock.openIn(kind, params);
   }
 
   private showBeside(kind: string, params: JsonObject): void {

@@ -30,6 +30,9 @@ const WITHOUT_WORLD: readonly Place[] = [
   { kind: 'rqt_console', beside: 'rqt_topic', direction: 'right' },
 ];
 
+/** While nothing runs. */
+export const IDLE: readonly Place[] = [{ kind: 'start' }];
+
 const BY_COMMAND: Readonly<Record<string, readonly Place[]>> = {
   gzclient: GAZEBO,
   gazebo: GAZEBO,
@@ -39,6 +42,7 @@ const BY_COMMAND: Readonly<Record<string, readonly Place[]>> = {
   studio: STUDIO,
   graph: WITHOUT_WORLD,
   rqt_gui: WITHOUT_WORLD,
+  notebook: [{ kind: 'gazebo' }],
 };
 
 /** Names a person can choose from the layout menu. */

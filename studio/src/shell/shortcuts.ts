@@ -1,7 +1,7 @@
 /** Keys that work anywhere outside of text fields. */
 
 import type { Dock } from './dock';
-import { showShortcuts } from './dialog';
+import { openDialog, shortcutList } from './dialog';
 import { switchTheme } from './theme';
 import type { WorldControls } from './world_controls';
 
@@ -15,12 +15,13 @@ const ROWS = [
   ['Alt+W', 'Close the panel'],
   ['L', 'Light or dark'],
   ['F6', 'Next group of panels'],
+  ['F1', 'Help on the panel'],
   ['?', 'This list'],
 ] as const;
 
 /** Shows the list of shortcuts. */
 export function help(): void {
-  showShortcuts(ROWS);
+  openDialog('Keyboard shortcuts', shortcutList(ROWS));
 }
 
 /** Listens for the keys. A panel that handles a key stops it from coming here. */
@@ -52,6 +53,7 @@ function actionFor(
   const key = event.key.toLowerCase();
   if (event.ctrlKey && key === 'r' && world.present)
     return () => world.reset(event.shiftKey ? 'poses' : 'world');
+  if (key === 'f1') return () => dock.helpOnActive();
   if (event.altKey && key === 'w') return () => dock.closeActive();
   if (event.ctrlKey || event.altKey || event.metaKey) return null;
   const onButton =

@@ -10,9 +10,10 @@ export function theme(): Theme {
   return document.documentElement.dataset.theme === 'light' ? 'light' : 'dark';
 }
 
-/** Takes up the person's last choice; dark at first. */
+/** Takes up what the address asks for, else the person's last choice; dark at first. */
 export function restoreTheme(): void {
-  apply(localStorage.getItem(KEY) === 'light' ? 'light' : 'dark');
+  const asked = new URLSearchParams(location.search).get('theme');
+  apply((asked ?? localStorage.getItem(KEY)) === 'light' ? 'light' : 'dark');
 }
 
 /** Shows the other theme and keeps the choice. */

@@ -2,6 +2,7 @@
 
 import type { Connection } from '../connection';
 import { allPanels, onPanelsChanged, PANEL_GROUPS } from '../panel';
+import { findingsBadge } from '../launches/badge';
 import { button, h, spacer } from '../widgets/dom';
 import { openMenu, type MenuItem } from '../widgets/menu';
 import type { Dock } from './dock';
@@ -47,6 +48,12 @@ export function buildTopbar(
     layout,
     world.element,
     spacer(),
+    findingsBadge(connection, () => dock.show('findings')),
+    button('', () => dock.show('start'), {
+      icon: 'home',
+      title: 'Start page: demos, last launches, robot files',
+      class: 'ghost',
+    }),
     button('', help, { icon: 'help', title: 'Keyboard shortcuts (?)', class: 'ghost' }),
     button('', switchTheme, { icon: 'theme', title: 'Light or dark', class: 'ghost' }),
     light,

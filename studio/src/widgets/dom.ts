@@ -78,6 +78,9 @@ const ICONS = {
   random:
     'M2.5 5h2.5l5 6h3M2.5 11h2.5l1.6-2M8.9 6.6L10 5h3.5M12 3.5L13.5 5 12 6.5M12 9.5l1.5 1.5L12 12.5',
   centre: 'M8 2v4M8 10v4M2 8h4M10 8h4',
+  home: 'M2.5 8L8 3l5.5 5M4 7v6h8V7M7 13V9.5h2V13',
+  copy: 'M6 6h7v7.5H6zM3 10.5V2.5h7',
+  warning: 'M8 2.5L14 13H2zM8 6.5v3.2M8 11.4v.3',
   help: 'M6 6a2 2 0 1 1 2.8 1.9c-.6.3-.8.6-.8 1.3M8 11.6v.4',
 } as const;
 const FILLED = new Set(['play', 'pause', 'step', 'reset', 'record', 'stop', 'theme']);

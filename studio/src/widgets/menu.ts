@@ -15,6 +15,8 @@ export interface MenuItem {
   faded?: boolean;
 }
 
+const COLUMN_PX = 270;
+
 let shut: (() => void) | null = null;
 
 /** Opens a menu below an element; the one that is open closes. */
@@ -28,7 +30,7 @@ export function openMenu(
   shut?.();
   if (again) return;
   const menu = h('div', { class: 'menu', role: 'menu', 'aria-label': label });
-  menu.style.columnCount = String(columns);
+  menu.style.columnCount = String(Math.min(columns, Math.floor(innerWidth / COLUMN_PX) || 1));
   for (const section of sections(items)) {
     menu.append(
       h('div', { class: 'menu-section', role: 'group' }, ...section.map((item) => entry(item))),

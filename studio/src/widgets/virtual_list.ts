@@ -9,6 +9,8 @@ export interface RowMaker<T> {
   /** The role of the list: `table` unless told; rows get the role that fits. */
   role?: 'table' | 'treegrid' | 'listbox';
   label: string;
+  /** Above the rows; `--columns` is the CSS grid template that they share with rows of class `cells`. */
+  headings?: readonly string[];
   make(): HTMLElement;
   fill(element: HTMLElement, row: T, index: number): void;
 }
@@ -18,6 +20,8 @@ const BEYOND = 4;
 /** A scrolling list. */
 export class VirtualList<T> {
   readonly element: HTMLElement;
+  /** What scrolls: all of it, but for the headings. */
+  private readonly scroller: HTMLElement;
   private readonly canvas = h('div', { class: 'rows', role: 'presentation' });
   private readonly pool: HTMLElement[] = [];
   /** What each element shows: a click means that row, even if the list has changed since. */
@@ -27,12 +31,17 @@ export class VirtualList<T> {
   readonly refresh = perFrame(() => this.draw());
 
   constructor(private readonly maker: RowMaker<T>) {
-    this.element = h(
-      'div',
-      { class: 'virtual', role: maker.role ?? 'table', 'aria-label': maker.label, tabindex: 0 },
-      this.canvas,
-    );
-    this.element.addEventListener(
+    const role = maker.role ?? 'table';
+    if (maker.headings) {
+      const inner = { class: 'virtual', role: 'rowgroup', 'aria-label': maker.label, tabindex: 0 };
+      this.scroller = h('div', inner, this.canvas);
+      const outer = { class: 'virtual-table', role, 'aria-label': maker.label };
+      this.element = h('div', outer, headings(maker.headings), this.scroller);
+    } else {
+      const whole = { class: 'virtual', role, 'aria-label': maker.label, tabindex: 0 };
+      this.element = this.scroller = h('div', whole, this.canvas);
+    }
+    this.scroller.addEventListener(
       'scroll',
       () => {
         this.stick = this.stick && this.atEnd();
@@ -40,7 +49,7 @@ export class VirtualList<T> {
       },
       { passive: true },
     );
-    new ResizeObserver(this.refresh).observe(this.element);
+    new ResizeObserver(this.refresh).observe(this.scroller);
   }
 
   /** Shows other rows: with the next frame, or now where the caller is in a frame already. */
@@ -52,7 +61,7 @@ export class VirtualList<T> {
 
   /** Whether the last row is in sight. */
   atEnd(): boolean {
-    const { scrollTop, clientHeight, scrollHeight } = this.element;
+    const { scrollTop, clientHeight, scrollHeight } = this.scroller;
     return scrollTop + clientHeight >= scrollHeight - this.maker.height;
   }
 
@@ -71,9 +80,9 @@ export class VirtualList<T> {
   /** Brings a row into sight. */
   reveal(index: number): void {
     const top = index * this.maker.height;
-    const { scrollTop, clientHeight } = this.element;
+    const { scrollTop, clientHeight } = this.scroller;
     if (top < scrollTop || top + this.maker.height > scrollTop + clientHeight)
-      this.element.scrollTop = top - clientHeight / 2;
+      this.scroller.scrollTop = top - clientHeight / 2;
     this.refresh();
   }
 
@@ -81,11 +90,11 @@ export class VirtualList<T> {
     const { height } = this.maker;
     const whole = `${this.rows.length * height}px`;
     if (this.canvas.style.height !== whole) this.canvas.style.height = whole;
-    if (this.stick) this.element.scrollTop = this.element.scrollHeight;
-    const first = Math.max(0, Math.floor(this.element.scrollTop / height) - BEYOND);
-    const inSight = Math.ceil(this.element.clientHeight / height) + 2 * BEYOND;
+    if (this.stick) this.scroller.scrollTop = this.scroller.scrollHeight;
+    const first = Math.max(0, Math.floor(this.scroller.scrollTop / height) - BEYOND);
+    const inSight = Math.ceil(this.scroller.clientHeight / height) + 2 * BEYOND;
     const last = Math.min(this.rows.length, first + inSight);
-    this.element.setAttribute('aria-rowcount', String(this.rows.length));
+    if (!this.isListbox) this.element.setAttribute('aria-rowcount', String(this.rows.length));
     for (let index = first; index < last; index += 1) this.place(index - first, index);
     for (let at = Math.max(0, last - first); at < this.pool.length; at += 1) this.pool[at].remove();
   }
@@ -95,11 +104,16 @@ export class VirtualList<T> {
     if (!element.isConnected) this.canvas.append(element);
     if (element.dataset.row !== String(index)) {
       element.dataset.row = String(index);
-      element.setAttribute('aria-rowindex', String(index + 1));
+      element.setAttribute(this.isListbox ? 'aria-posinset' : 'aria-rowindex', String(index + 1));
       element.style.transform = `translateY(${index * this.maker.height}px)`;
     }
+    if (this.isListbox) element.setAttribute('aria-setsize', String(this.rows.length));
     this.shown.set(element, this.rows[index]);
     this.maker.fill(element, this.rows[index], index);
+  }
+
+  private get isListbox(): boolean {
+    return this.maker.role === 'listbox';
   }
 
   private grow(): HTMLElement {
@@ -107,14 +121,13 @@ export class VirtualList<T> {
     element.classList.add('row');
     element.style.height = `${this.maker.height}px`;
     if (!element.hasAttribute('role'))
-      element.setAttribute('role', this.maker.role === 'listbox' ? 'option' : 'row');
+      element.setAttribute('role', this.isListbox ? 'option' : 'row');
     this.pool.push(element);
     return element;
   }
 }
 
-/** The headings above a list; `columns` is a CSS grid template that rows of class `cells` share. */
-export function headings(texts: readonly string[]): HTMLElement {
+function headings(texts: readonly string[]): HTMLElement {
   return h(
     'div',
     { class: 'cells headings', role: 'row' },

@@ -132,7 +132,6 @@ export class EntitiesPanel extends BasePanel {
         role: 'treeitem',
         tabindex: -1,
         'aria-level': level,
-        'aria-label': `${name} ${note}`,
         'aria-expanded': isModel ? String(expanded) : undefined,
         'data-name': name,
         'data-kind': note,
@@ -143,6 +142,7 @@ export class EntitiesPanel extends BasePanel {
         isModel ? (expanded ? '▾' : '▸') : '',
       ),
       h('span', { class: 'entity-name' }, name),
+      ' ',
       h('span', { class: 'entity-note' }, note),
     );
     element.style.paddingLeft = `${(level - 2) * 16 + 6}px`;

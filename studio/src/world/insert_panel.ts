@@ -1,5 +1,6 @@
 /** Insert: shapes, the models of the model paths with pictures, and files. */
 import type { Connection } from '../connection';
+import { serverPath } from '../server_path';
 import type { ModelEntry } from '../generated/messages';
 import type { JsonObject } from '../json';
 import { BasePanel } from '../panels/base';
@@ -101,7 +102,7 @@ export class InsertPanel extends BasePanel {
       class: 'model-picture',
       alt: '',
       loading: 'lazy',
-      src: model.thumbnail,
+      src: serverPath(model.thumbnail),
       draggable: 'false',
     });
     picture.addEventListener('error', () => picture.classList.add('missing'));
@@ -112,10 +113,11 @@ export class InsertPanel extends BasePanel {
         class: 'model-card',
         draggable: 'true',
         title: [model.description, model.path].filter(Boolean).join('\n'),
-        'aria-label': `Insert ${model.name}`,
       },
       picture,
+      h('span', { class: 'only-read' }, 'Insert '),
       h('span', { class: 'model-name' }, model.title),
+      ' ',
       h('span', { class: 'model-path' }, model.name),
     );
     card.addEventListener('click', () => {

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import pytest
-
-from gazelle.mapping.slam import kernel_warm_up
-
-
-def test_a_first_time_that_takes_long_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    told: list[str] = []
-    monkeypatch.setattr(kernel_warm_up, "_PATIENCE_S", 0.0)
-    kernel_warm_up.warm_up(told.append)
-    assert told == [
-        "SLAM is compiled for this machine, which takes up to a minute once; scans count after that"
-    ]
+from gazelle.mapping.slam.kernel_warm_up import warm_up
+from gazelle.numba_jit import kernels
 
 
-def test_nothing_is_said_when_all_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
-    told: list[str] = []
-    monkeypatch.setattr(kernel_warm_up, "_PATIENCE_S", 600.0)
-    kernel_warm_up.warm_up(told.append)
-    assert told == []
+def test_the_kernels_of_slam_are_ready_for_one_kind_of_scans() -> None:
+    warm_up()
+    own = [one for one in kernels() if one.py_func.__module__.startswith("gazelle.mapping.")]
+    # Bounds are sums of bytes, what decides is one of numbers with a fraction.
+    twice = {one.py_func.__name__ for one in own if len(one.signatures) > 1}
+    assert own
+    assert twice <= {"_sum"}

@@ -32,7 +32,7 @@ OTHER = {
     "scan_matching/branch_and_bound.py": {"_MAX_DEPTH"},
     "pose_graph/constraints.py": {"DOUBTFUL", "UNKNOWN", "_MIN_SIGMA", "_FAINT"},
     "slam/occupancy_counts.py": {"_OCCUPIED"},
-    "slam/kernel_warm_up.py": {"_PATIENCE_S", "_OFF_M"},
+    "slam/kernel_warm_up.py": {"_OFF_M"},
 }
 
 

@@ -147,7 +147,7 @@ def test_the_frame_of_the_map_is_there_before_the_engine_is_compiled(
     bench: Any, robot: Robot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     waited = threading.Event()
-    monkeypatch.setattr("gazelle.nodes.slam.node.warm_up", lambda _tell: waited.wait())
+    monkeypatch.setattr("gazelle.nodes.slam.node.warm_up", waited.wait)
     bench.start("gmapping/slam_gmapping", *FAST)
     try:
         bench.eventually(lambda: robot.buffer.can_transform("map", "odom"))

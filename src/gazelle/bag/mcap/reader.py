@@ -29,6 +29,7 @@ from gazelle.bag.storage import (
     counts_of,
     packs_of,
 )
+from gazelle.rich_display import shown_by
 
 __all__ = [
     "McapBag",
@@ -67,6 +68,7 @@ class _Piece(NamedTuple):
     load: Callable[[], Iterable[BagMessage]]
 
 
+@shown_by("bags:bag_bundle")
 class McapBag:
     """An open MCAP file.
 

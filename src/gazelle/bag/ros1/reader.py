@@ -22,6 +22,7 @@ from gazelle.bag.storage import (
     counts_of,
     packs_of,
 )
+from gazelle.rich_display import shown_by
 
 __all__ = ["Ros1Bag"]
 
@@ -30,6 +31,7 @@ _ROW = np.dtype([("stamp", "i8"), ("chunk", "i4"), ("offset", "u4"), ("conn", "i
 _KEPT_CHUNKS = 8
 
 
+@shown_by("bags:bag_bundle")
 class Ros1Bag:
     """An open ``.bag``.
 

@@ -15,6 +15,7 @@ from gazelle.bag.storage import (
     Summary,
     Wanted,
 )
+from gazelle.rich_display import shown_by
 
 __all__ = ["SUFFIX", "CompressedFile", "CompressedMessages"]
 
@@ -22,6 +23,7 @@ SUFFIX = ".zstd"
 _Opener = Callable[[Path], BagReader]
 
 
+@shown_by("bags:bag_bundle")
 class CompressedFile:
     """A compressed file, read from a copy that is gone when it is closed.
 

@@ -31,10 +31,12 @@ from gazelle.bag.storage import (
     Wanted,
 )
 from gazelle.documents.files import is_file
+from gazelle.rich_display import shown_by
 
 __all__ = ["Rosbag2", "Rosbag2Writer", "reindex"]
 
 
+@shown_by("bags:bag_bundle")
 class Rosbag2:
     """An open folder; topics of its files that are the same are one connection.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -16,7 +15,7 @@ from urllib.parse import quote
 from gazelle._version import __version__
 from gazelle.diagnostics import Diagnostic, Severity, SourceSpan
 from gazelle.diagnostics.catalogue import Entry, entry_for
-from gazelle.diagnostics.documentation import anchor
+from gazelle.diagnostics.documentation import entry_address, pages_address
 
 if TYPE_CHECKING:
     from gazelle.doctor import Report
@@ -25,8 +24,6 @@ __all__ = ["sarif_text"]
 
 _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _VERSION = "2.1.0"
-_DISTRIBUTION = "gazelle-sim"
-_DOCUMENTATION = "Documentation"
 _ROOT = "SRCROOT"
 # Code scanning takes no result without a file: what is about none is about the folder.
 _NO_FILE = "."
@@ -56,23 +53,13 @@ def sarif_text(report: Report, least: Severity = Severity.INFO) -> str:
 
 
 def _driver(codes: Sequence[str]) -> dict[str, Any]:
-    pages = _documentation()
+    pages = pages_address()
     return {
         "name": "gazelle doctor",
         "semanticVersion": __version__,
         **({"informationUri": f"{pages}/howto/doctor/"} if pages else {}),
         "rules": [_rule(entry_for(code), pages) for code in codes],
     }
-
-
-def _documentation() -> str:
-    """Return where the pages of this release are, as its metadata say; empty when they do not."""
-    try:
-        urls = metadata.metadata(_DISTRIBUTION).get_all("Project-URL") or []
-    except metadata.PackageNotFoundError:
-        return ""
-    named = dict(url.split(", ", 1) for url in urls if ", " in url)
-    return str(named.get(_DOCUMENTATION, "")).rstrip("/")
 
 
 def _rule(entry: Entry, pages: str) -> dict[str, Any]:
@@ -83,7 +70,7 @@ def _rule(entry: Entry, pages: str) -> dict[str, Any]:
         "shortDescription": {"text": f"{entry.title}."},
         "fullDescription": {"text": entry.why},
         "help": {"text": markdown.replace("`", ""), "markdown": markdown},
-        **({"helpUri": f"{pages}/diagnostics/#{anchor(entry)}"} if pages else {}),
+        **({"helpUri": entry_address(entry, pages)} if pages else {}),
         "defaultConfiguration": {"level": _LEVELS[Severity[entry.severity.upper()]]},
     }
 

@@ -81,7 +81,10 @@ def guarded(action: Callable[[], int | None]) -> int:
 
 def fail(text: str) -> int:
     """Print why a command ends early, behind what it has printed so far; return 1."""
+    from gazelle.diagnostics.launch_journal import keep_error
+
     sys.stdout.flush()
+    keep_error(text)
     print(error_text(text), file=sys.stderr, flush=True)
     return 1
 

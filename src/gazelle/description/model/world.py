@@ -12,6 +12,7 @@ from gazelle.description.model.plugin import PluginTag, Ros2ControlTag, Transmis
 from gazelle.description.model.shape import Rgba
 from gazelle.diagnostics import SourceSpan
 from gazelle.geometry import IDENTITY_POSE, Pose, Vector3
+from gazelle.rich_display import shown_by
 
 __all__ = ["Frame", "Model", "Physics", "Scene", "SphericalCoordinates", "World"]
 
@@ -25,6 +26,7 @@ class Frame:
     T_model_frame: Pose = IDENTITY_POSE
 
 
+@shown_by("robots:model_bundle")
 @dataclass(frozen=True, slots=True)
 class Model:
     """A robot or a thing. Nested models are flattened: their names become ``nested::name``.
@@ -127,6 +129,7 @@ class SphericalCoordinates:
     heading_deg: float = 0.0
 
 
+@shown_by("robots:world_bundle")
 @dataclass(frozen=True, slots=True)
 class World:
     """Everything there is.

@@ -34,6 +34,7 @@ from gazelle.diagnostics import Diagnostics, did_you_mean
 from gazelle.workspace import Workspace
 
 __all__ = [
+    "SRDF_ELEMENTS",
     "RobotNames",
     "link_names",
     "load_srdf",
@@ -49,7 +50,7 @@ _PHRASES = {
 _COUNTS = {JointType.PLANAR: 3, JointType.FLOATING: 7, JointType.FIXED: 0}
 _VIRTUAL_COUNTS = {"planar": 3, "floating": 7, "fixed": 0}
 _TOLERANCE = 1e-9
-_CHILDREN = (
+SRDF_ELEMENTS = (
     "disable_collisions",
     "disable_default_collisions",
     "enable_collisions",
@@ -61,6 +62,8 @@ _CHILDREN = (
     "passive_joint",
     "virtual_joint",
 )
+"""What MoveIt reads below ``<robot>``."""
+
 _VIRTUAL_TYPES: tuple[VirtualJointType, ...] = ("fixed", "floating", "planar")
 
 
@@ -166,7 +169,7 @@ def read_srdf(root: Tag, *, robot: Model | None, diagnostics: Diagnostics) -> Sr
         message = f"the outermost element of an SRDF is <robot>, not <{root.name}>"
         diagnostics.report("srdf.no-robot", message, root.span)
         return None
-    check_vocabulary(root, diagnostics, attributes=("name", "version"), children=_CHILDREN)
+    check_vocabulary(root, diagnostics, attributes=("name", "version"), children=SRDF_ELEMENTS)
     _check_robot_name(root, robot, diagnostics)
     virtual_tags = root.find_all("virtual_joint")
     virtual = frozenset(tag.attributes.get("name", "").strip() for tag in virtual_tags) - {""}

@@ -21,6 +21,7 @@ from gazelle.graph.tf.exceptions import (
     gap_text,
 )
 from gazelle.graph.tf.history import History, Sample, StaticHistory
+from gazelle.rich_display import shown_by
 
 __all__ = ["FrameInfo", "StampedPose", "TransformBuffer"]
 
@@ -67,6 +68,7 @@ class FrameInfo(NamedTuple):
     oldest_ns: int
 
 
+@shown_by("frames:buffer_bundle")
 class TransformBuffer:
     """Keeps transforms and answers questions about them, with tf2's rules and words.
 

@@ -8,9 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.rich_display import shown_by
+
 __all__ = ["OccupancyGrid"]
 
 
+@shown_by("maps:grid_bundle")
 @dataclass(frozen=True, slots=True, eq=False)
 class OccupancyGrid:
     """What ``nav_msgs/OccupancyGrid`` carries, without stamp and frame.

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import threading
-from collections.abc import Callable
 
 import numpy as np
 
@@ -13,30 +11,18 @@ from gazelle.mapping.slam.slam_engine import Slam
 
 __all__ = ["warm_up"]
 
-_PATIENCE_S = 1.0
 _BEAMS, _SCANS, _STEP_M = 180, 6, 0.6
 # Odometry that is off makes the engine look farther.
 _OFF_M = 0.7
 _HALF_WIDTH_M, _HALF_HEIGHT_M = 4.0, 3.0
-_TEXT = "SLAM is compiled for this machine, which takes up to a minute once; scans count after that"
 
 
-def warm_up(tell: Callable[[str], None]) -> None:
-    """Map a room that is not there, so that the first scans of a real one are not waited for.
-
-    Args:
-        tell: is given a sentence when it takes longer than a moment, as it does once on a machine.
-    """
-    late = threading.Timer(_PATIENCE_S, tell, (_TEXT,))
-    late.daemon = True
-    late.start()
-    try:
-        engine = Slam()
-        for k in range(_SCANS):
-            engine.add(_seen(k * _STEP_M - 1.5, k), (k * _STEP_M + _OFF_M * (k % 2), 0.0, 0.0))
-        engine.finish()
-    finally:
-        late.cancel()
+def warm_up() -> None:
+    """Map a room that is not there, so that the first scans of a real one are not waited for."""
+    engine = Slam()
+    for k in range(_SCANS):
+        engine.add(_seen(k * _STEP_M - 1.5, k), (k * _STEP_M + _OFF_M * (k % 2), 0.0, 0.0))
+    engine.finish()
 
 
 def _seen(x_m: float, number: int) -> Scan:

@@ -28,6 +28,7 @@ from gazelle.mapping.slam.loop_closure import LoopCloser, Track
 from gazelle.mapping.slam.occupancy_counts import draw
 from gazelle.mapping.slam.slam_parameters import SlamParameters
 from gazelle.mapping.slam.tracking import Tracker, is_jump, motion_information
+from gazelle.rich_display import shown_by
 
 __all__ = ["Slam", "SlamResult", "Update", "slam"]
 
@@ -48,6 +49,7 @@ class Update(NamedTuple):
     has_closed: bool
 
 
+@shown_by("maps:slam_bundle")
 class SlamResult(NamedTuple):
     """A map and how the robot moved in it.
 

@@ -143,7 +143,7 @@ def _box(body, members, placed, carried):
         ) + abs(z) * solids[number, BOX_HALF + 2]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, is_called_by_address=True)
 def pair_clear(pair, bodies, placed, enough, few, passings, work):
     """Say how two links or things lie to each other, with the distance that is certain.
 
@@ -346,7 +346,7 @@ def _first_looks(length):
     return looks
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, is_called_by_address=True)
 def sweep(q0, way, step, plain):
     """Say whether a motion from `q0` along `way` is free; its beginning is not looked at.
 
@@ -416,7 +416,8 @@ def sweep(q0, way, step, plain):
         kept, is_sure = used, True
         if used + ends[here] - begins[here] > len(lists):
             longer = np.empty(2 * len(lists) + count, np.int64)
-            longer[:used] = lists[:used]
+            for i in range(used):
+                longer[i] = lists[i]
             lists = longer
         for place in range(begins[here], ends[here]):
             pair = lists[place]

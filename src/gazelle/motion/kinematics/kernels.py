@@ -88,7 +88,7 @@ def _moved(R, p, v):
         p[i] += R[i, 0] * v[0] + R[i, 1] * v[1] + R[i, 2] * v[2]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, is_called_by_address=True)
 def tree(links, positions, R, p):
     """Write rotation and position of every link of a `LinkTree`.
 
@@ -137,7 +137,7 @@ def tree(links, positions, R, p):
         _put(S, R[i])
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, is_called_by_address=True)
 def chain_pose(chain, q, R, p, F, o):
     """Write the tip's rotation and position, and the frame of every step before its motion."""
     A, a, kinds, axes, variables = chain.A, chain.a, chain.kinds, chain.axes, chain.variables
@@ -181,7 +181,7 @@ def chain_pose(chain, q, R, p, F, o):
     _put(S, R)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, is_called_by_address=True)
 def chain_jacobian(chain, F, o, p, J):
     """Write the Jacobian, linear rows first; a quaternion's columns are turns about x, y, z."""
     kinds, axes, dofs, factors = chain.kinds, chain.axes, chain.dofs, chain.factors

@@ -12,10 +12,12 @@ import numpy as np
 
 from gazelle.motion.joint_space import FloatArray, JointSpace, SweptMotions, SweptValidity, Validity
 from gazelle.motion.planning.path_validation import FINE_STEP, SWEPT_STEP, ends_of
+from gazelle.rich_display import shown_by
 
 __all__ = ["GoalSource", "Path", "PlannerSettings", "Problem", "Projection", "Search", "Waypoints"]
 
 
+@shown_by("joint_motions:path_bundle")
 @dataclass(frozen=True)
 class Path:
     """Straight motions between waypoints.

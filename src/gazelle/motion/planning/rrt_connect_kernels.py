@@ -68,8 +68,11 @@ def _twice(nodes, parents, domains):
     """Return arrays of a tree with room for twice as many nodes."""
     count = len(nodes)
     more, above = np.empty((2 * count, nodes.shape[1])), np.empty(2 * count, np.int64)
-    reaches = np.full(2 * count, np.inf)
-    more[:count], above[:count], reaches[:count] = nodes, parents, domains
+    reaches = np.empty(2 * count)
+    for i in range(count):
+        for k in range(nodes.shape[1]):
+            more[i, k] = nodes[i, k]
+        above[i], reaches[i], reaches[count + i] = parents[i], domains[i], np.inf
     return more, above, reaches
 
 
@@ -91,7 +94,9 @@ def _grow(tree, here, target, most, turning, reach, motions, step):
                 break
         if count == len(nodes):
             nodes, parents, domains = _twice(nodes, parents, domains)
-        nodes[count], parents[count] = end, here
+        for k in range(len(end)):
+            nodes[count, k] = end[k]
+        parents[count] = here
         here = last = count
         count += 1
         if distance <= reach:

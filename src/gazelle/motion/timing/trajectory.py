@@ -10,6 +10,7 @@ import numpy as np
 
 from gazelle.motion.joint_space import FloatArray
 from gazelle.motion.timing.totg_velocity_profile import Span
+from gazelle.rich_display import shown_by
 
 __all__ = ["States", "Trajectory", "states_at", "times_of"]
 
@@ -55,6 +56,7 @@ def states_at(spans: Sequence[Span], times_s: FloatArray) -> States:
     return found
 
 
+@shown_by("joint_motions:trajectory_bundle")
 @dataclass(frozen=True, eq=False)
 class Trajectory:
     """Samples of a motion that begins and ends at rest.

@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.rich_display import shown_by
+
 __all__ = [
     "FREE",
     "INSCRIBED",
@@ -89,6 +91,7 @@ class CostCells(NamedTuple):
     per_m: float
 
 
+@shown_by("maps:cost_grid_bundle")
 @dataclass(frozen=True, slots=True, eq=False)
 class CostGrid:
     """Costs of square cells; the array may change, its place does not.

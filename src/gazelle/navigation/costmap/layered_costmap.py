@@ -16,6 +16,7 @@ from gazelle.navigation.costmap.footprint import Footprint
 from gazelle.navigation.costmap.inflation_layer import InflationLayer
 from gazelle.navigation.costmap.obstacle_layer import Observation, ObstacleLayer, copy_overlap
 from gazelle.navigation.costmap.static_layer import StaticLayer
+from gazelle.rich_display import shown_by
 
 __all__ = ["Layer", "LayeredCostmap"]
 
@@ -26,6 +27,7 @@ Pose = tuple[float, float, float]
 _Kind = TypeVar("_Kind", StaticLayer, ObstacleLayer, InflationLayer)
 
 
+@shown_by("maps:layered_costmap_bundle")
 @dataclass(eq=False)
 class LayeredCostmap:
     """Layers and what they amount to. Not safe for several threads at once.

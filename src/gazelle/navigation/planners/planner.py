@@ -10,6 +10,8 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.rich_display import shown_by
+
 __all__ = [
     "Facing",
     "NoPlan",
@@ -32,6 +34,7 @@ class PlanFailure(Enum):
     NO_VALID_PATH = "NO_VALID_PATH"
 
 
+@shown_by("maps:plan_bundle")
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan:
     """A path from where the robot is to the goal.

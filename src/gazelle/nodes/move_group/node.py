@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from typing import Any
 
 from gazelle.description.moveit import MoveItConfig, config_from_parameters
@@ -29,7 +28,6 @@ __all__ = ["gathered_parameters", "run"]
 _DESCRIPTION = "robot_description"
 _PARTS = ("", "_semantic", "_kinematics", "_planning")
 _TOPIC_S = 10.0
-_PATIENCE_S = 2.0
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -100,8 +98,7 @@ def _context(
     robot = RobotModel.from_config(config, diagnostics=diagnostics)
     node.log("info", f"Loading robot model '{robot.name}'...")
     context = make_context(node, config, robot, parameters, ros_version=arguments.ros_version)
-    with _told_if_long(node):
-        context.maker.warm_up(context.monitor.scene)
+    context.maker.warm_up(context.monitor.scene)
     with node.announced_together():
         offer_scene(context)
         offer_kinematics(context)
@@ -114,20 +111,6 @@ def _context(
     report_parameters(config, node.name, told, ros_version=arguments.ros_version)
     log_findings(node, told)
     return context
-
-
-@contextmanager
-def _told_if_long(node: Node) -> Iterator[None]:
-    """Say what keeps the user waiting where kernels are not there yet from an earlier run."""
-    text = "compiling what kinematics and planning need, which takes half a minute of computing; "
-    text += "this is done once and kept"
-    timer = threading.Timer(_PATIENCE_S, node.log, ("info", text))
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
 
 
 def _of_topic(node: Node, name: str, stop: threading.Event) -> str:

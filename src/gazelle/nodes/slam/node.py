@@ -18,7 +18,14 @@ from gazelle.mapping.slam.kernel_warm_up import warm_up
 from gazelle.nodes.arguments import NodeArguments
 from gazelle.nodes.gflags import Kind, read_flags
 from gazelle.nodes.map_server.occupancy_grid import message_of_grid
-from gazelle.nodes.parameters import log_findings, node_reader, parameter_tree, start_node, ticks
+from gazelle.nodes.parameters import (
+    log_findings,
+    node_reader,
+    parameter_tree,
+    start_node,
+    ticks,
+    use_own_sim_time,
+)
 from gazelle.nodes.slam.cartographer.configuration import flags_of, read_configuration
 from gazelle.nodes.slam.explore_lite import run_explore
 from gazelle.nodes.slam.mapper import Mapper
@@ -108,6 +115,7 @@ def _run(
     idle_flags: Sequence[str] = (),
 ) -> int:
     node = start_node(arguments, graph)
+    use_own_sim_time(node, arguments.params)
     if idle_flags:
         node.log("warn", f"options that have no effect here: -{', -'.join(idle_flags)}")
     options = _options(slam_node, arguments, node, given)
@@ -117,7 +125,7 @@ def _run(
     # Costmaps and displays wait for the map's frame, which needs no scan.
     if options.publishes_tf and options.tf_period_s > 0:
         threading.Thread(target=_publish_transforms, args=(node, mapper, done), daemon=True).start()
-    warm_up(lambda text: node.log("info", text))
+    warm_up()
     mapper.listen()
     threading.Thread(target=_publish_maps, args=(node, mapper, done), daemon=True).start()
     arguments.ready()

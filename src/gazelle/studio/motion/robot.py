@@ -14,7 +14,6 @@ from gazelle.studio.scenes.shapes import PageGeometry, page_scene
 from gazelle.studio.subscriptions import Subscriptions
 
 if TYPE_CHECKING:
-    from gazelle.description.moveit import MoveItConfig
     from gazelle.motion.model import JointGroup, RobotModel
 
 __all__ = [
@@ -22,9 +21,11 @@ __all__ = [
     "MotionGroup",
     "MotionJoint",
     "MotionMimic",
+    "MotionPart",
     "MotionRobot",
     "MotionVariable",
     "get_motion_robot",
+    "motion_part",
 ]
 
 _PLAN = "plan_kinematic_path"
@@ -90,7 +91,9 @@ class MotionGroup(TypedDict):
     is_chain: bool
 
 
-class _RobotPart(TypedDict):
+class MotionPart(TypedDict):
+    """What a robot's own description and its groups say."""
+
     name: str
     frame: str
     root: str
@@ -103,7 +106,7 @@ class _RobotPart(TypedDict):
     groups: list[MotionGroup]
 
 
-class MotionRobot(_RobotPart):
+class MotionRobot(MotionPart):
     """A robot as its move_group knows it.
 
     Attributes:
@@ -142,7 +145,9 @@ def get_motion_robot(robots: RobotContext, params: Params) -> MotionRobot:
     return {
         "node": node,
         "prefix": prefix,
-        **_robot_value(robot, config),
+        **motion_part(
+            robot, config.velocity_scaling, config.acceleration_scaling, config.default_pipeline
+        ),
         "scene": page_scene(robot_value(robot.description), robots.assets),
     }
 
@@ -196,14 +201,27 @@ def _of_topic(subscriptions: Subscriptions, topic: str) -> str:
     return description_text(subscriptions, topic)
 
 
-def _robot_value(robot: RobotModel, config: MoveItConfig) -> _RobotPart:
+def motion_part(
+    robot: RobotModel,
+    velocity_scaling: float,
+    acceleration_scaling: float,
+    default_pipeline: str = "",
+) -> MotionPart:
+    """Return a robot's joints and groups as the page takes them.
+
+    Args:
+        robot: with its groups.
+        velocity_scaling: share of the limits that is used unless a request says more.
+        acceleration_scaling: the same of acceleration.
+        default_pipeline: used when a request names none.
+    """
     return {
         "name": robot.name,
         "frame": robot.frame,
         "root": robot.root_link,
-        "velocity_scaling": config.velocity_scaling,
-        "acceleration_scaling": config.acceleration_scaling,
-        "default_pipeline": config.default_pipeline,
+        "velocity_scaling": velocity_scaling,
+        "acceleration_scaling": acceleration_scaling,
+        "default_pipeline": default_pipeline,
         "defaults": robot.named(robot.default_positions()),
         "mimics": [
             {"variable": one.variables[0], "leader": leader, "factor": factor, "offset": offset}

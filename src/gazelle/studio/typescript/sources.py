@@ -71,6 +71,9 @@ from gazelle.studio.graph_view.rosout import LogLine
 from gazelle.studio.graph_view.topics import EchoedMessage, TopicStats
 from gazelle.studio.graph_view.transforms import FrameNames, FrameRow, TfFrame
 from gazelle.studio.graph_view.types import TypeConstant, TypeField, TypeValue
+from gazelle.studio.launches.demos import DemoCard, DemoStep, DemosValue
+from gazelle.studio.launches.findings import FoundIn, LaunchFinding, LaunchValue, SourceLine
+from gazelle.studio.launches.recent import RecentLaunch
 from gazelle.studio.motion.methods import MotionMesh
 from gazelle.studio.motion.planning_scene import PlanningScene
 from gazelle.studio.motion.robot import (
@@ -87,6 +90,7 @@ from gazelle.studio.plugins.panel_state import PanelState
 from gazelle.studio.plugins.rqt.porting import PortedForm, PortedPlugin, PortedWidget
 from gazelle.studio.plugins.shown_panels import PanelEvent
 from gazelle.studio.protocol import STREAMS
+from gazelle.studio.robot_files.methods import RobotFile
 from gazelle.studio.scenes.shapes import (
     MeshGeometry,
     MeshPartValue,
@@ -94,6 +98,21 @@ from gazelle.studio.scenes.shapes import (
     PageGeometry,
 )
 from gazelle.studio.settings.rviz_files import RvizDisplay, RvizFile, RvizTool, RvizView
+from gazelle.studio.setup_assistant.values import (
+    AssistantChain,
+    AssistantController,
+    AssistantEffector,
+    AssistantFile,
+    AssistantGroup,
+    AssistantInterface,
+    AssistantLink,
+    AssistantPair,
+    AssistantStart,
+    AssistantState,
+    AssistantValue,
+    AssistantVirtualJoint,
+    AssistantWritten,
+)
 from gazelle.studio.typescript.interfaces import interface, ros_interfaces, type_text
 from gazelle.studio.world.models import ModelEntry
 from gazelle.studio.world.streams import PageScene, WorldJoint
@@ -117,6 +136,12 @@ _PARTS = (InertialValue, SensorValue, LightValue, BodyValue, MimicValue, JointVa
 _WORLD = (WorldStats, WorldJoint, PropertyRow, ModelEntry)
 _MOTION_PARTS = (MotionVariable, MotionJoint, MotionMimic, MotionEffector, MotionGroup)
 _MOTION = (*_MOTION_PARTS, MotionRobot, MotionMesh, PlanningScene)
+_LAUNCHES = (SourceLine, LaunchFinding, LaunchValue, FoundIn, RecentLaunch, RobotFile)
+_DEMOS = (DemoStep, DemoCard, DemosValue)
+_ASSISTANT_SRDF = (AssistantPair, AssistantVirtualJoint, AssistantChain, AssistantGroup)
+_ASSISTANT_PARTS = (AssistantState, AssistantEffector, AssistantController, AssistantInterface)
+_ASSISTANT_FILES = (AssistantStart, AssistantFile, AssistantWritten)
+_ASSISTANT = (*_ASSISTANT_SRDF, *_ASSISTANT_PARTS, AssistantLink, AssistantValue)
 _BAGS = (BagTopic, RecorderState, PlayerState, BagState)
 _PORTING = (PortedWidget, PortedForm, PortedPlugin)
 _PANELS = (PanelEntry, PanelInfo, PanelEvent, PanelState, *_PORTING)
@@ -134,7 +159,19 @@ MESSAGES: tuple[type, ...] = (
         *_DISPLAYS,
         *_MARKERS,
     ),
-    *(*_SHAPES, *_PARTS, SceneValue, *_WORLD, *_MOTION, *_BAGS, *_PANELS),
+    *(
+        *_SHAPES,
+        *_PARTS,
+        SceneValue,
+        *_WORLD,
+        *_MOTION,
+        *_ASSISTANT,
+        *_ASSISTANT_FILES,
+        *_LAUNCHES,
+        *_DEMOS,
+        *_BAGS,
+        *_PANELS,
+    ),
 )
 """`TypedDict` classes, and `NamedTuple` ones that are sent as such."""
 

@@ -8,6 +8,7 @@
 | rqt_bag | ``FILE …`` |
 | rqt_gui, rqt | ``-s PLUGIN``, of rqt's own or a user's package, ``--perspective-file FILE`` |
 | rqt_robot_steering | ``~default_topic`` |
+| moveit_setup_assistant | ``--config_pkg PACKAGE``, ``--urdf_path FILE`` |
 
 Other words are those of windows (``--force-discover``, geometries) and mean nothing to a page.
 """
@@ -29,6 +30,7 @@ __all__ = [
     "action_caller",
     "gzclient",
     "image_view",
+    "moveit_setup_assistant",
     "rqt",
     "rqt_action",
     "rqt_bag",
@@ -53,7 +55,8 @@ __all__ = [
 _FIELDS = re.compile(r"^(?P<start>[^:]*/)(?P<fields>[^/]+(?::[^/]+)+)$")
 _PLUGIN = re.compile(r"^(?P<package>\w+?)(?:[./].*)?$")
 _VALUED = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--standalone",
-           "--perspective-file", "-p", "--perspective", "-t", "--ht", "--args")  # fmt: skip
+           "--perspective-file", "-p", "--perspective", "-t", "--ht", "--args",
+           "--config_pkg", "-c", "--urdf_path", "-u")  # fmt: skip
 _Node = Callable[[NodeArguments, Graph, threading.Event], int]
 
 
@@ -89,6 +92,15 @@ def rviz(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     frame = options.get("-f") or options.get("--fixed-frame") or ""
     params = {"file": _path(file)} if file else {}
     return run_view("rviz", params | ({"frame": frame} if frame else {}), arguments, graph, stop)
+
+
+def moveit_setup_assistant(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
+    """Make a MoveIt config package, or change one."""
+    _, options = _parsed(arguments.rest)
+    package = options.get("--config_pkg") or options.get("-c") or ""
+    file = options.get("--urdf_path") or options.get("-u") or ""
+    params = {"package": package} if package else {"file": _path(file)} if file else {}
+    return run_view("moveit_setup_assistant", params, arguments, graph, stop)
 
 
 def rqt_plot(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:

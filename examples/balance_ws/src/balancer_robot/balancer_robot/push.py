@@ -2,6 +2,7 @@
 
 import rclpy
 from gazebo_msgs.srv import ApplyLinkWrench
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
@@ -11,7 +12,7 @@ class Push(Node):
         # The robot's time: nothing is pushed while that stands still.
         sim_time = Parameter("use_sim_time", Parameter.Type.BOOL, True)
         super().__init__("push", parameter_overrides=[sim_time])
-        self.link = self.declare_parameter("link", "balancer::base_link").value
+        self.link = self.declare_parameter("link", "balancer::base_footprint").value
         self.force = self.declare_parameter("force", 40.0).value  # N
         self.seconds = self.declare_parameter("seconds", 0.2).value
         self.every = self.declare_parameter("every", 0.0).value
@@ -45,7 +46,7 @@ def main(args=None):
     node = Push()
     try:
         node.run()
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, ExternalShutdownException):
         pass
     finally:
         node.destroy_node()

@@ -21,7 +21,7 @@ def generate_launch_description():
     spawn = Node(
         package="gazebo_ros",
         executable="spawn_entity.py",
-        arguments=["-topic", "robot_description", "-entity", "balancer", "-z", "0.15"],
+        arguments=["-topic", "robot_description", "-entity", "balancer"],
         output="screen",
     )
     controllers = Node(

@@ -1,1 +1,1 @@
-import{g as e}from"./index.js";function t(t,n,r=`text/plain`){let i=typeof n==`string`?new Blob([n],{type:r}):n,a=URL.createObjectURL(i),o=e(`a`,{href:a,download:t});document.body.append(o),o.click(),o.remove(),setTimeout(()=>URL.revokeObjectURL(a),1e4)}export{t};
+import{b as e}from"./index.js";function t(t,n,r=`text/plain`){let i=typeof n==`string`?new Blob([n],{type:r}):n,a=URL.createObjectURL(i),o=e(`a`,{href:a,download:t});document.body.append(o),o.click(),o.remove(),setTimeout(()=>URL.revokeObjectURL(a),1e4)}export{t};

@@ -9,7 +9,8 @@ import socket
 from collections.abc import Iterator
 
 from gazelle.errors import GraphError
-from gazelle.graph import Graph, PortTakenError
+from gazelle.graph.errors import PortTakenError
+from gazelle.graph.graph import Graph
 
 __all__ = ["open_graph"]
 

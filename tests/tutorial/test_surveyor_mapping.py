@@ -1,0 +1,66 @@
+"""The demo of SLAM and navigation at once: a goal beyond the map is reached, and the map has grown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.patience import stretched
+
+from gazelle.graph.actions import ActionClient
+from gazelle.interfaces import fill, to_plain
+
+pytestmark = [pytest.mark.tutorial, pytest.mark.slow(25)]
+
+# In the room behind the wall, which the lidar does not see from where the robot starts.
+_GOAL_M = (3.0, 1.4)
+_FACTOR = 3.0
+
+
+def test_a_goal_that_the_map_does_not_show_yet_is_reached(
+    gazelle: Callable[..., Any], tmp_path: Path
+) -> None:
+    world = gazelle("ros2", "launch", "surveyor_robot", "mapping.launch.py", cwd=tmp_path)
+    maps: list[Any] = []
+    world.node.create_subscription("/map", "nav_msgs/msg/OccupancyGrid", maps.append)
+    world.eventually(lambda: maps)
+    _hurry(world)
+    client = ActionClient(world.node, "/navigate_to_pose", "nav2_msgs/NavigateToPose")
+    assert client.wait_for_server(stretched())
+    first = _known(maps[0])
+    goal = client.types.Goal()
+    place = {"position": {"x": _GOAL_M[0], "y": _GOAL_M[1]}, "orientation": {"w": 1.0}}
+    fill(goal.pose, {"header": {"frame_id": "map"}, "pose": place})
+    sent = world.eventually(lambda: _accepted(client, goal))
+    world.eventually(lambda: sent.is_done)
+    answer = world.call(
+        "/gazebo/get_model_state", "gazebo_msgs/srv/GetModelState", model_name="surveyor"
+    )
+    at = answer.pose.position
+    assert math.dist((at.x, at.y), _GOAL_M) < 0.35
+    assert _known(maps[-1]) > 1.2 * first
+    assert world.stop() == 0
+
+
+def _accepted(client: ActionClient, goal: Any) -> Any:
+    """Return a goal that was taken, None while Nav2 is not active."""
+    sent = client.send_goal(goal)
+    return sent if sent.wait_for_accepted(stretched()) else None
+
+
+def _known(message: Any) -> int:
+    return int(np.count_nonzero(np.asarray(message.data) >= 0))
+
+
+def _hurry(world: Any) -> None:
+    kind = "gazebo_msgs/srv/{}PhysicsProperties"
+    now = to_plain(world.call("/gazebo/get_physics_properties", kind.format("Get")))
+    kept = {name: now[name] for name in ("time_step", "gravity", "ode_config")}
+    rate_hz = _FACTOR / now["time_step"]
+    assert world.call(
+        "/gazebo/set_physics_properties", kind.format("Set"), max_update_rate=rate_hz, **kept
+    ).success
