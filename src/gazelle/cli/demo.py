@@ -30,6 +30,8 @@ __all__ = ["main"]
 _LOOK_S = 0.1
 _LAST_LINES = 30
 _FAILED = ("[ERROR]", "[FATAL]", "Traceback", "error:")
+# What is compiled once may take minutes, and nobody should wait without knowing for what.
+_COMPILING = "compiling what "
 # After SIGINT, then after SIGTERM; a launch gives its nodes most of that.
 _STOP_S, _KILL_S = 20.0, 3.0
 _CLOCK = "/clock"
@@ -259,6 +261,9 @@ class _Processes:
         for line in lines:
             text = line.rstrip("\n")
             self._last.append(text)
+            _, is_compiling, for_what = text.partition(_COMPILING)
+            if is_compiling:
+                print(f"  {_COMPILING}{for_what}", flush=True)
             if not self._is_ending and any(sign in text for sign in _FAILED):
                 print(text, file=sys.stderr, flush=True)
 
