@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.diagnostics.diagnostic import Diagnostic, Severity, SourceSpan
-from gazelle.diagnostics.render import Excerpt, SourceLines, excerpt
+from gazelle.diagnostics.source_lines import Excerpt, SourceLines, excerpt
 from gazelle.user_folders import lives, state_folder
 
 __all__ = ["VARIABLE", "Journal", "Told", "begin", "end", "journals", "keep", "keep_error", "read"]

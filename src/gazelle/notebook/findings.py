@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity
 from gazelle.diagnostics.collection import grouped
-from gazelle.diagnostics.render import SourceLines
+from gazelle.diagnostics.source_lines import SourceLines
 from gazelle.notebook.html_parts import figure, short_text
 from gazelle.rich_display import Bundle
 
