@@ -1,0 +1,1 @@
+var e=[],t=new Set;function n(){return e}function r(t){return e.findLast(e=>e.kind===t)??e[e.length-1]??null}function i(n){e[e.length-1]!==n&&(a(n,!1),e.push(n),t.forEach(e=>e()))}function a(n,r=!0){let i=e.indexOf(n);i>=0&&e.splice(i,1),r&&t.forEach(e=>e())}function o(e){return t.add(e),e(),()=>t.delete(e)}export{i as a,n as i,a as n,o as r,r as t};
