@@ -148,12 +148,15 @@ class _Reader:
             text = file.read_text(encoding="utf-8") if is_file(file) else ""
             return RobotSource(file, "", relative, copied_text=text)
         folder = self._workspace.package(package).path
-        words = (
-            str(part or "").strip()
-            for part in (urdf.get("xacro_args"), own.get("demo_args"), own.get("gazebo_args"))
+        return RobotSource(
+            folder / relative,
+            package,
+            relative,
+            xacro_args=str(urdf.get("xacro_args") or "").strip(),
+            demo_args=str(own.get("demo_args") or "").strip(),
+            gazebo_args=str(own.get("gazebo_args") or "").strip(),
+            has_demo=bool(own.get("has_demo", True)),
         )
-        has_demo = bool(own.get("has_demo", True))
-        return RobotSource(folder / relative, package, relative, *words, has_demo)
 
     def _srdf(self, path: str, model: Model, source: RobotSource) -> tuple[Srdf, tuple[Tag, ...]]:
         file = self._folder / path
