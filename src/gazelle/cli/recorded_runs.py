@@ -32,6 +32,7 @@ _SLICE_S = 0.25
 # A simulator that has to make convex parts of meshes for the first time takes its time.
 _WORLD_S = 120.0
 _PATIENCE_S = 5.0
+_LONG_S = 15.0
 _LAST_LINES = 30
 
 
@@ -257,7 +258,7 @@ class _Launch:
             stack.callback(tree.stop)
             recorder = stack.enter_context(_recorder(graph, progress))
             with suppress(KeyboardInterrupt):
-                _await_world(recorder, tree)
+                _await_world(recorder, tree, progress.say)
                 _follow(recorder, graph, progress, tree.ended)
             return recorder.recording()
 
@@ -287,12 +288,19 @@ def _folder() -> tempfile.TemporaryDirectory[str]:
     return tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
 
 
-def _await_world(recorder: GraphRecorder, tree: ProcessTree) -> None:
-    end_s = time.monotonic() + _WORLD_S
+def _await_world(recorder: GraphRecorder, tree: ProcessTree, say: Callable[[str], None]) -> None:
+    begun_s, has_told = time.monotonic(), False
+    end_s = begun_s + _WORLD_S
     while not recorder.wait_for_world(_POLL_S):
+        if not has_told and time.monotonic() - begun_s > _LONG_S:
+            has_told = True
+            say(f"no world yet; waiting for one, {_WORLD_S:g} s at most")
         ended = tree.ended()
         if ended or time.monotonic() > end_s:
-            why = ended or f"it has shown no world within {_WORLD_S:g} s"
+            why = ended or (
+                f"it has shown no world within {_WORLD_S:g} s; does it start a simulator? One that "
+                "runs already is recorded without a launch file: gazelle record -o OUT"
+            )
             lines = "\n  ".join(tree.lines[-_LAST_LINES:])
             raise GazelleError(f"{tree.title}: {why}\n  what it printed last:\n  {lines}")
 
