@@ -197,3 +197,18 @@ def test_a_launch_is_started_recorded_and_ended(
     page = Path(output).read_text(encoding="utf-8")
     assert "<title>scout" in page
     assert len(page) < 400_000
+
+
+def test_ctrl_c_before_there_is_a_world_ends_the_command(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    from gazelle.recording import GraphRecorder
+
+    def interrupted(*_words: Any) -> bool:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(GraphRecorder, "wait_for_world", interrupted)
+    Path("empty.launch").write_text("<launch/>")
+    assert main(["record", "-o", "a.html", "empty.launch"]) == 130
+    assert capsys.readouterr().err == ""
+    assert _files(tmp_path) == {"empty.launch"}

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+import sys
 import tempfile
 import time
-from collections.abc import Callable, Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
@@ -32,6 +33,7 @@ _SLICE_S = 0.25
 # A simulator that has to make convex parts of meshes for the first time takes its time.
 _WORLD_S = 120.0
 _PATIENCE_S = 5.0
+_LONG_S = 15.0
 _LAST_LINES = 30
 
 
@@ -223,7 +225,7 @@ class _RunningWorld:
         with Graph.open(role="client") as graph, _recorder(graph, progress) as recorder:
             assert isinstance(recorder, GraphRecorder)
             if recorder.wait_for_world(_PATIENCE_S):
-                with suppress(KeyboardInterrupt):
+                with _until_interrupt(recorder):
                     _follow(recorder, graph, progress, lambda: "")
             return recorder.recording()
 
@@ -247,7 +249,7 @@ class _Launch:
         with ExitStack() as stack:
             graph = stack.enter_context(open_graph())
             home = Path(stack.enter_context(_folder()))
-            printed = _Printed(progress.say if self.is_verbose else None)
+            printed = _Printed(is_shown=self.is_verbose)
             tree = ProcessTree(
                 self.words,
                 cwd=Path.cwd(),
@@ -256,8 +258,8 @@ class _Launch:
             )
             stack.callback(tree.stop)
             recorder = stack.enter_context(_recorder(graph, progress))
-            with suppress(KeyboardInterrupt):
-                _await_world(recorder, tree)
+            with _until_interrupt(recorder):
+                _await_world(recorder, tree, progress.say)
                 _follow(recorder, graph, progress, tree.ended)
             return recorder.recording()
 
@@ -265,16 +267,26 @@ class _Launch:
 class _Printed:
     """What a launch prints, passed on."""
 
-    def __init__(self, say: Callable[[str], None] | None) -> None:
-        self._say = say
+    def __init__(self, *, is_shown: bool) -> None:
+        self._is_shown = is_shown
         self._count = 0
 
     def look(self, tree: ProcessTree) -> None:
-        if self._say is not None:
+        if self._is_shown:
             lines = tree.lines
             for line in lines[self._count :]:
-                self._say(line)
+                print(line, file=sys.stderr)
             self._count = len(lines)
+
+
+@contextmanager
+def _until_interrupt(recorder: GraphRecorder) -> Iterator[None]:
+    """Let Ctrl-C end a recording, but the command where there is nothing to write yet."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if not recorder.has_begun:
+            raise
 
 
 def _recorder(graph: Graph, progress: RunProgress) -> GraphRecorder:
@@ -287,12 +299,19 @@ def _folder() -> tempfile.TemporaryDirectory[str]:
     return tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
 
 
-def _await_world(recorder: GraphRecorder, tree: ProcessTree) -> None:
-    end_s = time.monotonic() + _WORLD_S
+def _await_world(recorder: GraphRecorder, tree: ProcessTree, say: Callable[[str], None]) -> None:
+    begun_s, has_told = time.monotonic(), False
+    end_s = begun_s + _WORLD_S
     while not recorder.wait_for_world(_POLL_S):
+        if not has_told and time.monotonic() - begun_s > _LONG_S:
+            has_told = True
+            say(f"no world yet; waiting for one, {_WORLD_S:g} s at most")
         ended = tree.ended()
         if ended or time.monotonic() > end_s:
-            why = ended or f"it has shown no world within {_WORLD_S:g} s"
+            why = ended or (
+                f"it has shown no world within {_WORLD_S:g} s; does it start a simulator? One that "
+                "runs already is recorded without a launch file: gazelle record -o OUT"
+            )
             lines = "\n  ".join(tree.lines[-_LAST_LINES:])
             raise GazelleError(f"{tree.title}: {why}\n  what it printed last:\n  {lines}")
 

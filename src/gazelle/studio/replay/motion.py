@@ -107,7 +107,7 @@ def _scene(last: Values, bodies: list[_Body]) -> Values:
 
 def _track(poses: NDArray[np.float64], pack: Pack) -> Values:
     """Return where a body is: one pose, or whole numbers for each frame, and when it is there."""
-    there = np.isfinite(poses).all(axis=1)
+    there = np.asarray(np.isfinite(poses).all(axis=1))
     filled = _filled(poses, there)
     places = np.rint(filled[:, :3] / _PLACE_STEP_M).astype(np.int64)
     turns = np.rint(_continuous(filled[:, 3:]) / _TURN_STEP).astype(np.int64)
