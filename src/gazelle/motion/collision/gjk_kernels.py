@@ -62,7 +62,7 @@ _DEEP_M = 5e-6
 """An overlap of less is left to MuJoCo, which stops its own search at a millionth of a metre."""
 
 
-@njit(cache=True, nogil=True, is_called_by_address=True)
+@njit(cache=True, nogil=True)
 def _support(number, placed, x, y, z, out, at):
     """Write the point of a solid that is farthest in a direction of the robot's frame."""
     solids, kinds, vertices = placed.rows, placed.kinds, placed.vertices_m
@@ -368,7 +368,7 @@ def _nearest(W, count, v, weights, best):
     return kept
 
 
-@njit(cache=True, nogil=True, is_called_by_address=True)
+@njit(cache=True, nogil=True)
 def separation(one, other, placed, enough, least, axis, work):
     """Say how two solids lie to each other.
 

@@ -143,7 +143,7 @@ def _box(body, members, placed, carried):
         ) + abs(z) * solids[number, BOX_HALF + 2]
 
 
-@njit(cache=True, nogil=True, is_called_by_address=True)
+@njit(cache=True, nogil=True)
 def pair_clear(pair, bodies, placed, enough, few, passings, work):
     """Say how two links or things lie to each other, with the distance that is certain.
 
