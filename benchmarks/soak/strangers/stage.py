@@ -29,7 +29,7 @@ from gazelle.graph import Graph
 from gazelle.graph.actions import ActionClient, ClientGoal
 from gazelle.graph.tf import TransformBuffer, TransformListener
 from gazelle.interfaces import action_type, fill
-from gazelle.testing.isolated_graph import open_graph
+from gazelle.graph.isolated_graph import open_graph
 from gazelle.testing.launch import Launch
 from gazelle.testing.messages import Waiting
 from gazelle.testing.process_tree import ProcessTree, launch_environment
