@@ -192,7 +192,7 @@ class _Launch:
         return " ".join(self.words)
 
     def record(self, progress: RunProgress) -> Recording:
-        from gazelle.testing.isolated_graph import open_graph
+        from gazelle.graph.isolated_graph import open_graph
         from gazelle.testing.process_tree import ProcessTree, launch_environment
 
         with ExitStack() as stack:
