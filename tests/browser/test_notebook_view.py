@@ -119,7 +119,7 @@ def test_a_view_that_has_ended_leaves_the_picture(
     page.wait_for_selector("[data-gazelle-view][data-ready]")
     page.wait_for_load_state("networkidle")
     assert page.locator("iframe").count() == 0
-    assert "The live page" in page.inner_text("body")
+    assert "The live page is here while the kernel runs" in page.inner_text("body")
 
 
 def test_the_values_under_the_mouse_are_told_in_a_chart(

@@ -31,6 +31,7 @@ _STILL_PATIENCE_S = 3.0
 _NOBODY_CAME_S = 1.5
 _MAX_REPLAY_BYTES = 8_000_000
 _REPLAY_HZ = 25.0
+_WHERE = "The live page is here while the kernel runs, in a browser on the kernel's machine."
 
 
 class View:
@@ -92,14 +93,8 @@ class View:
     def bundle(self) -> Bundle:
         """Return what the cell holds while the view is open."""
         mark = hashlib.sha256(self._frame.token.encode()).hexdigest()[:12]
-        caption = "a picture of the moment when the view was opened; the page is live beside it"
-        still = picture_tag(self._still, caption) if self._still else ""
-        words = (
-            "The live page shows here where this browser runs on the kernel's machine."
-            if self._still
-            else "The live page opens here where this browser runs on the kernel's machine."
-        )
-        box = f'<div data-gazelle-view="{mark}">{still}{figure("", words)}</div>'
+        still = picture_tag(self._still, "the simulation") if self._still else ""
+        box = f'<div data-gazelle-view="{mark}">{figure(still, _WHERE)}</div>'
         script = script_tag(
             "live_view",
             mark=mark,
