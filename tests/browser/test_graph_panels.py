@@ -115,7 +115,7 @@ def test_a_loggers_level_is_set(bench: Any, look: Any) -> None:
     seen = look(bench.url, "rqt_logger_level")
     panel = seen.panel("rqt_logger_level")
     panel.get_by_role("option", name="/talker").click()
-    loggers = panel.get_by_role("listbox", name="Loggers")
+    loggers = panel.get_by_label("Loggers")
     loggers.get_by_role("option").or_(loggers.get_by_text("tells of no logger")).first.wait_for()
     if loggers.get_by_role("option").count() == 0:
         assert "no" in seen.toast()
