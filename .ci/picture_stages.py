@@ -295,7 +295,6 @@ _ASSISTANT = Stage(
 _EMPTY = Stage((("studio --no-browser", "Studio: http"),), (Shot("start", wait_s=4.0),))
 
 STAGES = (
-    _EMPTY,
     _BROKEN,
     _ASSISTANT,
     _SCOUT,
@@ -307,4 +306,6 @@ STAGES = (
     _demo("playground"),
     _demo("plugin", zoom=9),
     _demo("controller", until_s=12.0),
+    # Last, for it shows the demos' cards.
+    _EMPTY,
 )
