@@ -19,7 +19,16 @@ if TYPE_CHECKING:
     from gazelle.recording import Recording
     from gazelle.video import Camera
 
-__all__ = ["main"]
+__all__ = ["FLAGS", "VALUES", "main"]
+
+FLAGS = frozenset({"--fast", "--unpause", "--no-topics", "-v", "--verbose"})
+"""Options without a value."""
+
+VALUES = {
+    "--camera": ("auto", "behind", "fixed", "follow", "orbit"),
+    "--view": ("back", "bottom", "front", "iso", "left", "right", "side", "top"),
+}
+"""Options whose values are words."""
 
 _PAGE = ".html"
 _PICTURE = ".png"
