@@ -55,7 +55,7 @@ class Area(NamedTuple):
 AREAS = (
     Area("sensors", "cameras", 6),
     Area("mapping", "SLAM", 12),
-    Area("motion", "arm planning", 22),
+    Area("motion", "arm planning", 23),
     Area("navigation", "navigation", 21),
 )
 """All that is compiled."""
