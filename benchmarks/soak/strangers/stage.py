@@ -27,9 +27,9 @@ from marked_processes import commands_of, pids_of
 from gazelle.geometry import Pose
 from gazelle.graph import Graph
 from gazelle.graph.actions import ActionClient, ClientGoal
+from gazelle.graph.isolated_graph import open_graph
 from gazelle.graph.tf import TransformBuffer, TransformListener
 from gazelle.interfaces import action_type, fill
-from gazelle.graph.isolated_graph import open_graph
 from gazelle.testing.launch import Launch
 from gazelle.testing.messages import Waiting
 from gazelle.testing.process_tree import ProcessTree, launch_environment
