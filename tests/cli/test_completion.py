@@ -13,6 +13,7 @@ from gazelle.cli.commands import COMMANDS
 from gazelle.cli.completion import candidates, subcommands
 from gazelle.cli.main import main
 from gazelle.graph import Node
+from gazelle.sensors.view_cameras import VIEWS
 
 _MANIFEST = """<package format="2"><name>demo_pkg</name><version>0.1.0</version>
 <description>d</description><maintainer email="a@b.example">A</maintainer><license>MIT</license>
@@ -45,6 +46,12 @@ def test_commands_and_subcommands() -> None:
     assert candidates("nonsense", [""]) == []
 
 
+def test_options_of_record_whose_values_are_words() -> None:
+    assert candidates("record", ["--camera", "f"]) == ["fixed", "follow"]
+    assert candidates("record", ["--view", ""]) == sorted(VIEWS)
+    assert candidates("record", ["-o", ""]) == []
+
+
 @pytest.mark.parametrize(
     "name", ["rostopic", "rosservice", "rosparam", "ros2", "controller_manager"]
 )
@@ -56,6 +63,8 @@ def test_tables_of_commands_are_found(name: str) -> None:
 def test_packages_and_what_is_in_them(package: Path) -> None:
     assert candidates("roscd", ["demo"]) == ["demo_pkg"]
     assert candidates("roslaunch", ["demo_pkg", ""]) == ["demo.launch"]
+    assert candidates("record", ["-o", "a.html", "demo_p"]) == ["demo_pkg"]
+    assert candidates("record", ["--fast", "demo_pkg", ""]) == ["demo.launch"]
     assert candidates("rosrun", ["demo_pkg", "t"]) == ["talk.py"]
     assert candidates("ros2", ["run", "topic_tools", "m"]) == ["mux"]
     assert candidates("rosrun", ["no_such_pkg", ""]) == []
@@ -98,6 +107,7 @@ def test_arguments_of_a_launch_file(package: Path) -> None:
     text = '<launch><arg name="model" default="m"/><arg name="fixed" value="1"/></launch>'
     (package / "launch" / "demo.launch").write_text(text, encoding="utf-8")
     assert candidates("roslaunch", ["demo_pkg", "demo.launch", "m"]) == ["model:="]
+    assert candidates("record", ["demo_pkg", "demo.launch", "m"]) == ["model:="]
     assert candidates("roslaunch", ["demo_pkg", "demo.launch", "f"]) == []
     assert candidates("roslaunch", ["demo_pkg", "no.launch", ""]) == []
 

@@ -14,6 +14,7 @@ from tests.patience import stretched
 _ROOT = Path(__file__).parents[2]
 _SOURCES = _ROOT / "studio"
 _PAGE = _ROOT / "src" / "gazelle" / "studio" / "page"
+_VIEWER = _ROOT / "src" / "gazelle" / "studio" / "replay" / "viewer"
 _MAX_BYTES = 500_000
 # What the page is made of; vite.config.ts names the same.
 _FILES = (
@@ -42,6 +43,13 @@ def test_the_page_asks_nobody_else_for_anything() -> None:
 def test_the_page_was_built_from_the_sources_that_are_there() -> None:
     built_from = (_PAGE / "built_from.txt").read_text(encoding="utf-8")
     assert built_from == f"sha256 {_digest()}\n", "run: cd studio && npm ci && npm run build"
+
+
+def test_the_viewer_of_recordings_was_built_from_them_too_and_is_small() -> None:
+    built_from = (_VIEWER / "built_from.txt").read_text(encoding="utf-8")
+    assert built_from == f"sha256 {_digest()}\n", "run: cd studio && npm ci && npm run build"
+    # Each replay carries it.
+    assert len(gzip.compress((_VIEWER / "replay.js").read_bytes(), 9)) < 180_000
 
 
 @pytest.mark.slow

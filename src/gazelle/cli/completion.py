@@ -161,6 +161,8 @@ def _found(command: str, argv: list[str]) -> Iterable[str]:
         return [demo.name for demo in DEMOS] if position == 1 else ()
     if command not in COMMANDS:
         return ()
+    if command == "record":
+        return _recorded(argv)
     if command == "ros2":
         return _ros2(argv)
     if position == 1:
@@ -176,6 +178,23 @@ def _ros2(argv: list[str]) -> Iterable[str]:
     if len(argv) == 2:
         return subcommands("ros2", argv[:1])
     return named(argv[0], argv[1:], ros2=True)
+
+
+def _recorded(argv: list[str]) -> Iterable[str]:
+    """Return values of options that have few, else packages and their launch files."""
+    from gazelle.cli.record import FLAGS, VALUES
+
+    before = argv[-2] if len(argv) > 1 else ""
+    if before.startswith("-") and before not in FLAGS:
+        return VALUES.get(before, ())
+    targets = [
+        word
+        for last, word in zip(["", *argv], argv, strict=False)
+        if not word.startswith("-") and (not last.startswith("-") or last in FLAGS)
+    ]
+    if len(targets) < 2:
+        return package_names() if targets else ()
+    return _in_package("roslaunch", targets, 1)
 
 
 def _in_package(command: str, argv: list[str], ros_version: int) -> Iterable[str]:

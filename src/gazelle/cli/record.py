@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from gazelle.cli.recorded_runs import Run, RunProgress, find_run
+from gazelle.cli.recorded_runs import USUAL_S, Run, RunProgress, find_run
 from gazelle.errors import GazelleError
 from gazelle.sensors.film_files import FILM_SUFFIXES, check_film
 
@@ -19,12 +19,21 @@ if TYPE_CHECKING:
     from gazelle.recording import Recording
     from gazelle.video import Camera
 
-__all__ = ["main"]
+__all__ = ["FLAGS", "VALUES", "main"]
+
+FLAGS = frozenset({"--fast", "--unpause", "--no-topics", "-v", "--verbose"})
+"""Options without a value."""
+
+VALUES = {
+    "--camera": ("auto", "behind", "fixed", "follow", "orbit"),
+    "--view": ("back", "bottom", "front", "iso", "left", "right", "side", "top"),
+}
+"""Options whose values are words."""
 
 _PAGE = ".html"
 _PICTURE = ".png"
 _SUFFIXES = (_PAGE, *FILM_SUFFIXES, _PICTURE)
-_SECONDS = 20.0
+_USUAL = "run.html"
 _SIZE = re.compile(r"(\d+)x(\d+)")
 _INTERRUPTED = 130
 
@@ -33,19 +42,30 @@ def main(argv: list[str]) -> int:
     """Record a run and write it."""
     given = [word for word in argv if ":=" in word and not word.startswith("-")]
     options = _parser().parse_args([word for word in argv if word not in given])
-    outputs = [_checked(name) for name in options.output]
+    outputs = [_checked(name) for name in options.output or (_USUAL,)]
     camera = _camera(options)
     # As Ctrl-C: whoever ends it wants what there is.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    run = find_run(options.target, given, is_fast=options.fast, is_verbose=options.verbose)
+    run = find_run(
+        options.target,
+        given,
+        is_fast=options.fast,
+        is_verbose=options.verbose,
+        robot=options.robot,
+    )
     recording = _record(run, options)
     if recording.duration_s == 0.0:
         _say("the world stood still all the time: press play in Studio, or add --unpause")
-    return max(_write(recording, path, camera, options) for path in outputs)
+    for path in outputs:
+        code = _write(recording, path, camera, options)
+        if code:
+            return code
+    return 0
 
 
 def _record(run: Run, options: argparse.Namespace) -> Recording:
-    wanted = options.delay + options.seconds if options.seconds else 0.0
+    seconds = run.usual_s if options.seconds is None else options.seconds
+    wanted = options.delay + seconds if seconds else 0.0
     topics = [] if options.no_topics else options.topic or None
     with _progress(f"recording {run.title}", wanted) as told:
         whole = run.record(RunProgress(wanted, topics, told, _say, is_unpausing=options.unpause))
@@ -54,7 +74,7 @@ def _record(run: Run, options: argparse.Namespace) -> Recording:
             f"the run ended after {whole.duration_s:.1f} s, before the {options.delay:g} s of "
             "--delay were over, so there is nothing to write"
         )
-    return whole.part(options.delay, options.seconds or None)
+    return whole.part(options.delay, seconds or None)
 
 
 def _write(
@@ -192,7 +212,7 @@ def _parser() -> argparse.ArgumentParser:
 
     parser = argparse.ArgumentParser(
         prog="gazelle record",
-        usage="gazelle record -o OUT [options] [PACKAGE FILE.launch | FILE] [name:=value …]",
+        usage="gazelle record [-o OUT] [options] [PACKAGE LAUNCH | FILE | BAG] [name:=value …]",
         description="Record a run: as one HTML file that replays it, as a film or as a picture. "
         "Without a target the world that runs is recorded; a launch file is started, a robot or "
         "world file is simulated here.",
@@ -203,24 +223,24 @@ def _parser() -> argparse.ArgumentParser:
         "-o",
         "--output",
         action="append",
-        required=True,
         type=_output,
         metavar="OUT",
-        help=f"file to write, of {', '.join(_SUFFIXES)}; may be given more than once",
+        help=f"file to write, of {', '.join(_SUFFIXES)}; may be given more than once "
+        f"(default: {_USUAL})",
     )
     add(
         "-s",
         "--seconds",
         type=_seconds,
-        default=_SECONDS,
-        help=f"simulated seconds, 0 until Ctrl-C (default: {_SECONDS:g})",
+        help=f"simulated seconds, 0 until Ctrl-C (default: {USUAL_S:g}, of a bag all)",
     )
     add("--delay", type=_seconds, default=0.0, help="simulated seconds to leave out before")
+    add("--robot", metavar="FILE", help="the robot of a bag (default: its robot_description)")
     add("--fast", action="store_true", help="simulate as fast as possible (launch files)")
     add("--unpause", action="store_true", help="let a world that stands still run")
     add("--topic", action="append", metavar="NAME", help="record this topic (default: all small)")
     add("--no-topics", action="store_true", help="record no topics")
-    add("--title", help="of the page (default: the world's name)")
+    add("--title", help="of the page (default: the robots' names)")
     add("-v", "--verbose", action="store_true", help="show what the launch prints")
     film = parser.add_argument_group("films and pictures")
     add = film.add_argument

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+import sys
 import tempfile
 import time
-from collections.abc import Callable, Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from gazelle.diagnostics import nearest_names
+from gazelle.diagnostics import nearest_names, render
 from gazelle.errors import GazelleError, NotFoundError
 
 if TYPE_CHECKING:
@@ -19,16 +20,21 @@ if TYPE_CHECKING:
     from gazelle.recording import GraphRecorder, Recording
     from gazelle.testing.process_tree import ProcessTree
 
-__all__ = ["Run", "RunProgress", "find_run"]
+__all__ = ["USUAL_S", "Run", "RunProgress", "find_run"]
+
+USUAL_S = 20.0
+"""How much is recorded of what would go on for ever, simulated seconds."""
 
 _ROS2_ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
 _ROBOT_ENDINGS = (".urdf", ".xacro", ".sdf", ".world")
+_BAG_ENDINGS = (".bag", ".mcap", ".db3", ".zstd")
 _POLL_S = 0.1
 _SLICE_S = 0.25
 # A simulator that has to make convex parts of meshes for the first time takes its time.
 _WORLD_S = 120.0
 _PATIENCE_S = 5.0
-_LAST_LINES = 15
+_LONG_S = 15.0
+_LAST_LINES = 30
 
 
 class RunProgress(NamedTuple):
@@ -62,13 +68,23 @@ class Run(Protocol):
         """What it is, for people."""
         ...
 
+    @property
+    def usual_s(self) -> float:
+        """How many simulated seconds are recorded where nobody says; 0 for all."""
+        ...
+
     def record(self, progress: RunProgress) -> Recording:
         """Record until time is up, it ends, or Ctrl-C, which is no failure."""
         ...
 
 
 def find_run(
-    target: Sequence[str], arguments: Sequence[str], *, is_fast: bool, is_verbose: bool
+    target: Sequence[str],
+    arguments: Sequence[str],
+    *,
+    is_fast: bool = False,
+    is_verbose: bool = False,
+    robot: str | None = None,
 ) -> Run:
     """Return what the words of a command line mean.
 
@@ -77,6 +93,7 @@ def find_run(
         arguments: ``name:=value`` of a launch or xacro file.
         is_fast: simulate a launch as fast as possible.
         is_verbose: pass on what a launch prints.
+        robot: the robot of a bag.
 
     Raises:
         GazelleError: there are too many words.
@@ -99,8 +116,14 @@ def find_run(
         if is_ros2 and is_fast:
             raise GazelleError("--fast works with roslaunch's files; ros2 launch has no such word")
         return _Launch((*words, *arguments), is_verbose)
+    if len(target) == 1 and _is_bag(Path(name)):
+        return _Bag(name, robot)
     mappings = dict(word.split(":=", 1) for word in arguments)
     return _File(_robot_file(target), mappings)
+
+
+def _is_bag(path: Path) -> bool:
+    return path.name.endswith(_BAG_ENDINGS) or (path / "metadata.yaml").is_file()
 
 
 def _robot_file(target: Sequence[str]) -> str:
@@ -145,6 +168,7 @@ class _File:
 
     source: str
     mappings: dict[str, str]
+    usual_s: float = USUAL_S
 
     @property
     def title(self) -> str:
@@ -155,6 +179,8 @@ class _File:
         from gazelle.simulator import Simulation
 
         with Simulation.load(self.source, mappings=self.mappings) as sim:
+            # Meshes that were not found, and the like.
+            render(sim.diagnostics)
             recorder = record(sim, topics=progress.topics)
             with suppress(KeyboardInterrupt):
                 while (left_s := progress.limit_s - sim.time_s) > sim.step_s / 2:
@@ -163,10 +189,34 @@ class _File:
             return recorder.stop()
 
 
+@dataclass(frozen=True)
+class _Bag:
+    """What was recorded before, whole."""
+
+    path: str
+    robot: str | None
+    usual_s: float = 0.0
+
+    @property
+    def title(self) -> str:
+        return Path(self.path).name
+
+    def record(self, progress: RunProgress) -> Recording:
+        from gazelle.diagnostics import Diagnostics
+        from gazelle.recording import bag_recording
+
+        found = Diagnostics()
+        whole = bag_recording(self.path, robot=self.robot, diagnostics=found)
+        render(found)
+        progress.told(whole.duration_s, whole.duration_s)
+        return whole
+
+
 class _RunningWorld:
     """The world of the graph that runs."""
 
     title = "the running world"
+    usual_s = USUAL_S
 
     def record(self, progress: RunProgress) -> Recording:
         from gazelle.graph import Graph
@@ -175,7 +225,7 @@ class _RunningWorld:
         with Graph.open(role="client") as graph, _recorder(graph, progress) as recorder:
             assert isinstance(recorder, GraphRecorder)
             if recorder.wait_for_world(_PATIENCE_S):
-                with suppress(KeyboardInterrupt):
+                with _until_interrupt(recorder):
                     _follow(recorder, graph, progress, lambda: "")
             return recorder.recording()
 
@@ -186,6 +236,7 @@ class _Launch:
 
     words: tuple[str, ...]
     is_verbose: bool
+    usual_s: float = USUAL_S
 
     @property
     def title(self) -> str:
@@ -198,7 +249,7 @@ class _Launch:
         with ExitStack() as stack:
             graph = stack.enter_context(open_graph())
             home = Path(stack.enter_context(_folder()))
-            printed = _Printed(progress.say if self.is_verbose else None)
+            printed = _Printed(is_shown=self.is_verbose)
             tree = ProcessTree(
                 self.words,
                 cwd=Path.cwd(),
@@ -207,8 +258,8 @@ class _Launch:
             )
             stack.callback(tree.stop)
             recorder = stack.enter_context(_recorder(graph, progress))
-            with suppress(KeyboardInterrupt):
-                _await_world(recorder, tree)
+            with _until_interrupt(recorder):
+                _await_world(recorder, tree, progress.say)
                 _follow(recorder, graph, progress, tree.ended)
             return recorder.recording()
 
@@ -216,16 +267,26 @@ class _Launch:
 class _Printed:
     """What a launch prints, passed on."""
 
-    def __init__(self, say: Callable[[str], None] | None) -> None:
-        self._say = say
+    def __init__(self, *, is_shown: bool) -> None:
+        self._is_shown = is_shown
         self._count = 0
 
     def look(self, tree: ProcessTree) -> None:
-        if self._say is not None:
+        if self._is_shown:
             lines = tree.lines
             for line in lines[self._count :]:
-                self._say(line)
+                print(line, file=sys.stderr)
             self._count = len(lines)
+
+
+@contextmanager
+def _until_interrupt(recorder: GraphRecorder) -> Iterator[None]:
+    """Let Ctrl-C end a recording, but the command where there is nothing to write yet."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if not recorder.has_begun:
+            raise
 
 
 def _recorder(graph: Graph, progress: RunProgress) -> GraphRecorder:
@@ -238,12 +299,19 @@ def _folder() -> tempfile.TemporaryDirectory[str]:
     return tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
 
 
-def _await_world(recorder: GraphRecorder, tree: ProcessTree) -> None:
-    end_s = time.monotonic() + _WORLD_S
+def _await_world(recorder: GraphRecorder, tree: ProcessTree, say: Callable[[str], None]) -> None:
+    begun_s, has_told = time.monotonic(), False
+    end_s = begun_s + _WORLD_S
     while not recorder.wait_for_world(_POLL_S):
+        if not has_told and time.monotonic() - begun_s > _LONG_S:
+            has_told = True
+            say(f"no world yet; waiting for one, {_WORLD_S:g} s at most")
         ended = tree.ended()
         if ended or time.monotonic() > end_s:
-            why = ended or f"it has shown no world within {_WORLD_S:g} s"
+            why = ended or (
+                f"it has shown no world within {_WORLD_S:g} s; does it start a simulator? One that "
+                "runs already is recorded without a launch file: gazelle record -o OUT"
+            )
             lines = "\n  ".join(tree.lines[-_LAST_LINES:])
             raise GazelleError(f"{tree.title}: {why}\n  what it printed last:\n  {lines}")
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gazelle.description.model import World
 
-__all__ = ["Recording", "Stretch", "TopicTrack", "WorldMoment"]
+__all__ = ["Recording", "Stretch", "TopicTrack", "WorldMoment", "robot_names"]
 
 _NS = 1e-9
 
@@ -134,6 +134,11 @@ class Recording:
         """Return the stretch a time falls into, the first or last one outside of all."""
         begun = [one for one in self.stretches if one.times_ns[0] <= time_ns]
         return begun[-1] if begun else self.stretches[0]
+
+
+def robot_names(world: World) -> tuple[str, ...]:
+    """Return the models that are taken for robots: of several links, and not static."""
+    return tuple(one.name for one in world.models if not one.static and len(one.links) > 1)
 
 
 def _between(

@@ -24,10 +24,12 @@ _SHORTEST_GAP_NS = 12_000_000
 _WHOLE = frozenset({"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage", "rcl_interfaces/msg/Log"})
 _LEFT_OUT = frozenset(
     {
+        "bond/msg/Status",
         "dynamic_reconfigure/msg/Config",
         "dynamic_reconfigure/msg/ConfigDescription",
         "gazebo_msgs/msg/LinkStates",
         "gazebo_msgs/msg/ModelStates",
+        "rcl_interfaces/msg/ParameterEvent",
         "rosgraph_msgs/msg/Clock",
         "sensor_msgs/msg/CameraInfo",
         "sensor_msgs/msg/CompressedImage",

@@ -14,6 +14,7 @@ from gazelle.diagnostics import Diagnostics, nearest_names
 from gazelle.errors import NotFoundError
 from gazelle.geometry import Vector3
 from gazelle.recording import Recording, Stretch
+from gazelle.recording.recording import robot_names
 from gazelle.sensors.camera import render
 from gazelle.sensors.ray_scene import RayScene
 from gazelle.sensors.view_cameras import looking_at
@@ -177,8 +178,7 @@ def _cloud(
 
 def _robots(world: World) -> tuple[str, ...]:
     free = [model for model in world.models if not model.static]
-    robots = [model for model in free if len(model.links) > 1]
-    return tuple(model.name for model in robots or free or world.models)
+    return robot_names(world) or tuple(model.name for model in free or world.models)
 
 
 def _named(recording: Recording, model: str) -> str:

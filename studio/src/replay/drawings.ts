@@ -115,7 +115,7 @@ class Grid implements Drawn {
     const pixels = new Uint8Array(values.length * 4);
     values.forEach((value, i) => {
       const grey = value > 100 ? 128 : 255 - Math.round(value * 2.55);
-      pixels.set([grey, grey, grey, value > 100 ? 50 : 190], 4 * i);
+      pixels.set([grey, grey, grey, value > 100 ? 40 : 110 + value], 4 * i);
     });
     const texture = new THREE.DataTexture(pixels, size[0], size[1]);
     texture.needsUpdate = true;
@@ -134,6 +134,8 @@ class Grid implements Drawn {
       polygonOffsetFactor: -1,
     });
     const sheet = new THREE.Mesh(geometry, material);
+    // Below trails and paths.
+    sheet.renderOrder = -2;
     place(sheet, pose);
     return sheet;
   }
@@ -144,7 +146,7 @@ class Path implements Drawn {
   readonly root = new THREE.Group();
   private readonly line = new THREE.Line(
     new THREE.BufferGeometry(),
-    new THREE.LineBasicMaterial({ color: PATH }),
+    new THREE.LineBasicMaterial({ color: PATH, transparent: true }),
   );
   private shown = -1;
 
@@ -202,7 +204,10 @@ class Trail implements Drawn {
   ) {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(places, 3));
-    this.root = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour }));
+    this.root = new THREE.Line(
+      geometry,
+      new THREE.LineBasicMaterial({ color: colour, transparent: true }),
+    );
     this.root.frustumCulled = false;
   }
 

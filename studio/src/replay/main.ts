@@ -3,6 +3,7 @@ import theme from '../styles/theme.css?inline';
 import style from './replay.css?inline';
 import { button, h, select, setText, toggle } from '../widgets/dom';
 import type { Drawn } from './drawings';
+import { Motion } from './motion';
 import { Player } from './player';
 import { Stage } from './stage';
 import { TopicsPanel } from './topics_panel';
@@ -33,7 +34,8 @@ export function gazelleReplay(place: HTMLElement, buffer: ArrayBuffer): Replay {
   const { title, frames } = recording.head;
   const player = new Player(frames.duration_s);
   const host = h('div', { class: 'replay-scene' });
-  const topics = new TopicsPanel(recording, (time_s) => player.seek(time_s));
+  const motion = new Motion(recording);
+  const topics = new TopicsPanel(recording, motion, (time_s) => player.seek(time_s));
   const side = h('aside', { class: 'replay-side', 'aria-label': 'Topics' }, topics.element);
   side.hidden = topics.topics.length === 0;
   place.replaceChildren();
@@ -41,7 +43,7 @@ export function gazelleReplay(place: HTMLElement, buffer: ArrayBuffer): Replay {
   const head = h('header', { class: 'replay-head' });
   const foot = h('footer', { class: 'replay-foot' });
   place.append(head, host, side, foot);
-  const stage = new Stage(host, recording);
+  const stage = new Stage(host, recording, motion);
   head.append(h('h1', {}, title), ...sceneControls(stage, player, side));
   light.addEventListener('change', () => {
     wear();

@@ -42,6 +42,14 @@ export class Motion {
     return [places[3 * frame] * step, places[3 * frame + 1] * step, places[3 * frame + 2] * step];
   }
 
+  /** The pose of a body at a frame. */
+  poseAt(body: number, frame: number): number[] {
+    const { head, turns } = this.tracks[body];
+    if (!turns || !head.steps) return [...(head.pose ?? [0, 0, 0, 0, 0, 0, 1])];
+    const turn = [0, 1, 2, 3].map((part) => turns[4 * frame + part] * (head.steps?.[1] ?? 0));
+    return [...this.placeAt(body, frame), ...turn];
+  }
+
   /** The frame of a time, with the part of the way to the next one behind the point. */
   frameAt(time_s: number): number {
     const { count, period_s, duration_s } = this.recording.head.frames;

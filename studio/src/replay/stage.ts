@@ -10,18 +10,17 @@ import { Pointer } from '../scene/pointer';
 import { View } from '../scene/view';
 import { assetsOf } from './assets';
 import { drawings, type Drawn } from './drawings';
-import { Motion } from './motion';
+import type { Motion } from './motion';
 import type { Recording } from './unpacking';
 
 const GRID_CELLS = 40;
-const FOLLOWED_FROM = 1.5;
+const FOLLOWED_FROM = 0.8;
 const AIR = 1.7;
 
 /** What the page does with the scene. */
 export class Stage {
   readonly view: View;
   readonly assembly: Assembly;
-  readonly motion: Motion;
   readonly drawn: Drawn[];
   /** Models that are not static. */
   readonly models: string[];
@@ -32,6 +31,7 @@ export class Stage {
   constructor(
     host: HTMLElement,
     private readonly recording: Recording,
+    readonly motion: Motion,
   ) {
     useAssets(assetsOf(recording));
     const { scene } = recording.head;
@@ -52,8 +52,7 @@ export class Stage {
       grid.position.z = 0.002;
       this.view.scene.add(grid);
     }
-    this.motion = new Motion(recording);
-    this.drawn = drawings(recording, this.motion, this.assembly);
+    this.drawn = drawings(recording, motion, this.assembly);
     for (const one of this.drawn) this.view.scene.add(one.root);
     this.models = scene.models.filter((one) => !one.static).map((one) => one.name);
     new Pointer(this.view, 'rviz', {

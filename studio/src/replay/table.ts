@@ -1,4 +1,5 @@
 /** Topics as they were at a time. */
+import type { Motion } from './motion';
 import { lastBefore, type ColumnHead, type Recording, type TopicHead } from './unpacking';
 
 /** A field of a topic. */
@@ -15,7 +16,7 @@ export class Column {
     label: string,
   ) {
     this.name = label ? `${head.name} (${label})` : head.name;
-    this.isNumber = head.number !== undefined || head.step !== undefined;
+    this.isNumber = [head.number, head.step, head.values].some((one) => one !== undefined);
   }
 
   /** The title of its curve. */
@@ -26,9 +27,10 @@ export class Column {
   /** Its values, one for each row of the topic. */
   series(): Float64Array {
     if (this.values) return this.values;
-    const { number, low = 0, step = 1, at, gaps = [] } = this.head;
+    const { number, low = 0, step = 1, at, gaps = [], values } = this.head;
     const count = this.topic.times.length;
-    if (at) this.values = this.recording.integers(at).map((value) => low + value * step);
+    if (values) this.values = values;
+    else if (at) this.values = this.recording.integers(at).map((value) => low + value * step);
     else this.values = new Float64Array(count).fill(number ?? Number.NaN);
     for (const row of gaps) this.values[row] = Number.NaN;
     return this.values;
@@ -58,11 +60,11 @@ export class Topic {
   readonly times: Float64Array;
   readonly columns: Column[];
 
-  constructor(recording: Recording, head: TopicHead) {
+  constructor(recording: Recording, head: TopicHead, times?: Float64Array) {
     this.name = head.name;
     this.type = head.type;
     this.count = head.count;
-    this.times = recording.integers(head.times).map((value) => value * 1e-6);
+    this.times = times ?? recording.integers(head.times).map((value) => value * 1e-6);
     // What is in `position` is said by the same place of `name`.
     const labels = new Map(
       head.columns
@@ -79,6 +81,33 @@ export class Topic {
   rowAt(time_s: number): number {
     return lastBefore(this.times, time_s + 1e-9);
   }
+}
+
+/** Where each model is, as topics that nobody published. */
+export function modelTopics(recording: Recording, motion: Motion): Topic[] {
+  const { scene, frames } = recording.head;
+  const times = Float64Array.from({ length: frames.count }, (_, i) =>
+    Math.min(i * frames.period_s, frames.duration_s),
+  );
+  return scene.models
+    .filter((one) => !one.static && one.bodies.some((body) => motion.moves(body)))
+    .map((model) => {
+      const poses = [...times.keys()].map((frame) => motion.poseAt(model.bodies[0], frame));
+      const column = (name: string, of: (pose: number[]) => number): ColumnHead => ({
+        name,
+        values: Float64Array.from(poses, of),
+      });
+      const columns = [
+        column('x', (pose) => pose[0]),
+        column('y', (pose) => pose[1]),
+        column('z', (pose) => pose[2]),
+        column('yaw', ([, , , x, y, z, w]) =>
+          Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
+        ),
+      ];
+      const head = { name: model.name, type: 'pose in the world, m and rad', count: frames.count };
+      return new Topic(recording, { ...head, times: [0, 0, 0, 0, 0], columns }, times);
+    });
 }
 
 /** A number in few digits. */

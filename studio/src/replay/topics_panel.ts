@@ -1,7 +1,8 @@
 /** Topics with their values at the time, and curves of their numbers. */
 import { h, setText } from '../widgets/dom';
 import { curveColour, Plot } from './plot';
-import { Topic, type Column } from './table';
+import type { Motion } from './motion';
+import { modelTopics, Topic, type Column } from './table';
 import type { Recording } from './unpacking';
 
 const MOST_CURVES = 8;
@@ -27,19 +28,22 @@ export class TopicsPanel {
   private time_s = 0;
   private last = 0;
 
-  constructor(recording: Recording, seek: (time_s: number) => void) {
-    this.topics = recording.head.topics.map((one) => new Topic(recording, one));
+  constructor(recording: Recording, motion: Motion, seek: (time_s: number) => void) {
+    const models = modelTopics(recording, motion);
+    this.topics = [...recording.head.topics.map((one) => new Topic(recording, one)), ...models];
     this.plot = new Plot(recording.head.frames.duration_s, seek);
     this.element = h('div', { class: 'replay-topics' });
     if (!this.topics.length) {
-      this.element.append(h('p', { class: 'notice' }, 'No topics were recorded.'));
+      this.element.append(
+        h('p', { class: 'notice' }, 'Nothing moves, and no topics were recorded.'),
+      );
       return;
     }
     this.element.append(
       h('h2', {}, 'Curves'),
       this.plot.canvas,
       this.legend,
-      h('h2', {}, 'Topics'),
+      h('h2', {}, models.length < this.topics.length ? 'Topics and models' : 'Models'),
       ...this.topics.map((topic) => this.row(topic)),
     );
     this.choose(this.first());

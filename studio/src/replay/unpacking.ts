@@ -39,6 +39,8 @@ export interface ColumnHead {
   at?: Integers;
   /** Rows without a number. */
   gaps?: number[];
+  /** Worked out here in place of being told. */
+  values?: Float64Array;
 }
 
 export interface TopicHead {

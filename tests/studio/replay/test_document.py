@@ -184,7 +184,7 @@ def test_a_model_that_goes_is_there_for_its_time_only() -> None:
 
 def test_textures_become_small(tmp_path: Path) -> None:
     picture = tmp_path / "wood.png"
-    Image.effect_noise((1500, 900), 60).convert("RGB").save(picture)
+    Image.effect_noise((800, 480), 60).convert("RGB").save(picture)
     box = Visual("b", Box((1.0, 1.0, 1.0)), material=Material(texture=picture))
     whole = rolling(0.1)
     old = whole.stretches[0]
@@ -225,3 +225,40 @@ def test_equal_recordings_give_equal_pages_and_a_file_is_written_in_one_go(tmp_p
     assert [one.name for one in tmp_path.iterdir()] == ["run.html"]
     with pytest.raises(FileNotFoundError):
         write_html(rolling(0.1), tmp_path / "nowhere" / "run.html")
+
+
+def test_numbers_that_are_none_leave_out_what_they_are_of() -> None:
+    def broken(_t: float) -> dict[str, Any]:
+        return {**_scan(0.0), "angle_min": math.nan}
+
+    bad_map = {"header": {"frame_id": "map"}, "data": [0],
+               "info": {"width": 1, "height": 1, "resolution": math.nan}}  # fmt: skip
+    far = {"header": {"frame_id": "map"}, "poses": [{"pose": {"position": {"x": math.inf}}}] * 2}
+    topics = (
+        messages("/map", "nav_msgs/OccupancyGrid", 1.0, 1.0, lambda _t: bad_map),
+        messages("/number", "std_msgs/Float32", 1.0, 5.0,
+                 lambda t: {"data": math.nan if t == 0.2 else t}),
+        messages("/plan", "nav_msgs/Path", 1.0, 1.0, lambda _t: far),
+        messages("/scan", "sensor_msgs/LaserScan", 1.0, 5.0, broken),
+    )  # fmt: skip
+    whole = rolling(1.0, topics=topics)
+    whole.stretches[0].poses[10:20, 1] = np.nan
+    read = _Read(render_html(whole))
+    assert read.head["drawings"]["maps"] == read.head["drawings"]["scans"] == []
+    assert read.head["topics"][1]["columns"][0]["gaps"] == [1]
+    assert read.track("cart::body")["there"] == [[0, 5], [10, 26]]
+
+
+def test_large_maps_are_thinned_and_the_same_map_is_told_once() -> None:
+    grid = {
+        "header": {"frame_id": "map"},
+        "info": {"width": 2000, "height": 1500, "resolution": 0.05},
+    }
+    topic = messages("/map", "nav_msgs/OccupancyGrid", 3.0, 1.0, lambda _t: grid)
+    costs = messages("/local_costmap/costmap", "nav_msgs/OccupancyGrid", 1.0, 1.0, lambda _t: grid)
+    for message in (*topic.messages, *costs.messages):
+        message.data = np.zeros(3_000_000, np.int8)
+    read = _Read(render_html(rolling(3.0, topics=(costs, topic))))
+    (shown,) = read.head["drawings"]["maps"]
+    (version,) = shown["versions"]
+    assert (version["size"], version["resolution"]) == ([1000, 750], pytest.approx(0.1))

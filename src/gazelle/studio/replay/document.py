@@ -10,6 +10,7 @@ from pathlib import Path
 
 from gazelle._version import __version__
 from gazelle.recording import Recording
+from gazelle.recording.recording import robot_names
 from gazelle.studio.replay.drawings import drawings_head
 from gazelle.studio.replay.motion import motion_head
 from gazelle.studio.replay.packing import Pack, deflated_text
@@ -22,6 +23,7 @@ _POLICY = (
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
     "img-src data: blob:; base-uri 'none'; form-action 'none'"
 )
+_MOST_NAMES = 3
 _BOOT = """
 (async () => {
   const place = document.getElementById('replay');
@@ -71,10 +73,9 @@ def render_html(recording: Recording, *, title: str | None = None) -> str:
 
     Args:
         recording: what happened.
-        title: of the page; the world's name when None.
+        title: of the page; the robots' names when None.
     """
-    world = recording.stretches[-1].world
-    shown = title or world.name
+    shown = title or _usual_title(recording)
     pack = Pack()
     head = {
         "title": shown,
@@ -100,7 +101,7 @@ def write_html(
     Args:
         recording: what happened.
         path: where to.
-        title: of the page; the world's name when None.
+        title: of the page; the robots' names when None.
     """
     target = Path(path)
     text = render_html(recording, title=title)
@@ -111,6 +112,13 @@ def write_html(
     finally:
         draft.unlink(missing_ok=True)
     return target
+
+
+def _usual_title(recording: Recording) -> str:
+    """Return the robots' names, the world's where there are none or many."""
+    world = recording.stretches[-1].world
+    robots = robot_names(world)
+    return ", ".join(robots) if 0 < len(robots) <= _MOST_NAMES else world.name
 
 
 @lru_cache(maxsize=1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
@@ -11,8 +12,7 @@ from numpy.typing import NDArray
 
 from gazelle.geometry import IDENTITY_POSE, Pose
 from gazelle.graph.tf import TransformBuffer, TransformError
-from gazelle.interfaces.poses import pose_of, pose_of_transform
-from gazelle.interfaces.stamps import ns_of
+from gazelle.interfaces.poses import pose_of, pose_of_transform, unit_pose_of
 from gazelle.recording import Recording, TopicTrack
 from gazelle.sensors.scene_json import pose_value
 from gazelle.studio.replay.packing import Pack
@@ -27,10 +27,13 @@ _SCAN_GAP_NS = 95_000_000
 _RANGE_STEP_M = 0.01
 _MOST_BEAMS = 720
 _MOST_MAPS = 12
-_MOST_CELLS = 4_000_000
+_MOST_CELLS = 1_000_000
+# Costmaps lie over the map that they are made of.
+_COSTMAP = "costmap"
 _MOST_POINTS = 400
 _PATH_GAP_NS = 450_000_000
 _PATH_STEP_M = 0.005
+_FARTHEST_M = 1e6
 _LONGEST_NS = 10**15
 
 Values = dict[str, Any]
@@ -105,13 +108,14 @@ class _Frames:
             return 1_000_000
 
     def _fill(self, track: TopicTrack, *, is_static: bool) -> None:
-        for message in track.messages:
+        # When they came: clocks of bags and of what is in them may differ.
+        for time_ns, message in zip(track.times_ns.tolist(), track.messages, strict=True):
             for one in message.transforms:
                 with suppress(TransformError):
                     self._buffer.set_transform(
                         one.header.frame_id,
                         one.child_frame_id,
-                        ns_of(one.header.stamp),
+                        time_ns,
                         pose_of_transform(one.transform),
                         is_static=is_static,
                     )
@@ -136,12 +140,12 @@ def _scan(track: TopicTrack, recording: Recording, frames: _Frames, pack: Pack) 
     first = kept[0][1]
     mount = frames.mount(first.header.frame_id)
     count = len(first.ranges)
-    if mount is None or not count:
+    if mount is None or not count or not _are_finite(first.angle_min, first.angle_increment):
         return
     every = max(1, -(-count // _MOST_BEAMS))
     rows = [one for one in kept if len(one[1].ranges) == count]
     ranges = np.array([one.ranges for _, one in rows], np.float64)[:, ::every]
-    good = np.isfinite(ranges) & (ranges >= first.range_min) & (ranges < first.range_max)
+    good = (ranges < _FARTHEST_M) & (ranges >= first.range_min) & (ranges < first.range_max)
     steps = np.where(good, np.rint(np.where(good, ranges, 0.0) / _RANGE_STEP_M), 0.0)
     yield {
         "topic": track.name,
@@ -158,22 +162,31 @@ def _scan(track: TopicTrack, recording: Recording, frames: _Frames, pack: Pack) 
 
 
 def _map(track: TopicTrack, recording: Recording, frames: _Frames, pack: Pack) -> Iterator[Values]:
+    if _COSTMAP in track.name:
+        return
     span_ns = max(1, recording.end_ns - recording.start_ns)
-    versions, cells = [], 0
+    versions: list[Values] = []
+    last = None
     for time_ns, message in _thinned(track, span_ns // _MOST_MAPS):
         info = message.info
-        cells += info.width * info.height
         T_world_frame = frames.in_world(message.header.frame_id, time_ns)
-        if T_world_frame is None or cells > _MOST_CELLS or not info.width * info.height:
+        cells = np.asarray(message.data, np.int8).view(np.uint8)
+        is_whole = 0 < info.width * info.height == len(cells)
+        if T_world_frame is None or not is_whole or not _are_finite(info.resolution):
             continue
-        data = np.asarray(message.data, np.int8).view(np.uint8)
+        every = math.ceil(math.sqrt(len(cells) / _MOST_CELLS))
+        shown = cells.reshape(info.height, info.width)[::every, ::every]
+        pose = pose_value(T_world_frame @ unit_pose_of(info.origin))
+        if (shown.tobytes(), pose) == last or not _are_finite(*pose):
+            continue
+        last = (shown.tobytes(), pose)
         versions.append(
             {
                 "time_s": (time_ns - recording.start_ns) * 1e-9,
-                "size": [info.width, info.height],
-                "resolution": float(info.resolution),
-                "pose": pose_value(T_world_frame @ pose_of(info.origin)),
-                "cells": pack.raw(data.tobytes()),
+                "size": [shown.shape[1], shown.shape[0]],
+                "resolution": float(info.resolution) * every,
+                "pose": pose,
+                "cells": pack.raw(shown.tobytes()),
             }
         )
     if versions:
@@ -184,7 +197,7 @@ def _path(track: TopicTrack, recording: Recording, frames: _Frames, pack: Pack) 
     versions = []
     for time_ns, message in _thinned(track, _PATH_GAP_NS):
         T_world_frame = frames.in_world(message.header.frame_id, time_ns)
-        if T_world_frame is None:
+        if T_world_frame is None or not len(message.poses):
             continue
         points = _points(message)
         versions.append(
@@ -202,4 +215,10 @@ def _path(track: TopicTrack, recording: Recording, frames: _Frames, pack: Pack) 
 def _points(message: Any) -> NDArray[np.float64]:
     every = max(1, -(-len(message.poses) // _MOST_POINTS))
     chosen = [pose_of(one.pose).position_m for one in message.poses[::every]]
-    return np.array(chosen, np.float64).reshape(-1, 3)
+    points = np.array(chosen, np.float64).reshape(-1, 3)
+    return np.asarray(points[(np.abs(points) < _FARTHEST_M).all(axis=1)])
+
+
+def _are_finite(*numbers: float) -> bool:
+    """Messages may hold anything, and JSON no infinity."""
+    return all(math.isfinite(one) for one in numbers)

@@ -14,12 +14,12 @@ from gazelle.studio.replay.geometry import PackedAssets
 from gazelle.studio.replay.packing import Pack
 from gazelle.studio.scenes.shapes import page_scene
 
-__all__ = ["FRAME_RATE_HZ", "frame_times_ns", "motion_head"]
+__all__ = ["motion_head"]
 
-FRAME_RATE_HZ = 25
+_RATE_HZ = 25
 _PLACE_STEP_M = 1e-4
 _TURN_STEP = 1.0 / 16384.0
-_PERIOD_NS = 1_000_000_000 // FRAME_RATE_HZ
+_PERIOD_NS = 1_000_000_000 // _RATE_HZ
 
 Values = dict[str, Any]
 
@@ -29,7 +29,7 @@ class _Body(NamedTuple):
     model: Values
 
 
-def frame_times_ns(recording: Recording) -> NDArray[np.int64]:
+def _frame_times_ns(recording: Recording) -> NDArray[np.int64]:
     """Return the simulated times of the frames: 25 per second, and the end."""
     times = np.arange(recording.start_ns, recording.end_ns, _PERIOD_NS)
     return np.append(times, recording.end_ns).astype(np.int64)
@@ -38,7 +38,7 @@ def frame_times_ns(recording: Recording) -> NDArray[np.int64]:
 def motion_head(recording: Recording, pack: Pack) -> Values:
     """Return scene, meshes, textures and tracks; arrays go into the pack."""
     assets = PackedAssets(pack)
-    times = frame_times_ns(recording)
+    times = _frame_times_ns(recording)
     starts = [int(one.times_ns[0]) for one in recording.stretches]
     owner = np.maximum(np.searchsorted(starts, times, "right") - 1, 0)
     bodies: dict[str, _Body] = {}
@@ -107,7 +107,7 @@ def _scene(last: Values, bodies: list[_Body]) -> Values:
 
 def _track(poses: NDArray[np.float64], pack: Pack) -> Values:
     """Return where a body is: one pose, or whole numbers for each frame, and when it is there."""
-    there = np.isfinite(poses[:, 0])
+    there = np.asarray(np.isfinite(poses).all(axis=1))
     filled = _filled(poses, there)
     places = np.rint(filled[:, :3] / _PLACE_STEP_M).astype(np.int64)
     turns = np.rint(_continuous(filled[:, 3:]) / _TURN_STEP).astype(np.int64)

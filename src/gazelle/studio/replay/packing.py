@@ -42,7 +42,7 @@ class Pack:
             order: of the differences, 1 or 2.
         """
         table = np.asarray(values, np.int64)
-        table = table.reshape(len(table), -1) if table.ndim > 1 else table.reshape(-1, 1)
+        table = table if table.ndim > 1 else table.reshape(-1, 1)
         place = self.raw(packed_integers(table, order))
         return [*place, *table.shape, order]
 
