@@ -30,6 +30,10 @@ __all__ = ["main"]
 _LOOK_S = 0.1
 _LAST_LINES = 30
 _FAILED = ("[ERROR]", "[FATAL]", "Traceback", "error:")
+# What is compiled once may take minutes, and nobody should wait without knowing for what.
+_COMPILING = "compiling what "
+# Panels that complain of topics that are not there yet.
+_LATE = frozenset({"rqt_plot"})
 # After SIGINT, then after SIGTERM; a launch gives its nodes most of that.
 _STOP_S, _KILL_S = 20.0, 3.0
 _CLOCK = "/clock"
@@ -112,7 +116,7 @@ def _run(demo: Demo, options: argparse.Namespace) -> int:
             with _page(graph) as server:
                 if server is not None:
                     print(f"  page:     {server.url}", flush=True)
-                    _show(server, demo, demo.panels[:1])
+                    _show(server, demo, [one for one in demo.panels if one.kind not in _LATE])
                 try:
                     if _waited(demo, graph, show, stop):
                         _begin(demo, server, began, with_browser=options.browser)
@@ -169,12 +173,12 @@ def _waited(demo: Demo, graph: Graph, show: _Processes, stop: threading.Event) -
 
 
 def _begin(demo: Demo, server: Server | None, began: float, *, with_browser: bool) -> None:
-    """Show the rest, whose topics are there now, and say what to do."""
+    """Show the panels whose topics are there now, and say what to do."""
     from gazelle.studio.windows.page_owner import open_browser
 
     print(f"  there after {time.monotonic() - began:.1f} s", flush=True)
     if server is not None:
-        _show(server, demo, demo.panels[1:])
+        _show(server, demo, [one for one in demo.panels if one.kind in _LATE])
         if with_browser:
             open_browser(server.url)
     steps = [
@@ -259,6 +263,9 @@ class _Processes:
         for line in lines:
             text = line.rstrip("\n")
             self._last.append(text)
+            _, is_compiling, for_what = text.partition(_COMPILING)
+            if is_compiling:
+                print(f"  {_COMPILING}{for_what}", flush=True)
             if not self._is_ending and any(sign in text for sign in _FAILED):
                 print(text, file=sys.stderr, flush=True)
 

@@ -99,4 +99,7 @@ def _usage() -> str:
     width = max(map(len, COMMANDS)) + 2
     lines = ["usage: gazelle COMMAND …", "", "commands:"]
     lines += [f"  {name:<{width}}{command.help}" for name, command in COMMANDS.items()]
-    return "\n".join([*lines, "", 'eval "$(gazelle env)" makes the ROS-named ones available.'])
+    env = 'eval "$(gazelle env)" makes the ROS-named ones available.'
+    return "\n".join(
+        [*lines, "", "New here? 'gazelle demo scout' shows a robot in its world.", env]
+    )

@@ -8,6 +8,8 @@ from gazelle.errors import NotFoundError
 
 __all__ = ["DEMOS", "find_demo"]
 
+# The robot is the model after the ground.
+_ROLLED_TO = "/gazebo/model_states/pose[1]/position/x"
 _KEYS_ROS1 = "gazelle rosrun teleop_twist_keyboard teleop_twist_keyboard.py"
 _KEYS_ROS2 = "gazelle ros2 run teleop_twist_keyboard teleop_twist_keyboard"
 
@@ -68,7 +70,7 @@ DEMOS: tuple[Demo, ...] = (
             Step("draw a map while it drives", "gazelle roslaunch scout_robot map.launch"),
         ),
         panels=(
-            _world(3.4, focal_m=(0.5, 0.0, 0.1)),
+            _world(4.4, focal_m=(0.5, 0.0, 0.1), pitch_rad=0.6),
             Panel("rqt_image_view", {"topic": "/camera/rgb/image_raw"}),
         ),
     ),
@@ -279,6 +281,6 @@ DEMOS: tuple[Demo, ...] = (
             Step("change the gains while it runs", "gazelle rqt_reconfigure"),
         ),
         programs=(("rosrun", "tandem_controller", "there_and_back.py"),),
-        panels=(_world(2.2), Panel("rqt_plot", {"curves": ["/tandem_controller/command/data", "/gazebo/model_states/pose[1]/position/x"]})),
+        panels=(_world(2.2), Panel("rqt_plot", {"curves": [_ROLLED_TO]})),
     ),
 )

@@ -155,6 +155,31 @@ def test_the_frame_of_the_map_is_there_before_the_engine_is_compiled(
         waited.set()
 
 
+def test_its_use_sim_time_counts_before_there_is_a_simulator(
+    bench: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    waited = threading.Event()
+    monkeypatch.setattr("gazelle.nodes.slam.node.warm_up", lambda _tell: waited.wait())
+    sent = bench.listen("/tf", "tf2_msgs/msg/TFMessage")
+    clock = bench.node.create_publisher("/clock", "rosgraph_msgs/msg/Clock")
+    seconds = itertools.count(1)
+
+    def is_told() -> bool:
+        message = message_type("rosgraph_msgs/msg/Clock")()
+        message.clock.sec = next(seconds)
+        clock.publish(message)
+        return bool(sent)
+
+    bench.start("slam_toolbox/async_slam_toolbox_node", *TOOLBOX, "_use_sim_time:=true")
+    try:
+        bench.eventually(lambda: bench.graph.clock.use_sim_time)
+        bench.eventually(is_told)
+    finally:
+        waited.set()
+    last = next(seconds)
+    assert all(one.header.stamp.sec <= last for message in sent for one in message.transforms)
+
+
 def test_dynamic_map_and_metadata_tell_the_same_map(bench: Any, robot: Robot) -> None:
     about = bench.listen("/map_metadata", "nav_msgs/msg/MapMetaData")
     bench.start("gmapping/slam_gmapping", *FAST)

@@ -35,15 +35,12 @@ def generate_launch_description():
                 output="screen",
             ),
             included(
-                "slam_toolbox",
-                "online_async_launch.py",
-                use_sim_time="true",
-                slam_params_file=os.path.join(share, "config", "slam.yaml"),
-            ),
-            included(
                 "nav2_bringup",
-                "navigation_launch.py",
-                use_sim_time="true",
+                "bringup_launch.py",
+                slam="True",
+                map="",
+                use_sim_time="True",
+                use_composition="True",
                 params_file=os.path.join(share, "config", "navigation.yaml"),
             ),
             Node(
