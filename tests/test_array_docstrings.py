@@ -28,6 +28,7 @@ DONE = (
     "navigation",
     "nodes",
     "noise",
+    "notebook",
     "sensors",
     "simulator",
     "studio",

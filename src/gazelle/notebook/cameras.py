@@ -41,7 +41,7 @@ def picture_bundle(picture: Picture) -> Bundle:
 
 
 def pixels_bundle(pixels: NDArray[np.uint8], caption: str, *, is_crisp: bool = False) -> Bundle:
-    """Return pixels as a notebook shows them."""
+    """Return pixels, grey (H, W) or coloured (H, W, 3), as a notebook shows them."""
     data = png_of(pixels, is_crisp=is_crisp)
     return {
         "text/html": figure(picture_tag(data, caption), caption),
@@ -50,7 +50,7 @@ def pixels_bundle(pixels: NDArray[np.uint8], caption: str, *, is_crisp: bool = F
 
 
 def depth_pixels(depth_m: NDArray[Any]) -> NDArray[np.uint8]:
-    """Return depth in colours, near is red; dark grey where nothing was met."""
+    """Return depth (H, W) in colours (H, W, 3): near is red, what met nothing dark grey."""
     measured = np.isfinite(depth_m) & (depth_m > 0)
     pixels = colormap("jet")[255 - gray_levels(np.where(measured, depth_m, np.nan))]
     pixels[~measured] = _NOTHING_MET
