@@ -7,7 +7,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostic, Severity, SourceSpan, launch_journal, render
 from gazelle.diagnostics.launch_journal import VARIABLE, begin, end, journals, keep_error, read
-from gazelle.diagnostics.render import Excerpt
+from gazelle.diagnostics.source_lines import Excerpt
 
 
 @pytest.fixture(autouse=True)

@@ -3,7 +3,8 @@ from __future__ import annotations
 import io
 
 from gazelle.diagnostics import Diagnostic, Severity, SourceSpan, render, render_text
-from gazelle.diagnostics.render import SourceLines, styled
+from gazelle.diagnostics.render import styled
+from gazelle.diagnostics.source_lines import SourceLines
 
 
 def finding(span: SourceSpan | None = None, fix: str = "", phrase: str = "") -> Diagnostic:

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, TextIO
 from gazelle.cli.doctor.report_tables import table_lines, table_title
 from gazelle.diagnostics import Diagnostic, Severity, SourceSpan
 from gazelle.diagnostics.collection import grouped, groups
-from gazelle.diagnostics.render import SourceLines, styled
+from gazelle.diagnostics.render import styled
+from gazelle.diagnostics.source_lines import SourceLines
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -12,7 +12,7 @@ from typing import TypedDict
 from gazelle.diagnostics.catalogue import Entry, all_entries
 from gazelle.diagnostics.documentation import entry_address, pages_address
 from gazelle.diagnostics.launch_journal import Journal, Told, journals, read
-from gazelle.diagnostics.render import Excerpt
+from gazelle.diagnostics.source_lines import Excerpt
 from gazelle.studio.request_params import Params
 from gazelle.studio.streams import Channel, OpenStream, every
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, TypedDict
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, Severity, SourceSpan, grouped
 from gazelle.diagnostics.launch_journal import Told
-from gazelle.diagnostics.render import SourceLines, excerpt
+from gazelle.diagnostics.source_lines import SourceLines, excerpt
 from gazelle.errors import GazelleError, UserFileError
 from gazelle.studio.errors import StudioError
 from gazelle.studio.launches.findings import LaunchFinding, finding_values
