@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import secrets
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -96,7 +95,7 @@ def begin(words: Sequence[str], port: int) -> Path | None:
     try:
         folder = _folder()
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        name = f"{int(now_s * 1e6):016d}-{os.getpid()}-{secrets.token_hex(2)}{_SUFFIX}"
+        name = f"{int(now_s * 1e6):016d}-{os.getpid()}-{os.urandom(2).hex()}{_SUFFIX}"
         path = folder / name
         _append(path, {"launch": first}, is_new=True)
         for old in _files(folder)[_MOST_JOURNALS:]:

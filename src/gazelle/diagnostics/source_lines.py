@@ -1,13 +1,12 @@
-"""The lines of files that findings are about, and what of them is shown."""
+"""The lines of users' files that findings are about, and what is shown of them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from gazelle.diagnostics.diagnostic import SourceSpan
+from gazelle.diagnostics.diagnostic import SourceSpan
 
 __all__ = ["Excerpt", "SourceLines", "excerpt"]
 
