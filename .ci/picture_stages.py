@@ -121,6 +121,10 @@ def _fill(label: str, *texts: str) -> Callable[[Any], None]:
     return act
 
 
+def _choose(label: str, option: str) -> Callable[[Any], None]:
+    return lambda page: page.get_by_label(label, exact=True).first.select_option(option)
+
+
 def _wait(seconds: float) -> Callable[[Any], None]:
     return lambda page: page.wait_for_timeout(seconds * 1000)
 
@@ -223,7 +227,12 @@ _ARM = _demo(
             ("ros2 run heron_bringup pick_and_place", ""),
         ),
     ),
-    Shot("motion_planning", ("rviz", "motion_planning"), act=_steps(_wait(4), _press("Plan"))),
+    Shot(
+        "motion_planning",
+        ("rviz", "motion_planning"),
+        act=_steps(_wait(4), _choose("Goal state", "up"), _wait(1), _press("Plan")),
+        wait_s=6.0,
+    ),
     _panel("joints", "joint_state_publisher_gui", size=(520, 480)),
     until_s=9.0,
     zoom=3,

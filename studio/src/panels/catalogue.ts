@@ -333,6 +333,12 @@ const OTHERS: readonly PanelKind[] = [
     group: 'Robot Tools',
     aliases: ['setup_assistant'],
     about: 'Makes a MoveIt config package for a robot',
+    help: {
+      what: "MoveIt's Setup Assistant: a config package for a robot that has only a URDF.",
+      first: 'Load a robot, look at what each step suggests, and write the package in the last one.',
+      keys: [['Up, Down', 'The step before, the next one']],
+      docs: 'howto/setup_assistant/',
+    },
     make: async (connection, host) =>
       new (await import('../setup_assistant/panel')).SetupAssistantPanel(connection, host),
   },
