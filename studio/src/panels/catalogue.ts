@@ -335,7 +335,8 @@ const OTHERS: readonly PanelKind[] = [
     about: 'Makes a MoveIt config package for a robot',
     help: {
       what: "MoveIt's Setup Assistant: a config package for a robot that has only a URDF.",
-      first: 'Load a robot, look at what each step suggests, and write the package in the last one.',
+      first:
+        'Load a robot, look at what each step suggests, and write the package in the last one.',
       keys: [['Up, Down', 'The step before, the next one']],
       docs: 'howto/setup_assistant/',
     },
