@@ -113,7 +113,9 @@ def lowest_pins(project: dict[str, Any]) -> list[str]:
     for group in (project["dependencies"], *project["optional-dependencies"].values()):
         for requirement in group:
             words, _, marker = requirement.partition(";")
-            if bound := re.fullmatch(r"\s*([\w.-]+)\s*>=\s*([\w.]+)(?:\s*,.*)?\s*", words):
+            if bound := re.fullmatch(
+                r"\s*([\w.-]+)(?:\[[\w,-]+\])?\s*>=\s*([\w.]+)(?:\s*,.*)?\s*", words
+            ):
                 pins.add(f"{bound[1]}=={bound[2]}" + (f"; {marker.strip()}" if marker else ""))
     return sorted(pins)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import tomllib
 from pathlib import Path
@@ -42,7 +43,7 @@ def test_lower_bounds_become_pins(every_python: ModuleType) -> None:
 
 def test_every_requirement_has_a_lower_bound_of_its_own(every_python: ModuleType) -> None:
     groups = [PROJECT["dependencies"], *PROJECT["optional-dependencies"].values()]
-    named = {requirement.partition(">=")[0] for group in groups for requirement in group}
+    named = {re.split(r"\[|>=", requirement)[0] for group in groups for requirement in group}
     assert {pin.partition("==")[0] for pin in every_python.lowest_pins(PROJECT)} == named
 
 

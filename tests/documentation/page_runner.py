@@ -47,6 +47,11 @@ class Took(NamedTuple):
     wall_s: float
 
 
+def _hear_ctrl_c() -> None:
+    """As in a terminal: what is started in the background of a script would not hear it."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class _Terminal:
     """A command that runs on, and what it has printed."""
 
@@ -212,6 +217,7 @@ class _Session:
             text=True,
             errors="replace",
             start_new_session=True,
+            preexec_fn=_hear_ctrl_c,
         )
         terminal = _Terminal(command, process)
         self._terminals.append(terminal)

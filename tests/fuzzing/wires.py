@@ -182,7 +182,7 @@ def _studio(folder: Path) -> Studio:
     """Return what a page talks to, without a graph."""
     clock = _Nobody(leave=lambda _node: None, follow=lambda _node: None)
     node = _Nobody(clock=clock, graph=_Nobody(), shutdown=lambda _reason: None)
-    graph = _Nobody(create_node=lambda _name, **_options: node)
+    graph = _Nobody(create_node=lambda _name, **_options: node, port=0)
     studio = Studio(cast(Any, graph), folder)
     studio.pages = cast(
         Any, SimpleNamespace(hello=list, enter=lambda _page: None, leave=lambda _page: None)

@@ -159,7 +159,7 @@ def test_its_use_sim_time_counts_before_there_is_a_simulator(
     bench: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     waited = threading.Event()
-    monkeypatch.setattr("gazelle.nodes.slam.node.warm_up", lambda _tell: waited.wait())
+    monkeypatch.setattr("gazelle.nodes.slam.node.warm_up", waited.wait)
     sent = bench.listen("/tf", "tf2_msgs/msg/TFMessage")
     clock = bench.node.create_publisher("/clock", "rosgraph_msgs/msg/Clock")
     seconds = itertools.count(1)

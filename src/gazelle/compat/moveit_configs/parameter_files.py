@@ -72,11 +72,17 @@ def rendered(text: str, mappings: Mapping[str, Any], file: str) -> str:
     if not any(mark in text for mark in ("{{", "{%", "{#")):
         return text
     try:
-        template: Any = import_module("jinja2").Template(text)
+        jinja2: Any = import_module("jinja2")
     except ImportError:
         return _rendered_without_jinja(text, mappings, file)
-    template.globals.update(_FUNCTIONS)
-    return str(template.render(mappings))
+    try:
+        template = jinja2.Template(text)
+        template.globals.update(_FUNCTIONS)
+        return str(template.render(mappings))
+    except RecursionError as error:
+        raise LaunchError(
+            f"{file}: what stands in double braces cannot be worked out: it is nested too deeply"
+        ) from error
 
 
 class ParameterBuilderFileNotFoundError(KeyError):

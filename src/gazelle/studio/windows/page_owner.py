@@ -86,7 +86,11 @@ def present(node: Node, request: Request, stop: threading.Event, say: _SAY) -> N
     while not stop.is_set():
         if node.graph.has_service(SERVICE):
             asked = asked or _ask(node, request, say)
-            wait_while_served(node.graph, stop)
+            if asked:
+                wait_while_served(node.graph, stop)
+            else:
+                # Who served it has just gone; somebody else may serve it by now.
+                stop.wait(_LOOK_S)
             continue
         try:
             _serve(node.graph, None if asked else request, stop, say)
