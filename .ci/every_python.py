@@ -107,6 +107,9 @@ def runs_of(found: dict[Version, str], *, lowest: bool, others: bool) -> list[Ru
     return newest + low
 
 
+_AT_LEAST = re.compile(r"\s*([\w.-]+)(?:\[[\w,-]+\])?\s*>=\s*([\w.]+)(?:\s*,.*)?\s*")
+
+
 def lowest_pins(project: dict[str, Any]) -> list[str]:
     """Return the lower bounds of all requirements, as pins for pip's ``--constraint``."""
     pins = set()

@@ -217,7 +217,7 @@ class _Session:
             text=True,
             errors="replace",
             start_new_session=True,
-            preexec_fn=_hear_ctrl_c,
+            preexec_fn=_hear_ctrl_c,  # noqa: PLW1509 - it takes no lock
         )
         terminal = _Terminal(command, process)
         self._terminals.append(terminal)
