@@ -99,7 +99,8 @@ def present(node: Node, request: Request, stop: threading.Event, say: _SAY) -> N
             if not node.graph.wait_for_service(SERVICE, _ANSWER_S) and not stop.is_set():
                 say(str(error))
                 stop.wait()
-        asked = True
+        else:
+            asked = True
 
 
 def address_of_page(node: Node) -> str | None:
