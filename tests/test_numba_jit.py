@@ -344,3 +344,27 @@ def test_a_kernel_is_compiled_anew_where_a_record_of_it_has_another_name(
             (tmp_path / "reader.py").write_text(_READER.replace("Pair", name), encoding="utf-8")
         seen.append(start("import reader").communicate(timeout=stretched())[0].strip())
     assert seen == ["1.0 0", "1.0 1", "1.0 0"]
+
+
+def test_compiling_leaves_the_streams_of_other_threads_alone() -> None:
+    pytest.importorskip("colorama", reason="numba touches the streams only where it is installed")
+    program = (
+        "import sys, types, numba\n"
+        "from gazelle.numba_jit import njit\n"
+        "class Watched(types.ModuleType):\n"
+        "    def __setattr__(self, name, value):\n"
+        "        if name in ('stdout', 'stderr'): print('set', name)\n"
+        "        super().__setattr__(name, value)\n"
+        "sys.__class__ = Watched\n"
+        "@njit()\n"
+        "def wrong(x):\n"
+        "    return x.nothing_of_this_name\n"
+        "try:\n"
+        "    wrong(1.0)\n"
+        "except numba.TypingError as error:\n"
+        "    print('nothing_of_this_name' in str(error))\n"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", program], check=False, capture_output=True, text=True
+    )
+    assert (run.stdout, run.stderr) == ("True\n", "")

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numba
 from numba import types
-from numba.core import sigutils
+from numba.core import config, errors, sigutils
 from numba.core.compiler_lock import global_compiler_lock
 
 from gazelle import kernel_links
@@ -33,6 +33,17 @@ _MAX_WAIT_S = 60.0
 
 _LOOK_EVERY_S = 0.02
 _PATIENCE_S = 1.0
+
+
+def _as_it_is(_scheme: object, msg: str, *_colour: object) -> str:
+    return msg
+
+
+# Where colorama is installed, numba puts other streams for `sys.stdout` and `sys.stderr` at each
+# word of each complaint, of which compiling makes thousands and drops them, and puts back what it
+# found: a thread that compiles would take what another one has set meanwhile.
+if config.COLOR_SCHEME == "no_color" and hasattr(errors, "HighlightColorScheme"):
+    errors.HighlightColorScheme._markup = _as_it_is
 
 _held: set[Path] = set()
 _kernels: list[Any] = []
