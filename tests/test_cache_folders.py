@@ -107,11 +107,12 @@ def test_a_folder_that_a_variable_names_is_left_as_it_is(tmp_path: Path, told: l
     folder = tmp_path / "shared"
     folder.mkdir()
     folder.chmod(0o777)
-    assert own_folder(folder, "NUMBA_CACHE_DIR") is None
+    assert own_folder(folder, "GAZELLE_KERNEL_CACHE") is None
     assert folder.stat().st_mode & 0o777 == 0o777
     assert told == [
-        f"cannot use '{folder}', which NUMBA_CACHE_DIR names: others may write to it, who could "
-        f"put code there\n  fix: chmod go-w '{folder}', or let NUMBA_CACHE_DIR name another folder"
+        f"cannot use '{folder}', which GAZELLE_KERNEL_CACHE names: others may write to it, who "
+        f"could put code there\n"
+        f"  fix: chmod go-w '{folder}', or let GAZELLE_KERNEL_CACHE name another folder"
     ]
 
 

@@ -7,12 +7,12 @@ Numba compiles `heapq` on lists of tuples for much longer.
 
 from __future__ import annotations
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = ["sift_down", "sift_up"]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def sift_up(keys, items, k):
     """Let what was put at the end of a heap, place k, rise."""
     key, item = keys[k], items[k]
@@ -25,7 +25,7 @@ def sift_up(keys, items, k):
     keys[k], items[k] = key, item
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def sift_down(keys, items, count):
     """Put the last of a heap at the top and let it sink; `count` is without it."""
     key, item = keys[count], items[count]

@@ -92,7 +92,7 @@ def test_unknown_topic_is_exit_code_1(graph: Graph) -> None:
 
 
 def test_commands_start_without_the_heavy_modules(graph: Graph) -> None:
-    heavy = ("embreex", "mujoco", "numba", "rich", "scipy")
+    heavy = ("embreex", "llvmlite", "mujoco", "rich", "scipy")
     text = (
         "import sys; from gazelle.cli.main import main; "
         "code = main(['rostopic', 'list']); "

@@ -45,8 +45,6 @@ def archive(tmp_path: Path) -> Path:
     return path
 
 
-# Most of it is numba's, where nothing is compiled yet.
-@pytest.mark.slow(22)
 def test_a_log_becomes_map_and_trajectory(
     archive: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -11,18 +11,10 @@ from tests.patience import stretched
 
 _ROOT = Path(__file__).parents[2]
 _WATCHED = """
-from numba.core import event
+from gazelle.kernels import compiling
 
 compiled = []
-
-class Watch(event.Listener):
-    def on_start(self, event):
-        compiled.append((event.data["dispatcher"].py_func.__qualname__, event.data["args"]))
-
-    def on_end(self, event):
-        pass
-
-with event.install_listener("numba:compile", Watch()):
+with compiling(lambda source, seconds: compiled.append(source.name)):
     run()
 assert not compiled, compiled
 """

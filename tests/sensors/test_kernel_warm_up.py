@@ -10,19 +10,19 @@ from pathlib import Path
 from gazelle.sensors import warm_up
 
 CODE = "from gazelle.sensors import warm_up; warm_up(print)"
-# One kernel of two lines in place of the cameras', which take many seconds.
+# One kernel of two lines in place of the cameras'.
 SMALL_CODE = """
-from gazelle import numba_jit
+from gazelle.kernels import AREAS, dispatch
 from gazelle.sensors import kernel_warm_up
-numba_jit.area_of = lambda module: numba_jit.AREAS[0]
+dispatch.area_of = lambda module: AREAS[0]
 from small import twice
 kernel_warm_up._exercise = lambda: twice(2)
 kernel_warm_up.warm_up(print)
 """
 SMALL_KERNEL = """
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
-@njit(cache=True)
+@kernel
 def twice(x):
     return 2 * x
 """
@@ -42,13 +42,13 @@ def _run(code: str, folder: Path, **environ: str) -> list[str]:
 
 def test_compiling_is_told_the_first_time_only(tmp_path: Path) -> None:
     (tmp_path / "small.py").write_text(SMALL_KERNEL, encoding="utf-8")
-    started, ended = _run(SMALL_CODE, tmp_path, NUMBA_CACHE_DIR=str(tmp_path))
+    started, ended = _run(SMALL_CODE, tmp_path, GAZELLE_KERNEL_CACHE=str(tmp_path))
     assert started == (
-        "compiling the kernels of cameras for this machine: up to 6 s of computing, once "
+        "compiling the kernels of cameras for this machine: up to 1 s of computing, once "
         "('gazelle warm' does it ahead)"
     )
     assert ended.startswith("camera kernels compiled in ")
-    assert _run(SMALL_CODE, tmp_path, NUMBA_CACHE_DIR=str(tmp_path)) == []
+    assert _run(SMALL_CODE, tmp_path, GAZELLE_KERNEL_CACHE=str(tmp_path)) == []
 
 
 def test_all_kernels_of_cameras_are_kept(tmp_path: Path) -> None:
@@ -60,7 +60,7 @@ def test_all_kernels_of_cameras_are_kept(tmp_path: Path) -> None:
 def test_sensors_import_without_heavy_modules() -> None:
     code = (
         "import sys, gazelle.sensors\n"
-        "heavy = {'numba', 'scipy', 'mujoco', 'PIL', 'rich'} & set(sys.modules)\n"
+        "heavy = {'llvmlite', 'scipy', 'mujoco', 'PIL', 'rich'} & set(sys.modules)\n"
         "assert not heavy, heavy\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -93,7 +93,7 @@ def _compile_all(jobs: int) -> _Found:
     from rich.console import Console
     from rich.progress import Progress
 
-    from gazelle.numba_jit import AREAS
+    from gazelle.kernels import AREAS
 
     found = _Found([], set(), [], [])
     areas = sorted(AREAS, key=lambda area: -area.compile_s)
@@ -154,31 +154,22 @@ def _follow(work: _Work, found: _Found, bar: Any, row: Any, running: threading.S
 
 def _compile(package: str) -> int:
     """Compile the kernels of one area in this process, and tell of each."""
-    from numba.core import event
-
-    from gazelle import numba_jit
     from gazelle.announcements import announce_by
-    from gazelle.kernel_cache import cache_folder_of
+    from gazelle.kernels import KernelSource, compiling, kernels
+    from gazelle.kernels.kept_code import folder_of
 
     announce_by(_only_faults)
 
-    class Told(event.Listener):  # type: ignore[misc]
-        """Tells of each kernel that was not kept."""
-
-        def on_start(self, event: Any) -> None:
-            """Nothing is compiled yet."""
-
-        def on_end(self, event: Any) -> None:
-            function = event.data["dispatcher"].py_func
-            if function.__module__.startswith("gazelle."):
-                print(f"{_COMPILED} {function.__module__}.{function.__qualname__}", flush=True)
+    def tell(source: KernelSource, _: float) -> None:
+        print(f"{_COMPILED} {source.name}", flush=True)
 
     warm_up = import_module(_WARM_UPS[package]).warm_up
-    print(f"total {len(numba_jit.kernels())}", flush=True)
-    with event.install_listener("numba:compile", Told()):
+    # Those whose names begin with an underscore are compiled with what calls them.
+    own = [one for one in kernels() if not one.source.function.__name__.startswith("_")]
+    print(f"total {len(own)}", flush=True)
+    with compiling(tell):
         warm_up()
-    files = {Path(kernel.py_func.__code__.co_filename) for kernel in numba_jit.kernels()}
-    for folder in sorted({str(cache_folder_of(file) or "") for file in files}):
+    for folder in sorted({str(folder_of(kernel.source) or "") for kernel in kernels()}):
         print(f"{_KEPT} {folder}", flush=True)
     return 0
 

@@ -63,12 +63,12 @@ class SweptMotions(NamedTuple):
     Attributes:
         lower: (n,) least that is allowed.
         upper: (n,) most that is allowed.
-        plain: all of the robot and its surroundings, see `sweep`.
+        surroundings: all of the robot and what is around it, a `SweepArguments`.
     """
 
     lower: FloatArray
     upper: FloatArray
-    plain: tuple[Any, ...]
+    surroundings: tuple[Any, ...]
 
 
 @runtime_checkable

@@ -2,8 +2,7 @@
 # ruff: noqa: ANN001, ANN201, ANN202
 """The compiled inner loop of the cameras.
 
-Importing this module imports numba; only cameras do. Machine code is cached beside the module
-(or where ``NUMBA_CACHE_DIR`` says), so that it is compiled once per machine.
+Importing this module loads Embree; only cameras do.
 
 Rays travel in packets of 16, one 4×4 tile of pixels each. All memory the kernel touches is passed
 in; it holds no Python object and releases the interpreter lock.
@@ -15,9 +14,8 @@ import math
 
 import llvmlite.binding
 import numpy as np
-from numba import types
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import External, kernel
 from gazelle.sensors.embree import library
 
 __all__ = [
@@ -29,9 +27,8 @@ __all__ = [
 
 # The symbols below are looked up by name when cached code is loaded.
 llvmlite.binding.load_library_permanently(str(library().path))
-_FOUR_ADDRESSES = types.void(types.intp, types.intp, types.intp, types.intp)
-_intersect16 = types.ExternalFunction("rtcIntersect16", _FOUR_ADDRESSES)
-_occluded16 = types.ExternalFunction("rtcOccluded16", _FOUR_ADDRESSES)
+_intersect16 = External("rtcIntersect16", 4)
+_occluded16 = External("rtcOccluded16", 4)
 
 SCRATCH_ROWS = 48
 """Rows of 16 words: 0–23 RTCRayHit16, 24–39 RTCRay16 of shadows, 40 and 41 their lanes."""
@@ -52,7 +49,7 @@ shadows (0 or 1)."""
 _LAYERS = 4
 """Transparent surfaces looked through per pixel."""
 
-_LOOSE = {"reassoc", "contract", "arcp", "afn", "nsz"}
+_LOOSE = "reassoc contract arcp afn nsz"
 """Fast mathematics that still knows infinity and NaN."""
 
 _ONE = np.float32(1.0)
@@ -60,7 +57,7 @@ _ZERO = np.float32(0.0)
 _HALF = np.float32(0.5)
 
 
-@njit(fastmath=_LOOSE, nogil=True, cache=True)
+@kernel(flags=_LOOSE)
 def _texel(texels, offset, width, height, u, v):
     """Bilinear look-up with wrapping; sides are powers of two, v points up."""
     x = u * width - _HALF
@@ -90,7 +87,7 @@ def _texel(texels, offset, width, height, u, v):
     )
 
 
-@njit(fastmath=_LOOSE, nogil=True, cache=True)
+@kernel(flags=_LOOSE)
 def render_rows(scene, rows, view, surfaces, lighting, packet, samples, output):
     """Draw some rows of a picture.
 
@@ -138,7 +135,7 @@ def render_rows(scene, rows, view, surfaces, lighting, packet, samples, output):
     lit = np.zeros((16, 3), np.float32)
     shine = np.zeros((16, 3), np.float32)
     normal = np.zeros((16, 3), np.float32)
-    view = np.zeros((16, 3), np.float32)
+    towards = np.zeros((16, 3), np.float32)
     point = np.zeros((16, 3), np.float32)
     to_light = np.zeros((16, 3), np.float32)
     strength = np.zeros(16, np.float32)
@@ -282,9 +279,9 @@ def render_rows(scene, rows, view, surfaces, lighting, packet, samples, output):
                         normal[j, 0] = nx
                         normal[j, 1] = ny
                         normal[j, 2] = nz
-                        view[j, 0] = -dx * inverse_length
-                        view[j, 1] = -dy * inverse_length
-                        view[j, 2] = -dz * inverse_length
+                        towards[j, 0] = -dx * inverse_length
+                        towards[j, 1] = -dy * inverse_length
+                        towards[j, 2] = -dz * inverse_length
                         # Off the surface, so that it does not shadow itself.
                         lift = np.float32(5e-4) + t * np.float32(2e-4)
                         point[j, 0] = camera[0] + dx * t + nx * lift
@@ -423,9 +420,9 @@ def render_rows(scene, rows, view, surfaces, lighting, packet, samples, output):
                                     * materials[m, 3 + c]
                                 )
                             if materials[m, 12] > 0:
-                                hx = lx + view[j, 0]
-                                hy = ly + view[j, 1]
-                                hz = lz + view[j, 2]
+                                hx = lx + towards[j, 0]
+                                hy = ly + towards[j, 1]
+                                hz = lz + towards[j, 2]
                                 half = (
                                     normal[j, 0] * hx + normal[j, 1] * hy + normal[j, 2] * hz
                                 ) / math.sqrt(hx * hx + hy * hy + hz * hz + np.float32(1e-9))

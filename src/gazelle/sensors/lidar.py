@@ -1,4 +1,4 @@
-"""Laser scanners: Gazebo's ``ray`` and ``gpu_ray`` sensors, without numba."""
+"""Laser scanners: Gazebo's ``ray`` and ``gpu_ray`` sensors, without kernels."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = ["Cloud", "DepthPicture", "fill_cloud", "mark_edges"]
 
@@ -40,7 +40,7 @@ class Cloud(NamedTuple):
     words: NDArray[np.uint32]
 
 
-@njit(nogil=True, cache=True)
+@kernel
 def mark_edges(rgb, tiles, first_row, last_row, threshold):
     """Mark the tiles with a step of colour inside or at their border."""
     height, width = rgb.shape[0], rgb.shape[1]
@@ -54,7 +54,7 @@ def mark_edges(rgb, tiles, first_row, last_row, threshold):
                     left = max(x - 1, 0)
                     above = max(y - 1, 0)
                     for c in range(3):
-                        # Signed: numba keeps bytes unsigned, and differences would wrap.
+                        # Signed: differences of bytes would wrap.
                         here = np.int32(rgb[y, x, c])
                         step = max(
                             abs(here - np.int32(rgb[y, right, c])),
@@ -67,7 +67,7 @@ def mark_edges(rgb, tiles, first_row, last_row, threshold):
             tiles[tile_y, tile_x] = edge
 
 
-@njit(nogil=True, cache=True)
+@kernel
 def fill_cloud(picture, lens, limits, first_row, last_row, cloud):
     """Write rows of an organised cloud.
 

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 from gazelle.priority_queue_kernels import sift_down, sift_up
 
 __all__ = ["shortest_ways"]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def shortest_ways(tails, heads, lengths, count, source):
     """Return the lengths of the shortest ways from one node to all, infinite where there is none.
 

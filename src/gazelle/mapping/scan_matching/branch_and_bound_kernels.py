@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = ["LEAF", "bound_search", "cells_of", "packed", "rounded_up", "sliding"]
 
@@ -45,7 +45,7 @@ class _Search(NamedTuple):
     sums: NDArray[np.int64]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def rounded_up(field, out):
     """Fill `out`, uint8, with 255 times a field's values, within [0, 1], rounded up."""
     for y in range(field.shape[0]):
@@ -54,7 +54,7 @@ def rounded_up(field, out):
             bytes_[x] = np.uint8(math.ceil(row[x] * np.float32(_FULL)))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def packed(bytes_, out):
     """Fill `out`, uint64, with each cell and the three to its right, the lowest bits first."""
     height, width = bytes_.shape
@@ -70,7 +70,7 @@ def packed(bytes_, out):
                 words[x] |= np.uint64(row[x + k]) << np.uint64(16 * k)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def sliding(level, step, out):
     """Fill `out` with the greatest of each cell and those `step` right, above and diagonal."""
     height, width = level.shape
@@ -87,7 +87,7 @@ def sliding(level, step, out):
             row[x] = max(higher[x], higher[width - 1])
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def cells_of(points, x, y, turns, cell, width):
     """Return in which cells points lie for every turn.
 
@@ -120,7 +120,7 @@ def cells_of(points, x, y, turns, cell, width):
     return cells, boxes
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _sum(values, cells, box, ix, iy, least, full):
     """Return the sum of shifted points' values; once `least` is out of reach, some lower one."""
     height, width = values.shape
@@ -148,7 +148,7 @@ def _sum(values, cells, box, ix, iy, least, full):
     return total
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _block_sums(words, cells, ix, iy, least, sums):
     """Fill `sums`, (4, 4), with the bounds of a block's shifts; tell if any may exceed `least`."""
     height, width = words.shape
@@ -179,7 +179,7 @@ def _block_sums(words, cells, ix, iy, least, sums):
     return True
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _best_of_block(search, turn, ox, oy, best):
     """Return the best shift of a smallest block, (sum, columns, rows), as far as it exceeds."""
     values, reach, done, sums = search.values, search.reach, search.done, search.sums
@@ -208,11 +208,11 @@ def _best_of_block(search, turn, ox, oy, best):
             best, best_x, best_y = worth, ox + b, oy + a
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _descending(bounds):
     """Return the order of bounds from the greatest on.
 
-    It is that of numba's ``argsort``, equal ones included, which takes seconds to compile.
+    Which of equal ones comes first is the same each time.
     """
     count = bounds.shape[0]
     order = np.arange(count)
@@ -242,7 +242,7 @@ def _descending(bounds):
     return order
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _divided(bounds, order, low, high):
     """Put what is greater than a middle one before it, the rest after it; return its place."""
     mid = (low + high) >> 1
@@ -269,7 +269,7 @@ def _divided(bounds, order, low, high):
     return i
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def bound_search(values, words, levels, cells, boxes, reach, done, least):
     """Branch and bound over turns and whole-cell shifts (Hess et al. 2016).
 

@@ -3,8 +3,7 @@
 """The compiled inner loops of scan matching.
 
 Cells are `match_arguments.FieldCells`. Points are float64 arrays (n, 2). Nothing here holds a
-Python object. Steps are written out: numba compiles expressions of whole arrays and `numpy.linalg`
-for seconds.
+Python object.
 
 Sums are float64 (n, 6): count, Σx, Σy, Σx², Σxy, Σy² of the points in a cell, seen from the middle
 of the grid, so that squares stay small. A grid of int32 says which row is a cell's; row 0, of empty
@@ -17,7 +16,7 @@ import math
 
 import numpy as np
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = [
     "accumulate",
@@ -33,7 +32,7 @@ __all__ = [
 ]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def placed(points, starts, poses, indices):
     """Return the points of some sets, each moved to its pose, (m, 2).
 
@@ -58,7 +57,7 @@ def placed(points, starts, poses, indices):
     return out
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def emptied(data, slope):
     """Set the sums, (3, 3) and (3,), to zero."""
     for i in range(3):
@@ -67,7 +66,7 @@ def emptied(data, slope):
             data[i, j] = 0.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def stepped(data, slope, weight, information, pose, prior, damping, step):
     """Fill `step` with that of Gauss-Newton (Levenberg-Marquardt) from a pose.
 
@@ -111,7 +110,7 @@ def stepped(data, slope, weight, information, pose, prior, damping, step):
     step[0] = step[0] / a - low * step[1] - last * step[2]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def accumulate(lines, points):
     """Add points, (n, 2), to the sums of their cells; return how many rows are in use.
 
@@ -145,7 +144,7 @@ def accumulate(lines, points):
     return used
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _line(places, sums, row, column, fewest, widest, out):
     """Fit a line to the points of 3 × 3 cells; out is its point and normal. Tells if it is one."""
     n = sx = sy = sxx = sxy = syy = 0.0
@@ -172,7 +171,7 @@ def _line(places, sums, row, column, fewest, widest, out):
     return True
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def refine_on_lines(walls, points, guess, prior, terms, iterations):
     """Minimise the distances of points from the lines around them, and from a prior.
 
@@ -248,7 +247,7 @@ def refine_on_lines(walls, points, guess, prior, terms, iterations):
     return pose, data, used
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def stamp(cells, points, kernels):
     """Raise the field around every point.
 
@@ -281,7 +280,7 @@ def stamp(cells, points, kernels):
                 flat[place] = value if value > old else old
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def pooled(field):
     """Return the field with cells twice as large, each the greatest of its four parts."""
     height, width = field.shape[0] // 2, field.shape[1] // 2
@@ -297,7 +296,7 @@ def pooled(field):
     return out
 
 
-@njit(cache=True, nogil=True, fastmath=True)
+@kernel(flags="fast")
 def best_in_window(cells, points, guess, window, toward):
     """Return the best pose on a lattice around a guess, as (x, y, yaw, mean value there).
 
@@ -348,7 +347,7 @@ def best_in_window(cells, points, guess, window, toward):
     return bx, by, bt, best_mean
 
 
-@njit(cache=True, nogil=True, fastmath=True)
+@kernel(flags="fast")
 def mean_value(cells, points, x, y, yaw):
     """Return the mean value of the field at points seen from a pose."""
     field, x0, y0, cell = cells.values, cells.x_m, cells.y_m, cells.cell_m
@@ -363,7 +362,7 @@ def mean_value(cells, points, x, y, yaw):
     return total / max(1, points.shape[0])
 
 
-@njit(cache=True, nogil=True, fastmath=True)
+@kernel(flags="fast")
 def refine(cells, points, guess, prior, weight, iterations):
     """Minimise ``weight Σ (1 − M)² + eᵀ Λ e`` by Gauss-Newton (Kohlbrecher et al. 2011).
 

@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = ["BeamCounts", "contradictions", "count_beams"]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def contradictions(counts, lidar, points, margin):
     """Count beams that end where others passed, or pass where others ended.
 
@@ -74,7 +74,7 @@ class BeamCounts(NamedTuple):
     cell_m: float
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def count_beams(counts, lidar, directions, ranges, limit):
     """Count for every cell the beams that ended in it, and those that reached it.
 

@@ -111,7 +111,7 @@ class CollisionChecker:
         """Return what kernels need to check motions, None where something overlaps for good."""
         if self._constant:
             return None
-        return SweptMotions(self._lower, self._upper, self._sweeper.arguments.plain)
+        return SweptMotions(self._lower, self._upper, self._sweeper.arguments)
 
     def why(self, q: FloatArray) -> str:
         """Return what forbids `q` (n,): joints outside their limits, pairs that collide."""

@@ -106,7 +106,7 @@ class Sweeper:
             np.zeros(_SCRATCH),
             np.empty(_MAX_DOUBTS),
         )
-        self._take(arguments)
+        self.arguments = arguments
         self.has_constant_neighbours = self._has_constant_neighbours()
         # Compiled or loaded here, and not in the time that somebody has for planning.
         own = arguments.group
@@ -126,7 +126,7 @@ class Sweeper:
             work=np.zeros(_SCRATCH),
             doubts=np.empty(_MAX_DOUBTS),
         )
-        other._take(copied)
+        other.arguments = copied
         return other
 
     def follow(self, scene: PlanningScene, bodies: Sequence[CollisionBody]) -> Sweeper:
@@ -141,7 +141,7 @@ class Sweeper:
             motions=_Reaches(scene, self._variables, bodies, frames.numbers).motions,
             solids=own.solids._replace(rotations=frames.R, positions_m=frames.p),
         )
-        other._take(followed)
+        other.arguments = followed
         other.has_constant_neighbours = other._has_constant_neighbours()
         return other
 
@@ -180,19 +180,16 @@ class Sweeper:
     def _swept(self, q0: FloatArray, way: FloatArray, step: float) -> tuple[Verdict, FloatArray]:
         q0 = np.ascontiguousarray(q0, dtype=np.float64)
         while True:
-            found, value = sweep(q0, way, step, self._plain)
+            found, value = sweep(q0, way, step, self.arguments)
             doubts = self.arguments.doubts
             if found != TOO_LONG:
                 break
-            self._take(self.arguments._replace(doubts=np.empty(2 * len(doubts))))
+            self.arguments = self.arguments._replace(doubts=np.empty(2 * len(doubts)))
         if found == FREE:
             return Verdict.FREE, doubts[:0]
         if found == COLLIDES:
             return Verdict.COLLIDES, doubts[:0]
         return Verdict.DOUBTFUL, doubts[: int(value)].copy()
-
-    def _take(self, arguments: SweepArguments) -> None:
-        self.arguments, self._plain = arguments, arguments.plain
 
     def _has_constant_neighbours(self) -> bool:
         """Return whether a pair that nothing moves apart is not known to be apart."""

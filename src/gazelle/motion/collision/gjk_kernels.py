@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = [
     "APART",
@@ -62,7 +62,7 @@ _DEEP_M = 5e-6
 """An overlap of less is left to MuJoCo, which stops its own search at a millionth of a metre."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _support(number, placed, x, y, z, out, at):
     """Write the point of a solid that is farthest in a direction of the robot's frame."""
     solids, kinds, vertices = placed.rows, placed.kinds, placed.vertices_m
@@ -75,10 +75,10 @@ def _support(number, placed, x, y, z, out, at):
     if kind == HULL:
         first = kinds[number, FIRST_VERTEX]
         best, farthest = first, -1e300
-        for i in range(first, first + kinds[number, VERTICES]):
-            reach = vertices[0, i] * u + vertices[1, i] * v + vertices[2, i] * w
+        for corner in range(first, first + kinds[number, VERTICES]):
+            reach = vertices[0, corner] * u + vertices[1, corner] * v + vertices[2, corner] * w
             if reach > farthest:
-                best, farthest = i, reach
+                best, farthest = corner, reach
         a, b, c = vertices[0, best], vertices[1, best], vertices[2, best]
     else:
         k = (
@@ -144,7 +144,7 @@ def _support(number, placed, x, y, z, out, at):
     out[at, 2] = R[frame, 2, 0] * a + R[frame, 2, 1] * b + R[frame, 2, 2] * c + p[frame, 2]
 
 
-@njit(cache=True, nogil=True, fastmath={"nnan", "nsz", "reassoc"})
+@kernel(flags="nnan nsz reassoc")
 def _farthest(vertices, first, last, u, v, w):
     """Return how far vertices reach in a direction; the machine looks at several at a time."""
     reach = -1e300
@@ -153,7 +153,7 @@ def _farthest(vertices, first, last, u, v, w):
     return reach
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _reach(number, placed, x, y, z):
     """Return how far a solid reaches in a direction of the robot's frame."""
     solids, kinds, vertices = placed.rows, placed.kinds, placed.vertices_m
@@ -206,7 +206,7 @@ def _reach(number, placed, x, y, z):
     return reach + math.sqrt(i * i + j * j + h * h)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def slab_m(one, other, placed, axis):
     """Return how thick the slab across `axis` is that lies between two solids."""
     solids, kinds = placed.rows, placed.kinds
@@ -221,12 +221,12 @@ def slab_m(one, other, placed, axis):
     return -near - far - larger
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _dot(W, i, j):
     return W[i, 0] * W[j, 0] + W[i, 1] * W[j, 1] + W[i, 2] * W[j, 2]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _on_triangle(W, a, b, c, weights):
     """Write the weights of the point of a triangle that is nearest to the origin.
 
@@ -267,7 +267,7 @@ def _on_triangle(W, a, b, c, weights):
     weights[0] = 1.0 - weights[1] - weights[2]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _height(W, a, b, c, d):
     """Return how far the origin lies on the side of d from the plane of a, b and c."""
     ux, uy, uz = W[b, 0] - W[a, 0], W[b, 1] - W[a, 1], W[b, 2] - W[a, 2]
@@ -281,7 +281,7 @@ def _height(W, a, b, c, d):
     return (own if far >= 0.0 else -own) / length
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _outward(W, v, work):
     """Find the side of a tetrahedron that is nearest to the origin in it.
 
@@ -308,7 +308,7 @@ def _outward(W, v, work):
     work[0, 3], work[1, 3], work[2, 3] = x / length, y / length, z / length
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _room(W):
     """Return how far the origin, in or near the first side, is from the others at least."""
     return min(
@@ -316,7 +316,7 @@ def _room(W):
     )
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _nearest(W, count, v, weights, best):
     """Write the point of a simplex nearest to the origin; keep only the corners it needs.
 
@@ -368,7 +368,7 @@ def _nearest(W, count, v, weights, best):
     return kept
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def separation(one, other, placed, enough, least, axis, work):
     """Say how two solids lie to each other.
 
@@ -464,7 +464,7 @@ def separation(one, other, placed, enough, least, axis, work):
     return UNKNOWN, clear
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def outside_m(points, corners):
     """Return how far points lie outside the hull of corners at most, 0 for those inside."""
     found = np.zeros(len(points))

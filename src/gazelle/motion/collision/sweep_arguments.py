@@ -153,8 +153,3 @@ class SweepArguments(NamedTuple):
     solids: PlacedSolids
     work: FloatArray
     doubts: FloatArray
-
-    @property
-    def plain(self) -> tuple[Any, ...]:
-        """The same as plain tuples: of records numba asks each field for its type in Python."""
-        return (*map(tuple, self[:5]), *self[5:])

@@ -16,6 +16,7 @@ import math
 
 import numpy as np
 
+from gazelle.kernels import kernel
 from gazelle.motion.collision.gjk_kernels import (
     APART,
     BOX_HALF,
@@ -26,17 +27,8 @@ from gazelle.motion.collision.gjk_kernels import (
     separation,
     slab_m,
 )
-from gazelle.motion.collision.sweep_arguments import (
-    PASSING,
-    Bodies,
-    Carried,
-    GroupVariables,
-    Motions,
-    PlacedSolids,
-)
-from gazelle.motion.kinematics.chain import LinkTree
+from gazelle.motion.collision.sweep_arguments import PASSING, Carried
 from gazelle.motion.kinematics.kernels import tree
-from gazelle.numba_jit import njit
 
 __all__ = ["COLLIDES", "FREE", "MAX_STEPS", "TOO_LONG", "UNDECIDED", "pair_clear", "sweep"]
 
@@ -54,7 +46,7 @@ _LOOK_EVERY = 0.4
 _MAX_LOOKS = 63
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _ball(number, placed, out, at):
     """Write the centre of a solid's ball in the robot's frame."""
     solids, kinds, R, p = placed.rows, placed.kinds, placed.rotations, placed.positions_m
@@ -64,7 +56,7 @@ def _ball(number, placed, out, at):
         out[at, k] = R[frame, k, 0] * x + R[frame, k, 1] * y + R[frame, k, 2] * z + p[frame, k]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _clear(one, other, placed, enough, passings, axis, work):
     """Return `separation` of two solids, their balls looked at first, and whether it is enough."""
     solids, passing = placed.rows, passings[0]
@@ -97,7 +89,7 @@ def _clear(one, other, placed, enough, passings, axis, work):
     return state, clear, state == APART and _is_enough(clear, enough, passings, axis)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _is_enough(clear, enough, passings, axis):
     """Tell whether two solids are so far apart across `axis` that they do not meet.
 
@@ -124,7 +116,7 @@ def _is_enough(clear, enough, passings, axis):
     return clear > abs(along) + around + passing.changed_m
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _box(body, members, placed, carried):
     """Write the box around a link or thing whose sides are along the robot's axes."""
     solids, kinds, R, p = placed.rows, placed.kinds, placed.rotations, placed.positions_m
@@ -143,7 +135,7 @@ def _box(body, members, placed, carried):
         ) + abs(z) * solids[number, BOX_HALF + 2]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def pair_clear(pair, bodies, placed, enough, few, passings, work):
     """Say how two links or things lie to each other, with the distance that is certain.
 
@@ -194,7 +186,7 @@ def pair_clear(pair, bodies, placed, enough, few, passings, work):
     return worst, least, are_enough
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _swap(passings):
     """Let the first be the second, and the other way round."""
     passing = passings[0]
@@ -205,12 +197,12 @@ def _swap(passings):
         centres[0, k], centres[1, k] = centres[1, k], centres[0, k]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _forget(work):
     work[9, 0], work[9, 1], work[9, 2] = 0.0, 0.0, 0.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _carried(way, motions, carried):
     """Write how far each joint turns on a way, rad, and how far it carries each link or thing.
 
@@ -232,7 +224,7 @@ def _carried(way, motions, carried):
             behind += own
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _axes(motions, placed, carried):
     """Write the axis of each joint that turns, and a point of it."""
     joints, joint_lines, lines = motions.joints, motions.lines, carried.lines
@@ -246,7 +238,7 @@ def _axes(motions, placed, carried):
             lines[j, 3 + k] = _along(R, link, k, joint_lines, j, 3) + p[link, k]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _carried_from(body, radius, half, joints, carried):
     """Write how far each joint carries a link or thing from where it is, m.
 
@@ -268,7 +260,7 @@ def _carried_from(body, radius, half, joints, carried):
         out[body, j] = most
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _pass(pair, half, bodies, motions, carried, passings):
     """Write how two links or things pass each other while joints turn.
 
@@ -318,7 +310,7 @@ def _pass(pair, half, bodies, motions, carried, passings):
     passing.changed_m = changed / 2.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _along(R, frame, k, lines, j, at):
     return (
         R[frame, k, 0] * lines[j, at]
@@ -327,7 +319,7 @@ def _along(R, frame, k, lines, j, at):
     )
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _to_the_front(pair, order):
     before = order[0]
     order[0] = pair
@@ -337,7 +329,7 @@ def _to_the_front(pair, order):
         before, order[place] = order[place], before
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _first_looks(length):
     """Return at how many states to look first: most motions that are not free show it there."""
     looks = 0
@@ -346,8 +338,8 @@ def _first_looks(length):
     return looks
 
 
-@njit(cache=True, nogil=True, is_called_by_address=True)
-def sweep(q0, way, step, plain):
+@kernel
+def sweep(q0, way, step, arguments):
     """Say whether a motion from `q0` along `way` is free; its beginning is not looked at.
 
     Where `way` is zero only the state is looked at.
@@ -356,13 +348,12 @@ def sweep(q0, way, step, plain):
         q0: configuration of the group.
         way: what is added to it.
         step: longest piece, in the configuration's norm, of which only the middle is looked at.
-        plain: all of the robot and its surroundings, `SweepArguments.plain`.
+        arguments: all of the robot and its surroundings, a `SweepArguments`.
 
     Returns:
         `FREE`; `COLLIDES` and where, 0 to 1; `UNDECIDED` and how many states are; or `TOO_LONG`.
     """
-    links, group, motions = LinkTree(*plain[0]), GroupVariables(*plain[1]), Motions(*plain[2])
-    bodies, placed, work, doubtful = Bodies(*plain[3]), PlacedSolids(*plain[4]), plain[5], plain[6]
+    links, group, motions, bodies, placed, work, doubtful = arguments
     positions, indices, followers = group.positions, group.indices, group.followers
     members, pairs, order = bodies.members, bodies.pairs, bodies.order
     n, count = len(q0), len(pairs)
@@ -376,7 +367,6 @@ def sweep(q0, way, step, plain):
         np.zeros((moved, moving)), np.empty((len(members), 3)), np.empty((len(members), 3)),
     )  # fmt: skip
     centres, halves_m, carried_m = carried.centres_m, carried.halves_m, carried.carried_m
-    # Records are places in their arrays, which numba keeps only as long as it needs the arrays.
     passings = np.zeros(1, PASSING)
     if length > 0.0:
         _carried(way, motions, carried)

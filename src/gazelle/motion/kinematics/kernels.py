@@ -2,9 +2,9 @@
 # ruff: noqa: ANN001, ANN201, ANN202
 """The compiled inner loops of kinematics: poses of links, Jacobians, damped least squares.
 
-Machine code is cached beside the module (or where ``NUMBA_CACHE_DIR`` says). A chain is a list of
-steps from the robot's frame to a tip; each step is a fixed transform followed by one elementary
-motion: 0 none, 1 a turn about an axis, 2 a slide along an axis, 3 a turn by a unit quaternion.
+A chain is a list of steps from the robot's frame to a tip; each step is a fixed transform followed
+by one elementary motion: 0 none, 1 a turn about an axis, 2 a slide along an axis, 3 a turn by a
+unit quaternion.
 
 The solver is the Levenberg-Marquardt method with the damping of T. Sugihara, "Solvability-
 unconcerned inverse kinematics by the Levenberg-Marquardt method" (IEEE T-RO 27, 2011): half the
@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = ["FIXED", "QUATERNION", "SLIDE", "TURN", "chain_jacobian", "chain_pose", "solve", "tree"]
 
@@ -32,7 +32,7 @@ _REFINE = 2
 _EXACT = 1e-9
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _turn(axis, angle, out):
     """Rodrigues' formula for a unit axis."""
     s, c = math.sin(angle), math.cos(angle)
@@ -49,7 +49,7 @@ def _turn(axis, angle, out):
     out[2, 2] = c + z * z * k
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _from_quaternion(x, y, z, w, out):
     n = math.sqrt(x * x + y * y + z * z + w * w)
     if n < 1e-12:
@@ -66,7 +66,7 @@ def _from_quaternion(x, y, z, w, out):
     out[2, 2] = 1 - 2 * (x * x + y * y)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _put(M, out):
     """Copy a matrix; as an assignment of slices it would take seconds to compile."""
     for i in range(3):
@@ -74,21 +74,21 @@ def _put(M, out):
             out[i, j] = M[i, j]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _times(a, b, out):
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _moved(R, p, v):
     """Add R v to p."""
     for i in range(3):
         p[i] += R[i, 0] * v[0] + R[i, 1] * v[1] + R[i, 2] * v[2]
 
 
-@njit(cache=True, nogil=True, is_called_by_address=True)
+@kernel
 def tree(links, positions, R, p):
     """Write rotation and position of every link of a `LinkTree`.
 
@@ -137,7 +137,7 @@ def tree(links, positions, R, p):
         _put(S, R[i])
 
 
-@njit(cache=True, nogil=True, is_called_by_address=True)
+@kernel
 def chain_pose(chain, q, R, p, F, o):
     """Write the tip's rotation and position, and the frame of every step before its motion."""
     A, a, kinds, axes, variables = chain.A, chain.a, chain.kinds, chain.axes, chain.variables
@@ -181,7 +181,7 @@ def chain_pose(chain, q, R, p, F, o):
     _put(S, R)
 
 
-@njit(cache=True, nogil=True, is_called_by_address=True)
+@kernel
 def chain_jacobian(chain, F, o, p, J):
     """Write the Jacobian, linear rows first; a quaternion's columns are turns about x, y, z."""
     kinds, axes, dofs, factors = chain.kinds, chain.axes, chain.dofs, chain.factors
@@ -214,7 +214,7 @@ def chain_jacobian(chain, F, o, p, J):
                 J[3 + k, d + k] += 1.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _error(R, p, target_R, target_p, e):
     """Write what is missing, in the robot's frame: metres and a rotation vector."""
     for k in range(3):
@@ -243,7 +243,7 @@ def _error(R, p, target_R, target_p, e):
             e[3 + i] = math.pi * (0.5 * (D[i, k] + (1.0 if i == k else 0.0))) / n
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _solved(H, g, n, x):
     """Solve H x = g by Cholesky in place; H is symmetric and positive definite."""
     for j in range(n):
@@ -269,7 +269,7 @@ def _solved(H, g, n, x):
         x[i] = t / H[i, i]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _turn_quaternion(q, at, dx, d, scale, F):
     """Turn a quaternion by a rotation vector given in the robot's frame."""
     v = np.empty(3)
@@ -290,7 +290,7 @@ def _turn_quaternion(q, at, dx, d, scale, F):
         q[at + k] /= n
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def solve(chain, goal, lower, upper, seeds, out):
     """Write a solution and return the number of the seed it was found from, -1 without one.
 

@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gazelle.kernels import kernel
 from gazelle.motion.collision.sweep_kernels import COLLIDES, FREE, sweep
 from gazelle.motion.joint_space import BoolArray, FloatArray
 from gazelle.motion.planning.search_tree import TreeArrays
 from gazelle.motion.planning.search_tree_kernels import drawn, nearest
-from gazelle.numba_jit import njit
 
 __all__ = ["ARRIVED", "BLOCKED", "DOUBTFUL", "Draws", "connect_trees"]
 
@@ -38,7 +38,7 @@ class Draws(NamedTuple):
     chances: FloatArray
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _step_to(q, target, turning, reach, end):
     """Write where a motion towards a target ends, `reach` far at most; return its distance."""
     square = 0.0
@@ -54,16 +54,18 @@ def _step_to(q, target, turning, reach, end):
     return distance
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _verdict(q, end, motions, step):
     """Return what is known of the motion between two configurations."""
+    way = np.empty(len(q))
     for k in range(len(q)):
         if not motions.lower[k] <= end[k] <= motions.upper[k]:
             return COLLIDES
-    return sweep(q, end - q, step, motions.plain)[0]
+        way[k] = end[k] - q[k]
+    return sweep(q, way, step, motions.surroundings)[0]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _twice(nodes, parents, domains):
     """Return arrays of a tree with room for twice as many nodes."""
     count = len(nodes)
@@ -76,7 +78,7 @@ def _twice(nodes, parents, domains):
     return more, above, reaches
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _grow(tree, here, target, most, turning, reach, motions, step):
     """Grow a tree from a node towards a target, in motions of the planner's range.
 
@@ -106,7 +108,7 @@ def _grow(tree, here, target, most, turning, reach, motions, step):
     return TreeArrays(nodes, parents, domains, count), last, state
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def connect_trees(near, far, draws, reach, domain, motions, step):
     """Let two trees grow towards each other until they meet or the draws are used up.
 

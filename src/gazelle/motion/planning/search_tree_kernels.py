@@ -8,14 +8,14 @@ import math
 
 import numpy as np
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = ["drawn", "nearest"]
 
 _TURN = 2.0 * math.pi
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def nearest(nodes, count, turning, q):
     """Return the node nearest to `q` and its squared distance, turning joints the short way."""
     best, least = -1, 1e300
@@ -31,7 +31,7 @@ def nearest(nodes, count, turning, q):
     return best, least
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def drawn(nodes, count, turning, domains, low, width, chances):
     """Return the first of several draws that lies in the domain of the node nearest to it.
 

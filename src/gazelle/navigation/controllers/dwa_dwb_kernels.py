@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
+from gazelle.kernels import kernel
 from gazelle.navigation.costmap.costmap_kernels import outline_cost
-from gazelle.numba_jit import njit
 
 __all__ = ["BLOCKED", "distance_field", "score_samples", "simulate"]
 
@@ -18,7 +18,7 @@ BLOCKED = 1e6
 """Distance of cells that are obstacles or that nothing leads to."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def distance_field(costs, targets, lone):
     """Return, by cell, how many sides of cells it is away from target cells.
 
@@ -69,7 +69,7 @@ def distance_field(costs, targets, lone):
     return field
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def simulate(state, sample, limits, steps, dt, accelerate, out):
     """Fill `out` (steps, 3) with the poses of a trajectory, the first one where it begins.
 
@@ -96,7 +96,7 @@ def simulate(state, sample, limits, steps, dt, accelerate, out):
         yaw += w * dt
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def score_samples(cells, distances, front, corners, state, samples, terms):
     """Return scores of velocity samples, negative where they are not allowed.
 

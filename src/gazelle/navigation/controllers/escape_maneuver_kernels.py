@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
+from gazelle.kernels import kernel
 from gazelle.navigation.costmap.costmap_kernels import outline_cost, squared_distances
-from gazelle.numba_jit import njit
 from gazelle.priority_queue_kernels import sift_down, sift_up
 
 __all__ = ["find_maneuver", "outline_is_free"]
@@ -22,7 +22,7 @@ _TURN_M, _BACK = 0.02, 2.0
 _GREED = 1.2
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def outline_is_free(cells, squared, outline, x, y, yaw):
     """Tell whether an outline hits nothing; far from everything it is not laid down.
 
@@ -48,7 +48,7 @@ def outline_is_free(cells, squared, outline, x, y, yaw):
     return outline_cost(cells, outline.corners_m, x, y, c, s, outline.scale) >= 0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _lengths_to(squared, inner, target, width, height):
     """Return, by cell, how far a disc that fits within the outline has to go, in cells."""
     lengths = np.full(width * height, 1e9)
@@ -85,7 +85,7 @@ def _lengths_to(squared, inner, target, width, height):
     return lengths
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def find_maneuver(cells, outline, start, target, near):
     """Return the poses of a way from start to target, (n, 3), empty where there is none.
 
@@ -102,7 +102,11 @@ def find_maneuver(cells, outline, start, target, near):
     height, width = costs.shape
     inner = outline.inner_m * inverse
     outer = outline.outer_m * inverse
-    squared = squared_distances(costs >= 254, int(outer) + 4)
+    blocked = np.empty((height, width), np.bool_)
+    for v in range(height):
+        for u in range(width):
+            blocked[v, u] = costs[v, u] >= 254
+    squared = squared_distances(blocked, int(outer) + 4)
     tu = math.floor((target[0] - ox) * inverse)
     tv = math.floor((target[1] - oy) * inverse)
     none = np.empty((0, 3))

@@ -8,13 +8,13 @@ import math
 
 import numpy as np
 
+from gazelle.kernels import kernel
 from gazelle.navigation.costmap.costmap_kernels import outline_cost
-from gazelle.numba_jit import njit
 
 __all__ = ["roll_out", "score_batch"]
 
 
-@njit(cache=True, nogil=True, fastmath=True)
+@kernel(flags="fast")
 def roll_out(state, controls, able, poses, driven):
     """Fill poses (T, 3) and velocities that are driven (T, 3) for controls (T, 3).
 
@@ -43,7 +43,7 @@ def roll_out(state, controls, able, poses, driven):
         driven[t, 2] = v2
 
 
-@njit(cache=True, nogil=True, fastmath=True)
+@kernel(flags="fast")
 def score_batch(cells, corners, outlined, state, way, varied, able, critics):
     """Return costs of trajectories and whether each one is free, for controls and their variations.
 

@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
+from gazelle.kernels import kernel
 from gazelle.navigation.controllers.dwa_dwb_kernels import BLOCKED, simulate
 from gazelle.navigation.costmap.costmap_kernels import outline_cost
-from gazelle.numba_jit import njit
 
 __all__ = ["HIT", "NO_WAY", "roll_out"]
 
@@ -20,7 +20,7 @@ that lead where no way leads to the goal."""
 _MAX_STEPS = 4096
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def roll_out(cells, distances, corners, state, samples, terms, plan):
     """Return costs of velocity samples and where they end, (n, 4): cost, x, y, yaw.
 
@@ -44,15 +44,15 @@ def roll_out(cells, distances, corners, state, samples, terms, plan):
         reach = max(reach, math.hypot(corners[k, 0], corners[k, 1]))
     for k in range(n):
         speed = math.hypot(samples[k, 0], samples[k, 1])
-        steps = speed * timing.duration_s / timing.step_m
+        pieces = speed * timing.duration_s / timing.step_m
         if heading >= 0.0:
-            steps = timing.duration_s / timing.step_m
-        elif abs(samples[k, 2]) / timing.step_rad > steps:
-            steps = abs(samples[k, 2]) / timing.step_rad
-        steps = min(max(int(steps + 0.5), 1), _MAX_STEPS)
+            pieces = timing.duration_s / timing.step_m
+        elif abs(samples[k, 2]) / timing.step_rad > pieces:
+            pieces = abs(samples[k, 2]) / timing.step_rad
+        steps = min(max(int(pieces + 0.5), 1), _MAX_STEPS)
         # Between the points that are scored nothing of the outline may pass over a cell unseen.
-        between = (speed + abs(samples[k, 2]) * reach) * timing.duration_s / steps * inverse
-        between = max(min(math.ceil(between), _MAX_STEPS // steps), 1)
+        passed = (speed + abs(samples[k, 2]) * reach) * timing.duration_s / steps * inverse
+        between = max(min(math.ceil(passed), _MAX_STEPS // steps), 1)
         steps *= between
         dt = timing.duration_s / steps
         simulate(state, samples[k], terms.acceleration, steps + 1, dt, True, poses)
@@ -98,7 +98,7 @@ def roll_out(cells, distances, corners, state, samples, terms, plan):
     return found
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _turn_to_what_is_seen(cells, plan, u, v, pose):
     """Return how far a pose looks away from the farthest point of the path in sight of it, rad."""
     costs, ox, oy, inverse = cells.costs, cells.x_m, cells.y_m, cells.per_m
@@ -115,7 +115,7 @@ def _turn_to_what_is_seen(cells, plan, u, v, pose):
     return BLOCKED
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _sees(costs, x, y, end_x, end_y):
     """Tell whether no cell of a line between two cells is an obstacle or unknown."""
     dx = abs(end_x - x)

@@ -2,8 +2,7 @@
 # ruff: noqa: ANN001, ANN201
 """The compiled loops of costmaps: rays, distances, outlines.
 
-Importing this module imports numba. Machine code is cached; kernels hold no Python object and
-release the interpreter lock.
+Kernels hold no Python object and release the interpreter lock.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ import math
 
 import numpy as np
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = [
     "clear_rays",
@@ -26,7 +25,7 @@ __all__ = [
 _FAR = 1 << 30
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def clear_rays(costs, ox, oy, ends, min_cells, max_cells, bounds):
     """Set cells on the way from a sensor to what it saw free; the last cell is not touched.
 
@@ -91,7 +90,7 @@ def clear_rays(costs, ox, oy, ends, min_cells, max_cells, bounds):
     return True
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def mark_points(costs, ox, oy, points, min_cells, max_cells, bounds):
     """Set the cells of points within reach of the sensor lethal; see `clear_rays`."""
     height, width = costs.shape
@@ -112,7 +111,7 @@ def mark_points(costs, ox, oy, points, min_cells, max_cells, bounds):
         bounds[3] = max(bounds[3], y + 1)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def fill_polygon(costs, corners, value, bounds):
     """Set the cells of a convex polygon and of its outline; coordinates in cells.
 
@@ -136,9 +135,9 @@ def fill_polygon(costs, corners, value, bounds):
             bx = corners[(k + 1) % n, 0]
             by = corners[(k + 1) % n, 1]
             if (ay <= centre) != (by <= centre):
-                x = ax + (centre - ay) * (bx - ax) / (by - ay)
-                left = min(left, x)
-                right = max(right, x)
+                crossing = ax + (centre - ay) * (bx - ax) / (by - ay)
+                left = min(left, crossing)
+                right = max(right, crossing)
         first = max(math.ceil(left - 0.5), 0) if left < 1e17 else width
         last = min(math.floor(right - 0.5), width - 1) if left < 1e17 else -1
         if first > last:
@@ -150,38 +149,38 @@ def fill_polygon(costs, corners, value, bounds):
         bounds[2] = max(bounds[2], last + 1)
         bounds[3] = max(bounds[3], y + 1)
     for k in range(n):
-        ax = math.floor(corners[k, 0])
-        ay = math.floor(corners[k, 1])
-        bx = math.floor(corners[(k + 1) % n, 0])
-        by = math.floor(corners[(k + 1) % n, 1])
-        dx = abs(bx - ax)
-        dy = abs(by - ay)
-        sx = 1 if bx > ax else -1
-        sy = 1 if by > ay else -1
+        u = math.floor(corners[k, 0])
+        v = math.floor(corners[k, 1])
+        end_u = math.floor(corners[(k + 1) % n, 0])
+        end_v = math.floor(corners[(k + 1) % n, 1])
+        dx = abs(end_u - u)
+        dy = abs(end_v - v)
+        sx = 1 if end_u > u else -1
+        sy = 1 if end_v > v else -1
         steps = max(dx, dy)
         error = steps // 2
         for _step in range(steps + 1):
-            if 0 <= ax < width and 0 <= ay < height:
-                costs[ay, ax] = value
-                bounds[0] = min(bounds[0], ax)
-                bounds[1] = min(bounds[1], ay)
-                bounds[2] = max(bounds[2], ax + 1)
-                bounds[3] = max(bounds[3], ay + 1)
+            if 0 <= u < width and 0 <= v < height:
+                costs[v, u] = value
+                bounds[0] = min(bounds[0], u)
+                bounds[1] = min(bounds[1], v)
+                bounds[2] = max(bounds[2], u + 1)
+                bounds[3] = max(bounds[3], v + 1)
             if dx >= dy:
-                ax += sx
+                u += sx
                 error += dy
             else:
-                ay += sy
+                v += sy
                 error += dx
             if error >= steps:
                 error -= steps
                 if dx >= dy:
-                    ay += sy
+                    v += sy
                 else:
-                    ax += sx
+                    u += sx
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def squared_distances(seeds, reach):
     """Return squared distances in cells to the next seed, int32, exact up to `reach` cells.
 
@@ -237,7 +236,7 @@ def squared_distances(seeds, reach):
     return result
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def inflate_window(costs, window, table, reach, inflate_unknown, around_unknown):
     """Raise costs in a window, a `grid.Window`, by what lies in it and around it.
 
@@ -275,7 +274,7 @@ def inflate_window(costs, window, table, reach, inflate_unknown, around_unknown)
                 costs[y, x] = new
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def outline_cost(cells, corners, x, y, c, s, scale):
     """Return the highest cost under a robot's outline and its centre.
 

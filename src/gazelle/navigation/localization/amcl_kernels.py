@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = [
     "ParticleNeed",
@@ -38,7 +38,7 @@ class ParticleNeed(NamedTuple):
     quantile: float
 
 
-@njit(cache=True, nogil=True, fastmath=True)
+@kernel(flags="fast")
 def field_sums(particles, ends, field, outside, frame, out):
     """Fill `out` with 1 + the sum of a field at the ends of beams, by particle.
 
@@ -63,7 +63,7 @@ def field_sums(particles, ends, field, outside, frame, out):
         out[k] = total
 
 
-@njit(cache=True, nogil=True, fastmath=True)
+@kernel(flags="fast")
 def log_sums(particles, ends, used, field, outside, frame, out):
     """Fill `out` with the sum of a field at the ends of the beams that are used."""
     ox, oy, inverse = frame.x_m, frame.y_m, frame.per_m
@@ -86,7 +86,7 @@ def log_sums(particles, ends, used, field, outside, frame, out):
         out[k] = total
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def fitting_shares(particles, ends, distances, near, frame):
     """Return, by beam, the share of particles for which it ends nearer to a wall than `near`."""
     ox, oy, inverse = frame.x_m, frame.y_m, frame.per_m
@@ -106,7 +106,7 @@ def fitting_shares(particles, ends, distances, near, frame):
     return shares
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def cast_ray(cells, x, y, angle, most):
     """Return how far a ray goes until a cell that is not free, everything in cells.
 
@@ -138,7 +138,7 @@ def cast_ray(cells, x, y, angle, most):
     return most
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def beam_likelihoods(particles, beams, cells, frame, terms, out):
     """Fill `out` with 1 + the sum of cubed likelihoods of beams, by particle.
 
@@ -177,9 +177,9 @@ def beam_likelihoods(particles, beams, cells, frame, terms, out):
         out[k] = total
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _place(cumulative, chance):
-    """Return how many of the running sums are not greater; numpy's search takes long to compile."""
+    """Return how many of the running sums are not greater."""
     low, high = 0, cumulative.shape[0]
     while low < high:
         middle = (low + high) >> 1
@@ -190,7 +190,7 @@ def _place(cumulative, chance):
     return low
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def resample(particles, cumulative, chances, draws, elsewhere, need):
     """Return so many particles as the spread of what is drawn needs (KLD sampling, Fox 2001).
 
@@ -236,8 +236,8 @@ def resample(particles, cumulative, chances, draws, elsewhere, need):
             table[slot] = key
             bins += 1
         if bins > 1 and count >= least:
-            k = 2.0 / (9.0 * (bins - 1))
-            root = 1.0 - k + math.sqrt(k) * quantile
+            spread = 2.0 / (9.0 * (bins - 1))
+            root = 1.0 - spread + math.sqrt(spread) * quantile
             if count > (bins - 1) / (2.0 * error) * root * root * root:
                 break
     return drawn[:count].copy()

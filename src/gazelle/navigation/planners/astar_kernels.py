@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
+from gazelle.kernels import kernel
 from gazelle.navigation.planners.navfn_kernels import FORBIDDEN, HIGH
-from gazelle.numba_jit import njit
 from gazelle.priority_queue_kernels import sift_down, sift_up
 
 __all__ = ["astar", "theta_star"]
@@ -17,7 +17,7 @@ __all__ = ["astar", "theta_star"]
 _ROOT2 = math.sqrt(2.0)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _widened(values, wider):
     """Return `wider` with the values at its beginning."""
     for k in range(values.shape[0]):
@@ -25,7 +25,7 @@ def _widened(values, wider):
     return wider
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def astar(costs, table, start, goal, reach, most):
     """Return (cells from start to goal, cost, cells looked at) by A* over eight neighbours.
 
@@ -138,20 +138,20 @@ def astar(costs, table, start, goal, reach, most):
         return np.empty(0, np.int64), HIGH, looked
     if g[goal] < HIGH:
         best = goal
-    length = 1
+    count = 1
     c = best
     while c != start:
         c = parent[c]
-        length += 1
-    path = np.empty(length, np.int64)
+        count += 1
+    path = np.empty(count, np.int64)
     c = best
-    for k in range(length - 1, -1, -1):
+    for k in range(count - 1, -1, -1):
         path[k] = c
         c = parent[c]
     return path, float(g[best]), looked
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _line_cost(costs, table, x0, y0, x1, y1, limit):
     """Return the sum of cell costs along a straight line, `FORBIDDEN` when it is blocked."""
     dx = abs(x1 - x0)
@@ -184,7 +184,7 @@ def _line_cost(costs, table, x0, y0, x1, y1, limit):
             y0 += sy
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def theta_star(costs, table, start, goal, corners, weight):
     """Return corners of an any-angle path, by lazily looking back (Daniel and others 2010).
 
@@ -258,14 +258,14 @@ def theta_star(costs, table, start, goal, corners, weight):
                 count += 1
     if g[goal] >= HIGH:
         return np.empty(0, np.int64), HIGH
-    length = 1
+    count = 1
     c = goal
     while c != start:
         c = parent[c]
-        length += 1
-    path = np.empty(length, np.int64)
+        count += 1
+    path = np.empty(count, np.int64)
     c = goal
-    for k in range(length - 1, -1, -1):
+    for k in range(count - 1, -1, -1):
         path[k] = c
         c = parent[c]
     return path, g[goal]

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from gazelle.numba_jit import njit
+from gazelle.kernels import kernel
 
 __all__ = [
     "FORBIDDEN",
@@ -29,7 +29,7 @@ FORBIDDEN = 1e6
 """Cost of entering what must not be entered."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def navfn_potential(costs, table, start, stop, quadratic, threshold, increment):
     """Spread a potential from one cell until another one is reached; −1 for all cells.
 
@@ -117,7 +117,7 @@ def navfn_potential(costs, table, start, stop, quadratic, threshold, increment):
     return potential
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _lowest(potential, width, height, x, y):
     best = y * width + x
     for v in range(max(y - 1, 0), min(y + 2, height)):
@@ -127,21 +127,24 @@ def _lowest(potential, width, height, x, y):
     return best
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def descend_cells(potential, width, start, goal):
     """Return cells from `start` down to `goal`, the lowest of eight neighbours each time."""
     height = potential.shape[0] // width
-    cells = [start]
-    while cells[-1] != goal:
-        c = cells[-1]
+    # Each is lower than the one before, so none comes twice.
+    cells = np.empty(potential.shape[0], np.int64)
+    cells[0], count = start, 1
+    while cells[count - 1] != goal:
+        c = cells[count - 1]
         lower = _lowest(potential, width, height, c % width, c // width)
         if lower == c:
             return np.empty(0, np.int64)
-        cells.append(lower)
-    return np.array(cells)
+        cells[count] = lower
+        count += 1
+    return cells[:count].copy()
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _slope(potential, width, height, c):
     """Return the direction downwards at a cell, of length one or zero."""
     x = c % width
@@ -176,7 +179,7 @@ def _slope(potential, width, height, c):
     return dx / length, dy / length
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def descend_gradient(potential, width, start, goal, step):
     """Return points (cells, with fractions; centres are whole numbers) down the gradient.
 
@@ -239,7 +242,7 @@ def descend_gradient(potential, width, start, goal, step):
     return points[:0].copy()
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def smooth_path(points, costs, table, keep, pull, rounds):
     """Pull the points of a path (cells, centres are whole numbers) straight, in place.
 
