@@ -25,6 +25,7 @@ __all__ = [
     "load",
     "made",
     "part",
+    "require_writeable",
     "size_of",
     "store",
 ]
@@ -126,7 +127,10 @@ def _strides(text: FunctionText, array: ArrayValue) -> tuple[Number, ...]:
 
 def element_address(text: FunctionText, array: ArrayValue, indices: Sequence[Number]) -> str:
     """Return where the element at as many indices as the array has dimensions lies."""
-    whole = [_index(text, index, count) for index, count in zip(indices, array.shape, strict=True)]
+    if len(indices) != len(array.shape):
+        raise TypeError(f"{len(indices)} indices of an array of {len(array.shape)} dimensions")
+    pairs = zip(indices, array.shape, strict=True)
+    whole = [_index(text, index, count) for index, count in pairs]
     if array.strides:
         place = constant(0)
         for index, stride in zip(whole, _strides(text, array), strict=True):
@@ -162,7 +166,8 @@ def field_of(text: FunctionText, value: RecordValue, name: str) -> Number | Arra
             address = field_address(text, value, field.offset)
             if not field.shape:
                 return load(text, field.scalar, address)
-            return ArrayValue(field.scalar, address, tuple(map(constant, field.shape)))
+            shape = tuple(map(constant, field.shape))
+            return ArrayValue(field.scalar, address, shape, is_writeable=value.is_writeable)
     return None
 
 
@@ -179,6 +184,8 @@ def part(text: FunctionText, array: ArrayValue, keys: Sequence[Number | Cut]) ->
         array: of which.
         keys: of the first dimensions, an index, which takes the dimension away, or a slice.
     """
+    if len(keys) > len(array.shape):
+        raise TypeError(f"{len(keys)} indices of an array of {len(array.shape)} dimensions")
     strides = _strides(text, array)
     is_plain = not array.strides
     place, shape, kept = constant(0), list[Number](), list[Number]()
@@ -208,10 +215,10 @@ def part(text: FunctionText, array: ArrayValue, keys: Sequence[Number | Cut]) ->
     if place.known != 0:
         address = text.let(f"getelementptr {step}, ptr {address}, i64 {place.operand}")
     if is_plain:
-        return ArrayValue(array.element, address, tuple(shape))
+        return array._replace(address=address, shape=tuple(shape))
     unit = constant(1 if array.strides else _size(array.element))
     far = tuple(arithmetic(text, "Mult", stride, unit).operand for stride in kept)
-    return ArrayValue(array.element, address, tuple(shape), far)
+    return array._replace(address=address, shape=tuple(shape), strides=far)
 
 
 def _clipped(text: FunctionText, number: Number, count: Number) -> Number:
@@ -260,19 +267,41 @@ def made(
 
 
 def fill(text: FunctionText, array: ArrayValue, value: Number | ArrayValue) -> None:
-    """Write a number everywhere, or an array of the same shape.
+    """Write a number everywhere, or an array of the same shape, which may lie in the same memory.
 
     Raises:
-        TypeError: their dimensions differ, or there are records in them.
+        TypeError: their dimensions differ, there are records in them, or it is not writeable.
     """
     scalar = array.element
     if isinstance(scalar, Record) or (
         isinstance(value, ArrayValue) and len(value.shape) != len(array.shape)
     ):
         raise TypeError("only a number, or an array of as many dimensions, can be written there")
+    require_writeable(array)
     if isinstance(value, Number):
-        value = converted(text, value, scalar)
-    _each(text, array, value, scalar, [])
+        _each(text, array, converted(text, value, scalar), scalar, [])
+    elif value.element == scalar and not value.strides and not array.strides:
+        size = arithmetic(text, "Mult", size_of(text, array), constant(_size(scalar))).operand
+        move = "call void @llvm.memmove.p0.p0.i64"
+        text.do(f"{move}(ptr {array.address}, ptr {value.address}, i64 {size}, i1 false)")
+    else:
+        # Where they overlap, what is written first would be read afterwards.
+        assert isinstance(value.element, Scalar)
+        mark = text.let("load ptr, ptr %arena")
+        spare, _ = made(text, value.element, value.shape, is_cleared=False, is_local=False)
+        _each(text, spare, value, value.element, [])
+        _each(text, array, spare, scalar, [])
+        text.do(f"call void @gazelle_give_back(ptr %arena, ptr {mark})")
+
+
+def require_writeable(value: ArrayValue | RecordValue) -> None:
+    """Let a kernel write there.
+
+    Raises:
+        TypeError: it must not.
+    """
+    if not value.is_writeable:
+        raise TypeError("this array cannot be written to")
 
 
 def _each(

@@ -17,7 +17,7 @@ from gazelle.kernels.scalar_operations import (
 )
 from gazelle.kernels.values import ArrayValue, Number, TupleValue, Value, constant
 
-__all__ = ["CALLS", "DECLARATIONS", "Call"]
+__all__ = ["CALLS", "DECLARATIONS", "Builtin", "Call"]
 
 _INTRINSICS = ("sqrt", "sin", "cos", "exp", "log", "log2", "floor", "ceil", "rint", "fabs", "trunc")
 _OF_TWO = ("pow", "copysign")
@@ -39,6 +39,7 @@ DECLARATIONS = "\n".join(
         *(f"declare double @{name}(double) nounwind memory(none) willreturn" for name in _LIBRARY),
         "declare double @atan2(double, double) nounwind memory(none) willreturn",
         "declare i64 @llvm.abs.i64(i64, i1)",
+        "declare void @llvm.memmove.p0.p0.i64(ptr, ptr, i64, i1)",
         "declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)",
     ]
 )
@@ -157,7 +158,15 @@ def _as(scalar: Scalar) -> Callable[[Call], Number]:
     return lambda call: converted(call.text, call.number(), scalar)
 
 
-CALLS: dict[Any, Callable[[Call], Number]] = {
+class Builtin(NamedTuple):
+    """How a function is computed, and how many arguments it takes."""
+
+    compute: Callable[[Call], Number]
+    least: int = 1
+    most: int = 1
+
+
+_COMPUTED: dict[Any, Callable[[Call], Number]] = {
     abs: lambda call: absolute(call.text, call.number()),
     bool: lambda call: truth(call.text, call.number()),
     float: _as(FLOAT64),
@@ -186,5 +195,17 @@ CALLS: dict[Any, Callable[[Call], Number]] = {
     math.sqrt: _intrinsic("sqrt"),
     math.tan: _library("tan"),
     math.trunc: _to_whole("trunc"),
+}
+_COUNTS = {
+    min: (2, 99),
+    max: (2, 99),
+    math.atan2: (2, 2),
+    math.copysign: (2, 2),
+    math.hypot: (2, 2),
+}
+
+CALLS = {
+    function: Builtin(compute, *_COUNTS.get(function, (1, 1)))
+    for function, compute in _COMPUTED.items()
 }
 """By the function itself: Python's `min` of numbers, say."""

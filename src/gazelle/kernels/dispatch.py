@@ -19,7 +19,15 @@ import numpy as np
 from gazelle.announcements import announce
 from gazelle.kernels.areas import area_of
 from gazelle.kernels.kept_code import KeptCode, file_of, keep, kept
-from gazelle.kernels.kernel_types import Array, KernelType, Scalar, Tuple, has_arrays, type_of
+from gazelle.kernels.kernel_types import (
+    Array,
+    KernelType,
+    Scalar,
+    Tuple,
+    described,
+    has_arrays,
+    type_of,
+)
 from gazelle.kernels.source import KernelSource, digest_of
 from gazelle.kernels.turns import turn
 
@@ -71,20 +79,21 @@ class Kernel:
 
     def _first_call(self, arguments: tuple[Any, ...]) -> Any:
         types = tuple(map(type_of, arguments))
-        plain = tuple(map(_plain, arguments))
         with _lock:
             if types not in self.signatures:
                 self._entries = (*self._entries, self._entry(types))
                 self.signatures.append(types)
         entry = self._entries[self.signatures.index(types)]
-        result = entry.run(*plain)
+        result = entry.run(*arguments)
         if result is NotImplemented:
-            raise TypeError(f"{self.source.name} takes no {types}")
+            words = ", ".join(map(described, types))
+            raise TypeError(f"{self.source.name}() cannot be given ({words}) as they are")
         return result if entry.finish is None else entry.finish(result)
 
     def _entry(self, types: tuple[KernelType, ...]) -> _Entry:
-        # Whoever has compiled it so far needs none of what compiles.
+        # Who imports kernels and calls none waits for nothing.
         from gazelle.kernels import machine_code
+        from gazelle.kernels.python_entry import classes_of
 
         file = file_of(self.source, types, machine_code.machine())
         with contextlib.ExitStack() as stack:
@@ -97,13 +106,13 @@ class Kernel:
                 code = _compiled(self.source, types)
                 if file is not None:
                     keep(file, code)
-        machine_code.load(code.content)
+        machine_code.load(code.content, classes_of(types))
         return _Entry(machine_code.callable_of(code.name), _finish(code.result))
 
 
 def _compiled(source: KernelSource, types: tuple[KernelType, ...]) -> KeptCode:
     from gazelle.kernels import machine_code
-    from gazelle.kernels.lowering import Program
+    from gazelle.kernels.program import Program
     from gazelle.kernels.python_entry import entry
 
     area = area_of(source.function.__module__)
@@ -123,16 +132,6 @@ def _compiled(source: KernelSource, types: tuple[KernelType, ...]) -> KeptCode:
         watcher(source, time.thread_time() - began)
     uses = tuple(program.uses.values())
     return KeptCode(digest_of(source), uses, compiled.result, name, content)
-
-
-def _plain(argument: Any) -> Any:
-    """Return an argument whose numbers are Python's."""
-    if isinstance(argument, np.generic) and argument.dtype.kind in "biuf":
-        return argument.item()
-    if isinstance(argument, tuple):
-        items = map(_plain, argument)
-        return tuple(items) if type(argument) is tuple else type(argument)(*items)
-    return argument
 
 
 def _finish(kind: KernelType) -> Callable[[Any], Any] | None:

@@ -22,8 +22,7 @@ from typing import NamedTuple
 
 from gazelle.cache_folders import is_trusted, own_cache, own_folder, tell_not_kept
 from gazelle.kernels.kernel_types import KernelType
-from gazelle.kernels.lowering import Use, fingerprint
-from gazelle.kernels.source import KernelSource, digest_of
+from gazelle.kernels.source import KernelSource, Use, digest_of, fingerprint
 
 __all__ = ["VARIABLE", "KeptCode", "file_of", "folder_of", "keep", "kept"]
 

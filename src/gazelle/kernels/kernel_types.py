@@ -22,11 +22,13 @@ __all__ = [
     "Record",
     "Scalar",
     "Tuple",
+    "described",
     "element_of",
     "has_arrays",
     "joined",
     "joined_floats",
     "parts_of",
+    "result_ir",
     "type_of",
 ]
 
@@ -107,11 +109,13 @@ class Array(NamedTuple):
         element: of it.
         ndim: dimensions.
         is_contiguous: it lies in C's order; otherwise each dimension has its stride.
+        is_writeable: a kernel may write to it.
     """
 
     element: Scalar | Record
     ndim: int
     is_contiguous: bool = True
+    is_writeable: bool = True
 
 
 class Tuple(NamedTuple):
@@ -152,7 +156,8 @@ def element_of(dtype: Any) -> Scalar | Record:
 def _field(dtype: np.dtype[Any], name: str) -> Field:
     kind, offset = dtype.fields[name][:2]  # type: ignore[index]
     scalar = element_of(kind.base)
-    assert isinstance(scalar, Scalar)
+    if not isinstance(scalar, Scalar):
+        raise TypeError("kernels take no records in records")
     return Field(name, offset, scalar, kind.shape)
 
 
@@ -163,7 +168,11 @@ def type_of(value: Any) -> KernelType:
         TypeError: kernels take nothing of its kind.
     """
     if isinstance(value, np.ndarray):
-        return Array(element_of(value.dtype), value.ndim, value.flags.c_contiguous)
+        flags = value.flags
+        if not flags.aligned:
+            raise TypeError("kernels take no array whose elements are not aligned")
+        element = element_of(value.dtype)
+        return Array(element, value.ndim, flags.c_contiguous, flags.writeable)
     if isinstance(value, bool):
         return BOOL
     if isinstance(value, np.generic):
@@ -190,7 +199,9 @@ def joined(one: KernelType, other: KernelType) -> KernelType | None:
         case Scalar(), Scalar():
             return _joined_scalars(one, other)
         case Array(), Array() if (one.element, one.ndim) == (other.element, other.ndim):
-            return Array(one.element, one.ndim, is_contiguous=False)
+            is_contiguous = one.is_contiguous and other.is_contiguous
+            is_writeable = one.is_writeable and other.is_writeable
+            return Array(one.element, one.ndim, is_contiguous, is_writeable)
         case Tuple(), Tuple() if len(one.elements) == len(other.elements):
             elements = tuple(map(joined, one.elements, other.elements))
             if None not in elements:
@@ -229,6 +240,29 @@ def parts_of(kind: KernelType) -> tuple[str, ...]:
         case Tuple():
             return functools.reduce(operator.add, map(parts_of, kind.elements), ())
     return ()
+
+
+def result_ir(kind: KernelType) -> str:
+    """Return LLVM's type of what a function returns."""
+    words = parts_of(kind)
+    if len(words) == 1:
+        return words[0]
+    return f"{{ {', '.join(words)} }}" if words else "void"
+
+
+def described(kind: KernelType) -> str:
+    """Return a type in words: ``float64[:, :]``."""
+    match kind:
+        case Scalar():
+            return kind.name
+        case Record():
+            return f"record of {', '.join(field.name for field in kind.fields)}"
+        case Array():
+            return f"{described(kind.element)}[{', '.join(':' * kind.ndim)}]"
+        case Tuple():
+            name = kind.maker.__name__ if kind.maker is not None else ""
+            return f"{name}({', '.join(map(described, kind.elements))})"
+    return "None"
 
 
 def has_arrays(kind: KernelType) -> bool:

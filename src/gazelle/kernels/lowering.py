@@ -14,12 +14,11 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from gazelle.kernels.array_operations import (
-    MEMORY,
     Cut,
     copied,
     element_address,
@@ -28,11 +27,12 @@ from gazelle.kernels.array_operations import (
     fill,
     made,
     part,
+    require_writeable,
     size_of,
     store,
 )
 from gazelle.kernels.array_operations import load as loaded
-from gazelle.kernels.calls import CALLS, DECLARATIONS, Call
+from gazelle.kernels.calls import CALLS, Call
 from gazelle.kernels.function_text import FunctionText
 from gazelle.kernels.kernel_types import (
     BOOL,
@@ -44,19 +44,22 @@ from gazelle.kernels.kernel_types import (
     Record,
     Scalar,
     Tuple,
+    described,
     element_of,
     has_arrays,
     joined,
     parts_of,
+    result_ir,
 )
 from gazelle.kernels.scalar_operations import (
     arithmetic,
     compared,
     converted,
+    least_or_most,
     negated,
     truth,
 )
-from gazelle.kernels.source import External, KernelSource, digest_of, settled_names, tree_of
+from gazelle.kernels.source import External, KernelSource, settled_names, stored_names, tree_of
 from gazelle.kernels.values import (
     ArrayValue,
     Known,
@@ -71,18 +74,10 @@ from gazelle.kernels.values import (
     type_of_value,
 )
 
-__all__ = ["Compiled", "Program", "Use", "fingerprint", "result_ir"]
+__all__ = ["Compiled", "Functions", "lowered"]
 
 _MOST_ROUNDS = 60
 _UNSET = object()
-
-
-class Use(NamedTuple):
-    """Something of a module that what was compiled depends on, and what it was then."""
-
-    module: str
-    name: str
-    fingerprint: str
 
 
 class Compiled(NamedTuple):
@@ -99,72 +94,34 @@ class Compiled(NamedTuple):
     is_lasting: bool
 
 
-def result_ir(kind: KernelType) -> str:
-    """Return LLVM's type of what a function returns."""
-    words = parts_of(kind)
-    if len(words) == 1:
-        return words[0]
-    return f"{{ {', '.join(words)} }}" if words else "void"
-
-
-def fingerprint(thing: Any) -> str:
-    """Return what changes where a constant, a kernel or a named tuple does; else empty."""
-    source = getattr(thing, "source", None)
-    if isinstance(source, KernelSource):
-        return digest_of(source)
-    if isinstance(thing, type) and hasattr(thing, "_fields"):
-        return repr(thing._fields)
-    if isinstance(thing, int | float | tuple | np.generic | np.dtype | External):
-        return f"{type(thing).__name__} {thing!r}"
-    return ""
-
-
-class Program:
-    """Functions that call each other.
-
-    Attributes:
-        uses: what they depend on.
-    """
-
-    def __init__(self) -> None:
-        """Begin with none."""
-        self.uses: dict[tuple[str, str], Use] = {}
-        self._functions: dict[tuple[KernelSource, tuple[KernelType, ...]], Compiled] = {}
-        self._texts: list[str] = []
-        self._externals: dict[str, External] = {}
+class Functions(Protocol):
+    """The functions that call each other, as one of them sees the others."""
 
     def function(self, source: KernelSource, types: tuple[KernelType, ...]) -> Compiled:
-        """Return a kernel for arguments of some types, compiled where it is not yet.
-
-        Raises:
-            TypeError: something in its source is not for kernels, with its place.
-        """
-        key = source, types
-        if key not in self._functions:
-            name = f'@"{source.function.__qualname__}.{len(self._functions)}"'
-            state = _State(source, types, name)
-            self._functions[key] = Compiled(name, NONE, is_lasting=False)
-            try:
-                text, compiled = state.compiled(self)
-            except BaseException:
-                del self._functions[key]
-                raise
-            self._functions[key] = compiled
-            self._texts.append(text)
-        return self._functions[key]
+        """Return a kernel for arguments of some types, compiled where it is not yet."""
 
     def external(self, function: External) -> str:
         """Return the name of a library's function."""
-        self._externals[function.name] = function
-        return f"@{function.name}"
 
-    def text(self) -> str:
-        """Return the program in LLVM's language."""
-        words = [
-            f"declare void @{one.name}({', '.join(['i64'] * one.arguments)}) nounwind"
-            for one in self._externals.values()
-        ]
-        return "\n".join((MEMORY, DECLARATIONS, *words, *self._texts))
+    def note_use(self, module: str, name: str, thing: Any) -> None:
+        """Note that what is compiled depends on something of a module."""
+
+
+def lowered(
+    functions: Functions, source: KernelSource, types: tuple[KernelType, ...], name: str
+) -> tuple[str, Compiled]:
+    """Return the text of a kernel's function for arguments of some types, and what it is like.
+
+    Args:
+        functions: the others.
+        source: of the kernel.
+        types: of the arguments.
+        name: of the function in LLVM's language.
+
+    Raises:
+        TypeError: something in its source is not for kernels, with its place.
+    """
+    return _State(source, types, name).compiled(functions)
 
 
 class _Variable(NamedTuple):
@@ -187,16 +144,19 @@ class _State:
         self.source, self.types, self.name = source, types, name
         self.tree = tree_of(source)
         self.settled = settled_names(self.tree)
+        self.stored = stored_names(self.tree)
+        self.unknown: dict[str, TypeError] = {}
         self.variables: dict[str, tuple[KernelType, bool]] = {}
         self.result: KernelType | None = None
         self.takes_memory = False
         self.has_changed = False
 
-    def compiled(self, program: Program) -> tuple[str, Compiled]:
+    def compiled(self, functions: Functions) -> tuple[str, Compiled]:
         """Return the function's text and its signature."""
         for _ in range(_MOST_ROUNDS):
             self.has_changed = False
-            lowering = _Lowering(program, self)
+            unknown, self.unknown = self.unknown, {}
+            lowering = _Lowering(functions, self)
             try:
                 text = lowering.text()
             except _Changed:
@@ -206,10 +166,16 @@ class _State:
                 if self.has_changed:
                     continue
                 raise
-            if not self.has_changed:
+            if self.unknown and not self.has_changed and self.unknown.keys() == unknown.keys():
+                raise next(iter(self.unknown.values()))
+            if not self.has_changed and not self.unknown:
                 result = self.result or NONE
                 return text, Compiled(self.name, result, has_arrays(result))
         raise TypeError(f"{self.source.name}: the types of its names depend on each other")
+
+    def note_unknown(self, name: str, error: TypeError) -> None:
+        """Note that a name was read that nothing has been given to so far."""
+        self.unknown.setdefault(name, error)
 
     def widen(self, name: str, kind: KernelType, *, is_natural: bool) -> None:
         """Note that a name holds more than was known."""
@@ -221,11 +187,19 @@ class _Changed(Exception):  # noqa: N818 - it is no error
     """A round was begun with a wrong type and makes no sense further on."""
 
 
+class _NotYetError(TypeError):
+    """A name has no type yet."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(f"'{name}' has no value here")
+        self.name = name
+
+
 class _Lowering:
     """One round of compiling a function."""
 
-    def __init__(self, program: Program, state: _State) -> None:
-        self._program, self._state = program, state
+    def __init__(self, functions: Functions, state: _State) -> None:
+        self._functions, self._state = functions, state
         flags = state.source.flags
         self._text = FunctionText(f"{flags} " if flags else "")
         self._names: dict[str, Value] = {}
@@ -236,6 +210,10 @@ class _Lowering:
     def text(self) -> str:
         state, text = self._state, self._text
         arguments = state.tree.args.args
+        if len(arguments) != len(state.types):
+            raise TypeError(
+                f"{state.source.name}() takes {len(arguments)} arguments, not {len(state.types)}"
+            )
         given: list[str] = []
         for argument, kind in zip(arguments, state.types, strict=True):
             operands = [f"%a{len(given) + k}" for k in range(len(parts_of(kind)))]
@@ -243,7 +221,10 @@ class _Lowering:
             self._assign_name(argument.arg, from_parts(kind, operands))
         self._body(state.tree.body)
         if not text.is_closed:
-            self._return(Nothing())
+            try:
+                self._return(Nothing())
+            except TypeError as error:
+                raise self._placed(error, state.tree) from error
         result = state.result or NONE
         words = ", ".join(("ptr %arena", *given))
         head = f"define internal {result_ir(result)} {state.name}({words}) nounwind"
@@ -265,6 +246,10 @@ class _Lowering:
                 return
             try:
                 self._statement(statement)
+            except _NotYetError as unknown:
+                # It is stored further on, as in the round of a loop before.
+                self._state.note_unknown(unknown.name, self._placed(unknown, statement))
+                self._text.begin(self._text.label())
             except TypeError as error:
                 raise self._placed(error, statement) from error
 
@@ -322,6 +307,7 @@ class _Lowering:
                 field = next((f for f in record.record.fields if f.name == target.attr), None)
                 if field is None or field.shape:
                     raise TypeError(f"the record has no number '{target.attr}'")
+                require_writeable(record)
                 address = field_address(self._text, record, field.offset)
                 store(self._text, field.scalar, address, value)
             case _:
@@ -343,15 +329,12 @@ class _Lowering:
             return
         kind = type_of_value(value)
         is_natural = isinstance(value, Number) and (value.is_natural or value.scalar != INT64)
-        if name not in self._variables:
-            known_kind, known_natural = state.variables.get(name, (kind, is_natural))
-            rooms = tuple(text.room(ir) for ir in parts_of(known_kind))
-            self._variables[name] = _Variable(known_kind, rooms, known_natural)
-            state.variables.setdefault(name, (known_kind, known_natural))
-        variable = self._variables[name]
+        state.variables.setdefault(name, (kind, is_natural))
+        variable = self._variable(name)
         wide = joined(variable.kind, kind)
         if wide is None:
-            raise TypeError(f"'{name}' is given {kind}, and was {variable.kind}")
+            given, before = described(kind), described(variable.kind)
+            raise TypeError(f"'{name}' is given {given} here, and {before} elsewhere")
         if wide != variable.kind:
             state.widen(name, wide, is_natural=variable.is_natural and is_natural)
             raise _Changed
@@ -389,6 +372,7 @@ class _Lowering:
         if len(keys) == len(array.shape) and not any(isinstance(key, Cut) for key in keys):
             if not isinstance(value, Number) or isinstance(array.element, Record):
                 raise TypeError("only numbers can be written to an array's element")
+            require_writeable(array)
             address = element_address(text, array, keys)  # type: ignore[arg-type]
             store(text, array.element, address, value)
             return
@@ -405,10 +389,12 @@ class _Lowering:
             return
         if isinstance(target, ast.Subscript):
             array, keys = self._value(target.value), self._keys(target.slice)
-            if isinstance(array, ArrayValue) and isinstance(array.element, Scalar):
+            is_one = not any(isinstance(key, Cut) for key in keys)
+            if isinstance(array, ArrayValue) and isinstance(array.element, Scalar) and is_one:
+                require_writeable(array)
                 address = element_address(text, array, keys)  # type: ignore[arg-type]
-                value = self._value(statement.value)
                 before = loaded(text, array.element, address)
+                value = self._value(statement.value)
                 store(text, array.element, address, self._combined(word, before, value))
                 return
         raise TypeError("only a name's value or an array's element can be changed in place")
@@ -434,7 +420,7 @@ class _Lowering:
         text = self._text
         test, body, end = text.label(), text.label(), text.label()
         text.begin(test)
-        is_endless = isinstance(statement.test, ast.Constant) and statement.test.value is True
+        is_endless = isinstance(statement.test, ast.Constant) and bool(statement.test.value)
         if is_endless:
             text.go_to(body)
         else:
@@ -534,7 +520,8 @@ class _Lowering:
         kind = type_of_value(value)
         wide = kind if state.result is None else joined(state.result, kind)
         if wide is None:
-            raise TypeError(f"returns {kind} here, and {state.result} elsewhere")
+            before = described(state.result or NONE)
+            raise TypeError(f"{described(kind)} is returned here, and {before} elsewhere")
         if wide != state.result:
             state.result = wide
             state.has_changed = True
@@ -638,7 +625,8 @@ class _Lowering:
             case ast.UnaryOp(op=ast.USub()):
                 return negated(text, self._number(self._value(node.operand)))
             case ast.UnaryOp(op=ast.UAdd()):
-                return self._value(node.operand)
+                number = self._number(self._value(node.operand))
+                return converted(text, number, INT64) if number.scalar == BOOL else number
             case ast.UnaryOp(op=ast.Not()):
                 is_so = truth(text, self._number(self._value(node.operand)))
                 return Number(BOOL, text.let(f"xor i1 {is_so.operand}, true"), True)
@@ -670,25 +658,39 @@ class _Lowering:
         if name in self._names:
             return self._names[name]
         if name in self._variables:
-            variable = self._variables[name]
-            operands = [
-                self._text.let(f"load {ir}, ptr {room}")
-                for ir, room in zip(parts_of(variable.kind), variable.rooms, strict=True)
-            ]
-            value = from_parts(variable.kind, operands)
-            if isinstance(value, Number) and value.scalar == INT64:
-                return value._replace(is_natural=variable.is_natural)
-            return value
+            return self._read_variable(name)
+        if name in self._state.stored:
+            if name not in self._state.variables:
+                raise _NotYetError(name)
+            return self._read_variable(name)
         function = self._state.source.function
         thing = function.__globals__.get(name, _UNSET)
         if thing is _UNSET:
             thing = getattr(builtins, name, _UNSET)
             if thing is _UNSET:
                 raise TypeError(f"'{name}' has no value here")
-        elif print_ := fingerprint(thing):
-            module = function.__module__
-            self._program.uses[module, name] = Use(module, name, print_)
+        else:
+            self._functions.note_use(function.__module__, name, thing)
         return _of_python(thing)
+
+    def _read_variable(self, name: str) -> Value:
+        variable = self._variable(name)
+        operands = [
+            self._text.let(f"load {ir}, ptr {room}")
+            for ir, room in zip(parts_of(variable.kind), variable.rooms, strict=True)
+        ]
+        value = from_parts(variable.kind, operands)
+        if isinstance(value, Number) and value.scalar == INT64:
+            return value._replace(is_natural=variable.is_natural)
+        return value
+
+    def _variable(self, name: str) -> _Variable:
+        """Return where a name's value is, of the type that is known of it."""
+        if name not in self._variables:
+            kind, is_natural = self._state.variables[name]
+            rooms = tuple(self._text.room(ir) for ir in parts_of(kind))
+            self._variables[name] = _Variable(kind, rooms, is_natural)
+        return self._variables[name]
 
     def _combined(self, word: str, one: Value, other: Value) -> Number:
         return arithmetic(self._text, word, self._number(one), self._number(other))
@@ -712,7 +714,26 @@ class _Lowering:
             return self._either(
                 node.test, lambda: self._value(node.body), lambda: self._value(node.orelse)
             )
-        return self._either(node, lambda: constant(True), lambda: constant(False))
+        return self._connected(node.values, is_and=isinstance(node.op, ast.And))
+
+    def _connected(self, nodes: Sequence[ast.expr], *, is_and: bool) -> Number:
+        """Return whether all (`is_and`) or any hold; those behind one that decides are left."""
+        text = self._text
+        first = self._number(self._value(nodes[0]))
+        if first.scalar != BOOL:
+            raise TypeError("'and' and 'or' connect truth values only, in what is no condition")
+        if len(nodes) == 1:
+            return first
+        begun, more, end = text.block, text.label(), text.label()
+        text.choose(first.operand, more if is_and else end, end if is_and else more)
+        ways = [("false" if is_and else "true", begun)]
+        if first.known is not None and first.known != is_and:
+            ways = [(first.operand, begun)]
+        text.begin(more)
+        rest = self._connected(nodes[1:], is_and=is_and)
+        ways.append((rest.operand, text.block))
+        text.begin(end)
+        return Number(BOOL, text.merged("i1", ways), True)
 
     def _keys(self, node: ast.expr) -> list[Number | Cut]:
         nodes = node.elts if isinstance(node, ast.Tuple) else [node]
@@ -744,7 +765,7 @@ class _Lowering:
             return part(self._text, array, indices)
         address = element_address(self._text, array, indices)
         if isinstance(array.element, Record):
-            return RecordValue(array.element, address)
+            return RecordValue(array.element, address, array.is_writeable)
         return loaded(self._text, array.element, address)
 
     def _item(self, whole: TupleValue, index: Number) -> Value:
@@ -768,7 +789,9 @@ class _Lowering:
     def _attribute(self, value: Value, name: str) -> Value:
         match value:
             case Known(thing=ModuleType() as module):
-                return _of_python(getattr(module, name))
+                thing = getattr(module, name)
+                self._functions.note_use(module.__name__, name, thing)
+                return _of_python(thing)
             case TupleValue() if name in value.names:
                 return value.items[value.names.index(name)]
             case ArrayValue() if name == "shape":
@@ -804,26 +827,30 @@ class _Lowering:
         if isinstance(source, KernelSource) and not named:
             return self._call_kernel(source, arguments)
         if isinstance(thing, External):
+            if len(arguments) != thing.arguments:
+                raise TypeError(f"{thing.name}() takes {thing.arguments} addresses")
             words = ", ".join(f"i64 {self._whole(one).operand}" for one in arguments)
-            text.do(f"call void {self._program.external(thing)}({words})")
+            text.do(f"call void {self._functions.external(thing)}({words})")
             return Nothing()
         if isinstance(thing, type) and hasattr(thing, "_fields"):
-            return TupleValue(tuple(arguments), thing)
+            return _named_tuple(thing, arguments, named)
         if isinstance(thing, type) and issubclass(thing, np.generic):
             scalar = element_of(thing)
             assert isinstance(scalar, Scalar)
+            if len(arguments) != 1 or named:
+                raise TypeError(f"{scalar.name}() takes one number")
             return converted(text, self._number(arguments[0]), scalar)
         if thing in _MAKERS:
             return self._make(thing, arguments, named)
         found = CALLS.get(thing)
-        if found is None or named:
+        if found is None or named or not found.least <= len(arguments) <= found.most:
             raise TypeError(f"kernels have no {getattr(thing, '__name__', thing)}() like this")
-        return found(Call(text, arguments))
+        return found.compute(Call(text, arguments))
 
     def _call_kernel(self, source: KernelSource, arguments: list[Value]) -> Value:
         text = self._text
         types = tuple(map(type_of_value, arguments))
-        compiled = self._program.function(source, types)
+        compiled = self._functions.function(source, types)
         self._note_memory(takes=compiled.is_lasting)
         words = ["ptr %arena"]
         for kind, value in zip(types, arguments, strict=True):
@@ -846,56 +873,76 @@ class _Lowering:
             self._note_memory(takes=takes)
             return new
         if name == "ravel" and not arguments and not array.strides:
-            return ArrayValue(array.element, array.address, (size_of(self._text, array),))
+            return array._replace(shape=(size_of(self._text, array),))
         if name == "reshape" and not array.strides:
             shape = arguments
             if len(arguments) == 1 and isinstance(arguments[0], TupleValue):
                 shape = list(arguments[0].items)
-            counts = tuple(self._whole(one)._replace(is_natural=True) for one in shape)
-            return ArrayValue(array.element, array.address, counts)
+            return array._replace(shape=self._counts(array, list(map(self._whole, shape))))
         raise TypeError(f"kernels have no .{name}() of such an array")
+
+    def _counts(self, array: ArrayValue, shape: list[Number]) -> tuple[Number, ...]:
+        """Return the shape that an array is given; one number may be -1, for what is left."""
+        left = size_of(self._text, array)
+        for number in shape:
+            if number.known != -1:
+                left = arithmetic(self._text, "FloorDiv", left, number)
+        counts = (left if number.known == -1 else number for number in shape)
+        return tuple(number._replace(is_natural=True) for number in counts)
 
     def _is_local(self) -> bool:
         return not self._loops and not self._is_lasting
 
     def _make(self, thing: Any, arguments: list[Value], named: dict[str, Value]) -> ArrayValue:
         text = self._text
+        needed = 2 if thing is np.full else 1
+        dtype = named.pop("dtype", None)
+        if dtype is None and len(arguments) > needed:
+            dtype = arguments.pop()
+        if named or len(arguments) != needed or not isinstance(dtype, Known | None):
+            raise TypeError(f"kernels have no np.{thing.__name__}() like this")
+        element = element_of(dtype.thing) if dtype is not None else None
         if thing is np.array:
-            return self._make_of_items(arguments[0])
+            return self._make_of_items(arguments[0], element)
         if thing is np.arange:
-            count = self._whole(arguments[0])
-            row = self._new(INT64, (count,), is_cleared=False)
-            text.count_up(
-                count.operand,
-                lambda k: text.do(
-                    f"store i64 {k}, ptr {element_address(text, row, [Number(INT64, k, True)])}"
-                ),
-            )
-            return row
-        shape = arguments.pop(0)
+            return self._make_count(self._whole(arguments[0]), element)
+        shape = arguments[0]
         counts = shape.items if isinstance(shape, TupleValue) else (shape,)
-        value = arguments.pop(0) if thing is np.full else None
-        element: Scalar | Record = FLOAT64
-        if isinstance(value, Number):
-            element = INT64 if value.scalar.is_integer else value.scalar
-        dtype = arguments[0] if arguments else named.get("dtype")
-        if dtype is not None:
-            if not isinstance(dtype, Known):
-                raise TypeError("an array's type is to be known")
-            element = element_of(dtype.thing)
+        value: Number | None = constant(1.0) if thing is np.ones else None
+        if thing is np.full:
+            value = self._number(arguments[1])
+        if element is None:
+            element = FLOAT64 if value is None else value.scalar
         array = self._new(element, tuple(map(self._whole, counts)), is_cleared=thing is np.zeros)
-        if thing is np.ones:
-            value = constant(1)
-        if isinstance(value, Number):
+        if value is not None:
             fill(text, array, value)
         return array
 
-    def _make_of_items(self, value: Value) -> ArrayValue:
+    def _make_of_items(self, value: Value, element: Scalar | Record | None) -> ArrayValue:
         items = [self._number(item) for item in self._items(value)]
-        kind = FLOAT64 if any(item.scalar.kind == "f" for item in items) else INT64
+        kind: KernelType | None = element or (items[0].scalar if items else FLOAT64)
+        for item in items if element is None else ():
+            kind = joined(kind, item.scalar) if kind is not None else None
+        if not isinstance(kind, Scalar):
+            raise TypeError("these have no type in common")
         row = self._new(kind, (constant(len(items)),), is_cleared=False)
         for k, item in enumerate(items):
             store(self._text, kind, element_address(self._text, row, [constant(k)]), item)
+        return row
+
+    def _make_count(self, count: Number, element: Scalar | Record | None) -> ArrayValue:
+        text = self._text
+        count = least_or_most(text, "Gt", [count, constant(0)])
+        kind = element or INT64
+        if not isinstance(kind, Scalar):
+            raise TypeError("numbers are no records")
+        row = self._new(kind, (count,), is_cleared=False)
+
+        def write(operand: str) -> None:
+            number = Number(INT64, operand, True)
+            store(text, kind, element_address(text, row, [number]), number)
+
+        text.count_up(count.operand, write)
         return row
 
     def _new(
@@ -906,6 +953,14 @@ class _Lowering:
         )
         self._note_memory(takes=takes)
         return array
+
+
+def _named_tuple(maker: Any, arguments: list[Value], named: dict[str, Value]) -> TupleValue:
+    """Return a named tuple of the arguments that its class is called with."""
+    names = maker._fields[len(arguments) :]
+    if len(arguments) > len(maker._fields) or set(named) != set(names):
+        raise TypeError(f"{maker.__name__}() takes {', '.join(maker._fields)}")
+    return TupleValue((*arguments, *(named[name] for name in names)), maker)
 
 
 _MAKERS = (np.empty, np.zeros, np.ones, np.full, np.array, np.arange)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import llvmlite
@@ -90,9 +90,16 @@ def object_code(text: str) -> bytes:
     return bytes(machine.emit_object(module))
 
 
-def load(content: bytes) -> None:
-    """Load an object file, for good."""
+def load(content: bytes, symbols: Mapping[str, int]) -> None:
+    """Load an object file, for good.
+
+    Args:
+        content: of the file.
+        symbols: where what it calls or asks for lies, besides what all do.
+    """
     engine = _engine()
+    for name, address in symbols.items():
+        llvm.add_symbol(name, address)
     engine.add_object_file(llvm.ObjectFileRef.from_data(content))
     engine.finalize_object()
 

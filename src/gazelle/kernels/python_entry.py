@@ -8,7 +8,10 @@ kernel returns come as their bytes with their shape. Only what Python keeps stab
 from __future__ import annotations
 
 import ctypes
-import sys
+import hashlib
+from collections.abc import Iterable
+
+import numpy as np
 
 from gazelle.kernels.array_operations import size_of
 from gazelle.kernels.function_text import FunctionText
@@ -20,8 +23,9 @@ from gazelle.kernels.kernel_types import (
     Scalar,
     Tuple,
     parts_of,
+    result_ir,
 )
-from gazelle.kernels.lowering import Compiled, result_ir
+from gazelle.kernels.lowering import Compiled
 from gazelle.kernels.values import (
     ArrayValue,
     Nothing,
@@ -31,12 +35,14 @@ from gazelle.kernels.values import (
     from_parts,
 )
 
-__all__ = ["SYMBOLS", "entry"]
+__all__ = ["SYMBOLS", "classes_of", "entry"]
 
 _BUFFER = 80
 """Bytes of a ``Py_buffer``; where its fields lie: the address 0, items' size 24, dimensions 36,
 format 40, shape 48, strides 56."""
 _FORMAT_AND_STRIDES = 0x1C
+_READ, _WRITE = 0x1C, 0x01
+"""Of a request: with format and strides; not of what is read only."""
 _LONG = 8 * ctypes.sizeof(ctypes.c_long)
 _LETTERS = {
     "bool": "?", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H",
@@ -59,17 +65,33 @@ _FUNCTIONS = {
     "PyLong_AsUnsignedLongLong": "i64 (ptr)",
     "PyLong_FromLongLong": "ptr (i64)",
     "PyLong_FromUnsignedLongLong": "ptr (i64)",
+    "PyNumber_Index": "ptr (ptr)",
     "PyObject_GetBuffer": "i32 (ptr, ptr, i32)",
+    "PyObject_IsInstance": "i32 (ptr, ptr)",
+    "PyObject_IsTrue": "i32 (ptr)",
+    "PyObject_Type": "ptr (ptr)",
     "PyTuple_GetItem": "ptr (ptr, i64)",
     "PyTuple_New": "ptr (i64)",
     "PyTuple_SetItem": "i32 (ptr, i64, ptr)",
     "PyTuple_Size": "i64 (ptr)",
+    "Py_DecRef": "void (ptr)",
     "Py_IncRef": "void (ptr)",
 }
 _OBJECTS = {
-    "gazelle_false": False, "gazelle_mismatch": NotImplemented, "gazelle_none": None,
+    "gazelle_false": False,
+    "gazelle_mismatch": NotImplemented,
+    "gazelle_none": None,
     "gazelle_true": True,
-}  # fmt: skip
+    "gazelle_class_float": float,
+    "gazelle_class_int": int,
+    "gazelle_class_signed": np.signedinteger,
+    "gazelle_class_truth": bool,
+    "gazelle_class_tuple": tuple,
+    **{
+        f"gazelle_class_{name}": getattr(np, name)
+        for name in ("bool", "float32", "float64", "uint8", "uint16", "uint32", "uint64")
+    },
+}
 
 _CHECKS = """
 define internal i1 @gazelle_failed(i1 %odd) noinline nounwind {
@@ -83,12 +105,99 @@ good:
   ret i1 false
 }
 
+define internal ptr @gazelle_class(ptr %object) noinline nounwind {
+entry:
+  %class = call ptr @PyObject_Type(ptr %object)
+  call void @Py_DecRef(ptr %class)
+  ret ptr %class
+}
+
+define internal i1 @gazelle_float(ptr %object, ptr %class, ptr %other, ptr %out) noinline nounwind {
+entry:
+  %found = call ptr @gazelle_class(ptr %object)
+  %is_class = icmp eq ptr %found, %class
+  br i1 %is_class, label %take, label %ask
+ask:
+  %code = call i32 @PyObject_IsInstance(ptr %object, ptr %other)
+  %is_other = icmp eq i32 %code, 1
+  br i1 %is_other, label %take, label %bad
+take:
+  %number = call double @PyFloat_AsDouble(ptr %object)
+  store double %number, ptr %out
+  %odd = fcmp oeq double %number, -1.0
+  %failed = call i1 @gazelle_failed(i1 %odd)
+  %good = xor i1 %failed, true
+  ret i1 %good
+bad:
+  ret i1 false
+}
+
+define internal i1 @gazelle_int(ptr %object, ptr %out) noinline nounwind {
+entry:
+  %found = call ptr @gazelle_class(ptr %object)
+  %is_int = icmp eq ptr %found, @gazelle_class_int
+  br i1 %is_int, label %take, label %ask
+ask:
+  %code = call i32 @PyObject_IsInstance(ptr %object, ptr @gazelle_class_signed)
+  %is_signed = icmp eq i32 %code, 1
+  br i1 %is_signed, label %take, label %ask_again
+ask_again:
+  ; As numbers with names are; truth values are no integers here.
+  %other = call i32 @PyObject_IsInstance(ptr %object, ptr @gazelle_class_int)
+  %is_whole = icmp eq i32 %other, 1
+  %is_bool = icmp eq ptr %found, @gazelle_class_truth
+  %is_number = xor i1 %is_bool, true
+  %is_one = and i1 %is_whole, %is_number
+  br i1 %is_one, label %take, label %bad
+take:
+  %number = call i64 @PyLong_AsLongLong(ptr %object)
+  store i64 %number, ptr %out
+  %odd = icmp eq i64 %number, -1
+  %failed = call i1 @gazelle_failed(i1 %odd)
+  %good = xor i1 %failed, true
+  ret i1 %good
+bad:
+  ret i1 false
+}
+
+define internal i1 @gazelle_unsigned(ptr %object, ptr %class, ptr %out) noinline nounwind {
+entry:
+  %found = call ptr @gazelle_class(ptr %object)
+  %is_class = icmp eq ptr %found, %class
+  br i1 %is_class, label %take, label %bad
+take:
+  %whole = call ptr @PyNumber_Index(ptr %object)
+  %number = call i64 @PyLong_AsUnsignedLongLong(ptr %whole)
+  call void @Py_DecRef(ptr %whole)
+  store i64 %number, ptr %out
+  ret i1 true
+bad:
+  ret i1 false
+}
+
+define internal i1 @gazelle_bool(ptr %object, ptr %out) noinline nounwind {
+entry:
+  %found = call ptr @gazelle_class(ptr %object)
+  %is_numpys = icmp eq ptr %found, @gazelle_class_bool
+  %is_true = icmp eq ptr %object, @gazelle_true
+  %is_false = icmp eq ptr %object, @gazelle_false
+  %is_pythons = or i1 %is_true, %is_false
+  %is_one = or i1 %is_numpys, %is_pythons
+  br i1 %is_one, label %take, label %bad
+take:
+  %code = call i32 @PyObject_IsTrue(ptr %object)
+  store i32 %code, ptr %out
+  ret i1 true
+bad:
+  ret i1 false
+}
+
 define internal i1 @gazelle_array(ptr %object, ptr %buffers, ptr %held, i8 %letter, i8 %other,
-                                  i32 %ndim, i1 %contiguous) noinline nounwind {
+                                  i32 %ndim, i1 %contiguous, i32 %flags) noinline nounwind {
 entry:
   %count = load i64, ptr %held
   %buffer = getelementptr [80 x i8], ptr %buffers, i64 %count
-  %code = call i32 @PyObject_GetBuffer(ptr %object, ptr %buffer, i32 28)
+  %code = call i32 @PyObject_GetBuffer(ptr %object, ptr %buffer, i32 %flags)
   %taken = icmp eq i32 %code, 0
   br i1 %taken, label %look, label %bad
 look:
@@ -255,10 +364,9 @@ class _Entry:
         text.do(f"call void @gazelle_release(ptr {self._buffers}, ptr {self._held})")
         text.do("call void @Py_IncRef(ptr @gazelle_mismatch)")
         text.do("ret ptr @gazelle_mismatch")
-        head = f"define dllexport ptr @{name}(ptr %self, ptr %given, i64 %count) nounwind"
-        if sys.platform != "win32":
-            head = head.replace("dllexport ", "")
-        return "\n".join((_OPENING, *self._formats, text.text(head)))
+        head = f"define ptr @{name}(ptr %self, ptr %given, i64 %count) nounwind"
+        classes = (f"@{name} = external global i8" for name in classes_of(self._types))
+        return "\n".join((_OPENING, *classes, *self._formats, text.text(head)))
 
     def _require(self, test: str) -> None:
         good = self._text.label()
@@ -273,6 +381,9 @@ class _Entry:
                 return self._array(kind, thing)
             case Tuple():
                 text = self._text
+                found = text.let(f"call ptr @gazelle_class(ptr {thing})")
+                symbol = "gazelle_class_tuple" if kind.maker is None else _symbol(kind.maker)
+                self._require(f"icmp eq ptr {found}, @{symbol}")
                 size = text.let(f"call i64 @PyTuple_Size(ptr {thing})")
                 self._require(f"icmp eq i64 {size}, {len(kind.elements)}")
                 operands: list[str] = []
@@ -288,30 +399,39 @@ class _Entry:
     def _number(self, scalar: Scalar, thing: str) -> str:
         text = self._text
         if scalar.kind == "b":
-            is_true = text.let(f"icmp eq ptr {thing}, @gazelle_true")
-            is_false = text.let(f"icmp eq ptr {thing}, @gazelle_false")
-            self._require(f"or i1 {is_true}, {is_false}")
-            return is_true
+            room = self._taken_by("gazelle_bool", f"ptr {thing}", "i32")
+            return text.let(f"icmp ne i32 {text.let(f'load i32, ptr {room}')}, 0")
         if scalar.kind == "f":
-            found = text.let(f"call double @PyFloat_AsDouble(ptr {thing})")
-            is_odd = text.let(f"fcmp oeq double {found}, -1.0")
+            own = "float64" if scalar.bits == 64 else "float32"
+            other = "float" if scalar.bits == 64 else "float32"
+            words = f"ptr {thing}, ptr @gazelle_class_{own}, ptr @gazelle_class_{other}"
+            number = text.let(
+                f"load double, ptr {self._taken_by('gazelle_float', words, 'double')}"
+            )
+            return number if scalar.bits == 64 else text.let(f"fptrunc double {number} to float")
+        if scalar.kind == "i":
+            room = self._taken_by("gazelle_int", f"ptr {thing}", "i64")
         else:
-            sign = "" if scalar.kind == "i" else "Unsigned"
-            found = text.let(f"call i64 @PyLong_As{sign}LongLong(ptr {thing})")
-            is_odd = text.let(f"icmp eq i64 {found}, -1")
-        failed = text.let(f"call i1 @gazelle_failed(i1 {is_odd})")
-        self._require(f"xor i1 {failed}, true")
-        if scalar.bits == 64:
-            return found
-        word = "fptrunc double" if scalar.kind == "f" else "trunc i64"
-        return text.let(f"{word} {found} to {scalar.ir}")
+            words = f"ptr {thing}, ptr @gazelle_class_{scalar.name}"
+            room = self._taken_by("gazelle_unsigned", words, "i64")
+        number = text.let(f"load i64, ptr {room}")
+        return number if scalar.bits == 64 else text.let(f"trunc i64 {number} to {scalar.ir}")
+
+    def _taken_by(self, function: str, words: str, kind: str) -> str:
+        """Return where a function has written a number, after it could."""
+        room, good = self._text.room(kind), self._text.label()
+        took = self._text.let(f"call i1 @{function}({words}, ptr {room})")
+        self._text.choose(took, good, "mismatch")
+        self._text.begin(good)
+        return room
 
     def _array(self, kind: Array, thing: str) -> list[str]:
         text = self._text
         letters = "T" if isinstance(kind.element, Record) else _LETTERS[kind.element.name]
         words = (
             f"ptr {thing}, ptr {self._buffers}, ptr {self._held}, i8 {ord(letters[0])}, "
-            f"i8 {ord(letters[-1])}, i32 {kind.ndim}, i1 {str(kind.is_contiguous).lower()}"
+            f"i8 {ord(letters[-1])}, i32 {kind.ndim}, i1 {str(kind.is_contiguous).lower()}, "
+            f"i32 {_READ | (_WRITE if kind.is_writeable else 0)}"
         )
         fits = text.let(f"call i1 @gazelle_array({words})")
         good = text.label()
@@ -367,7 +487,8 @@ class _Entry:
                 return self._tuple([self._boxed(item) for item in value.items])
             case ArrayValue(strides=()):
                 size = size_of(text, value).operand
-                assert isinstance(value.element, Scalar)
+                if not isinstance(value.element, Scalar):
+                    raise TypeError("kernels return no records to Python")
                 size = text.let(f"mul i64 {size}, {value.element.bits // 8}")
                 call = f"call ptr @PyByteArray_FromStringAndSize(ptr {value.address}, i64 {size})"
                 content = text.let(call)
@@ -397,6 +518,22 @@ class _Entry:
             words = f"ptr {whole}, i64 {place}, ptr {item}"
             text.let(f"call i32 @PyTuple_SetItem({words})")
         return whole
+
+
+def classes_of(types: Iterable[KernelType]) -> dict[str, int]:
+    """Return where the classes of named tuples lie in this process that an entry asks for."""
+    found: dict[str, int] = {}
+    for kind in types:
+        if isinstance(kind, Tuple):
+            found |= classes_of(kind.elements)
+            if kind.maker is not None:
+                found[_symbol(kind.maker)] = id(kind.maker)
+    return found
+
+
+def _symbol(maker: type) -> str:
+    name = f"{maker.__module__}.{maker.__qualname__}"
+    return f"gazelle_class_{hashlib.sha256(name.encode()).hexdigest()[:16]}"
 
 
 def _count_of_arrays(kind: KernelType) -> int:

@@ -122,7 +122,11 @@ def _of_floats(text: FunctionText, word: str, one: Number, other: Number) -> Num
     is_less = text.let(f"select i1 {is_exact}, i1 false, i1 {differs}")
     ratio = text.let(f"select i1 {is_less}, {ir} {less}, {ir} {ratio}")
     # What was divided without a rest is a whole number but for rounding.
-    return Number(kind, text.let(f"call {ir} @llvm.rint.f{kind.bits}({ir} {ratio})"))
+    whole = text.let(f"call {ir} @llvm.rint.f{kind.bits}({ir} {ratio})")
+    is_none = text.let(f"fcmp oeq {ir} {whole}, {zero}")
+    real = text.let(f"fdiv {flags}{ir} {a}, {b}")
+    none = text.let(f"call {ir} @llvm.copysign.f{kind.bits}({ir} {zero}, {ir} {real})")
+    return Number(kind, text.let(f"select i1 {is_none}, {ir} {none}, {ir} {whole}"))
 
 
 def _of_integers(text: FunctionText, word: str, one: Number, other: Number) -> Number:
@@ -147,14 +151,15 @@ def _of_integers(text: FunctionText, word: str, one: Number, other: Number) -> N
     raise TypeError(f"no operator {word} for integers")
 
 
-def _common(one: Number, other: Number) -> Scalar:
-    """Return the type that two integers are computed in."""
-    if one.scalar.kind == other.scalar.kind == "u":
+def _common(*numbers: Number) -> Scalar:
+    """Return the type that integers are computed in."""
+    if all(number.scalar.kind == "u" for number in numbers):
         return UINT64
-    if UINT64 in (one.scalar, other.scalar):
-        known = other if one.scalar == UINT64 else one
-        if known.known is None or not known.is_natural:
-            raise TypeError("a uint64 and an integer with a sign have no integer type in common")
+    if any(number.scalar == UINT64 for number in numbers):
+        for number in numbers:
+            is_known = number.known is not None and number.is_natural
+            if number.scalar.kind == "i" and not is_known:
+                raise TypeError("a uint64 and an integer with a sign have no type in common")
         return UINT64
     return INT64
 
@@ -185,6 +190,8 @@ def _rounded_down(text: FunctionText, word: str, one: Number, other: Number) -> 
 
 def _power(text: FunctionText, one: Number, other: Number) -> Number:
     exponent = other.known
+    if one.scalar.kind == "b":
+        one = converted(text, one, INT64)
     if isinstance(exponent, int) and 0 <= exponent <= _MAX_POWER:
         result: Number | None = None
         square = one
@@ -225,11 +232,11 @@ def compared(text: FunctionText, word: str, one: Number, other: Number) -> Numbe
 def least_or_most(text: FunctionText, word: str, numbers: list[Number]) -> Number:
     """Return the least (``Lt``) or the greatest (``Gt``) as Python's ``min`` and ``max`` do."""
     kind = numbers[0].scalar
-    for number in numbers[1:]:
-        if "f" in (kind.kind, number.scalar.kind):
+    if any(number.scalar.kind == "f" for number in numbers):
+        for number in numbers[1:]:
             kind = joined_floats(kind, number.scalar)
-        elif number.scalar != kind:
-            kind = _common(Number(kind, ""), number)
+    elif any(number.scalar != kind for number in numbers):
+        kind = _common(*numbers)
     found = converted(text, numbers[0], kind)
     for number in numbers[1:]:
         other = converted(text, number, kind)

@@ -9,7 +9,18 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-__all__ = ["External", "KernelSource", "digest_of", "settled_names", "tree_of"]
+import numpy as np
+
+__all__ = [
+    "External",
+    "KernelSource",
+    "Use",
+    "digest_of",
+    "fingerprint",
+    "settled_names",
+    "stored_names",
+    "tree_of",
+]
 
 
 class KernelSource(NamedTuple):
@@ -34,6 +45,18 @@ class External(NamedTuple):
 
     name: str
     arguments: int
+
+
+def fingerprint(thing: Any) -> str:
+    """Return what changes where a constant, a kernel or a named tuple does; else empty."""
+    source = getattr(thing, "source", None)
+    if isinstance(source, KernelSource):
+        return digest_of(source)
+    if isinstance(thing, type) and hasattr(thing, "_fields"):
+        return repr(thing._fields)
+    if isinstance(thing, int | float | tuple | np.generic | np.dtype | External):
+        return f"{type(thing).__name__} {thing!r}"
+    return ""
 
 
 @functools.cache
@@ -61,7 +84,15 @@ def digest_of(source: KernelSource) -> str:
     return hashlib.sha256(repr(words).encode()).hexdigest()
 
 
-class _Use(NamedTuple):
+class Use(NamedTuple):
+    """Something of a module that what was compiled depends on, and what it was then."""
+
+    module: str
+    name: str
+    fingerprint: str
+
+
+class _Place(NamedTuple):
     """Where a name is: the blocks of statements around it, and its place in the file."""
 
     blocks: tuple[int, ...]
@@ -75,10 +106,10 @@ def settled_names(function: ast.FunctionDef) -> frozenset[str]:
     They stand for their value; others have a place in memory, as their value is another one after
     a branch or in the next round of a loop.
     """
-    stores: dict[str, list[_Use]] = {}
-    loads: dict[str, list[_Use]] = {}
+    stores: dict[str, list[_Place]] = {}
+    loads: dict[str, list[_Place]] = {}
     for argument in function.args.args:
-        stores.setdefault(argument.arg, []).append(_Use((), 0, 0))
+        stores.setdefault(argument.arg, []).append(_Place((), 0, 0))
     _note(function.body, (), stores, loads)
     return frozenset(
         name
@@ -87,7 +118,16 @@ def settled_names(function: ast.FunctionDef) -> frozenset[str]:
     )
 
 
-def _is_behind(use: _Use, store: _Use) -> bool:
+def stored_names(function: ast.FunctionDef) -> frozenset[str]:
+    """Return all names that a function gives a value to."""
+    return frozenset(
+        node.id
+        for node in ast.walk(function)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    )
+
+
+def _is_behind(use: _Place, store: _Place) -> bool:
     is_around = use.blocks[: len(store.blocks)] == store.blocks
     return is_around and (use.line, use.column) > (store.line, store.column)
 
@@ -95,8 +135,8 @@ def _is_behind(use: _Use, store: _Use) -> bool:
 def _note(
     body: Iterable[ast.stmt],
     blocks: tuple[int, ...],
-    stores: dict[str, list[_Use]],
-    loads: dict[str, list[_Use]],
+    stores: dict[str, list[_Place]],
+    loads: dict[str, list[_Place]],
 ) -> None:
     for statement in body:
         inner = (*blocks, id(statement))
@@ -114,7 +154,7 @@ def _note(
                 _note(statement.orelse, (*inner, 1), stores, loads)
             case ast.AugAssign(target=ast.Name() as name):
                 _note_names([name, statement.value], blocks, stores, loads)
-                loads.setdefault(name.id, []).append(_Use(blocks, name.lineno, name.col_offset))
+                loads.setdefault(name.id, []).append(_Place(blocks, name.lineno, name.col_offset))
             case _:
                 _note_names([statement], blocks, stores, loads)
 
@@ -122,12 +162,12 @@ def _note(
 def _note_names(
     nodes: Sequence[ast.AST],
     blocks: tuple[int, ...],
-    stores: dict[str, list[_Use]],
-    loads: dict[str, list[_Use]],
+    stores: dict[str, list[_Place]],
+    loads: dict[str, list[_Place]],
 ) -> None:
     for root in nodes:
         for node in ast.walk(root):
             if isinstance(node, ast.Name):
                 names = stores if isinstance(node.ctx, ast.Store) else loads
-                use = _Use(blocks, node.lineno, node.col_offset)
+                use = _Place(blocks, node.lineno, node.col_offset)
                 names.setdefault(node.id, []).append(use)

@@ -13,6 +13,7 @@ from gazelle.kernels.kernel_types import (
     FLOAT64,
     INT64,
     NONE,
+    UINT64,
     Array,
     KernelType,
     NoneType,
@@ -54,19 +55,29 @@ class Number(NamedTuple):
 
 
 class ArrayValue(NamedTuple):
-    """An array: where it begins, its shape, and the strides, bytes, where it is not contiguous."""
+    """An array.
+
+    Attributes:
+        element: of it.
+        address: where it begins.
+        shape: of it.
+        strides: bytes, where it is not contiguous.
+        is_writeable: a kernel may write to it.
+    """
 
     element: Scalar | Record
     address: str
     shape: tuple[Number, ...]
     strides: tuple[str, ...] = ()
+    is_writeable: bool = True
 
 
 class RecordValue(NamedTuple):
-    """A record in an array."""
+    """A record in an array, and whether a kernel may write to it."""
 
     record: Record
     address: str
+    is_writeable: bool = True
 
 
 class TupleValue(NamedTuple):
@@ -95,21 +106,34 @@ Value: TypeAlias = Number | ArrayValue | RecordValue | TupleValue | Known | Noth
 
 
 def constant(value: float, scalar: Scalar | None = None) -> Number:
-    """Return a number that is known, of Python's type for it where none is given."""
+    """Return a number that is known, of Python's type for it where none is given.
+
+    Raises:
+        TypeError: an integer is too large.
+    """
     if scalar is None:
-        if isinstance(value, np.generic):
-            found = element_of(value.dtype)
-            assert isinstance(found, Scalar)
-            scalar = INT64 if found.kind == "i" else found
-        elif isinstance(value, bool):
-            scalar = BOOL
-        else:
-            scalar = INT64 if isinstance(value, int) else FLOAT64
+        scalar = _scalar_of(value)
     if scalar.kind == "f":
         return Number(scalar, _digits(float(value), scalar), known=float(value))
     if scalar.kind == "b":
         return Number(scalar, "true" if value else "false", True, bool(value))
-    return Number(scalar, str(int(value)), int(value) >= 0, int(value))
+    whole = int(value)
+    least = -(1 << (scalar.bits - 1)) if scalar.kind == "i" else 0
+    if not least <= whole < least + (1 << scalar.bits):
+        raise TypeError(f"{whole} does not fit into {scalar.name}")
+    return Number(scalar, str(whole), whole >= 0, whole)
+
+
+def _scalar_of(value: float) -> Scalar:
+    if isinstance(value, np.generic):
+        found = element_of(value.dtype)
+        assert isinstance(found, Scalar)
+        return INT64 if found.kind == "i" else found
+    if isinstance(value, bool):
+        return BOOL
+    if isinstance(value, int):
+        return UINT64 if value >= 1 << 63 else INT64
+    return FLOAT64
 
 
 def _digits(value: float, scalar: Scalar) -> str:
@@ -128,7 +152,8 @@ def type_of_value(value: Value) -> KernelType:
         case Number():
             return value.scalar
         case ArrayValue():
-            return Array(value.element, len(value.shape), not value.strides)
+            ndim, is_contiguous = len(value.shape), not value.strides
+            return Array(value.element, ndim, is_contiguous, value.is_writeable)
         case RecordValue():
             return value.record
         case TupleValue():
@@ -168,9 +193,8 @@ def _taken(kind: KernelType, operands: Iterator[str]) -> Value:
             address = next(operands)
             shape = tuple(Number(INT64, next(operands), True) for _ in range(kind.ndim))
             count = 0 if kind.is_contiguous else kind.ndim
-            return ArrayValue(
-                kind.element, address, shape, tuple(next(operands) for _ in range(count))
-            )
+            strides = tuple(next(operands) for _ in range(count))
+            return ArrayValue(kind.element, address, shape, strides, kind.is_writeable)
         case Tuple():
             return TupleValue(tuple(_taken(each, operands) for each in kind.elements), kind.maker)
         case NoneType():
