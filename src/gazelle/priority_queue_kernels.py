@@ -1,9 +1,6 @@
 # mypy: ignore-errors
 # ruff: noqa: ANN001, ANN201
-"""The compiled heap of searches: two arrays, of keys and of what they stand for, least key first.
-
-Numba compiles `heapq` on lists of tuples for much longer.
-"""
+"""The compiled heap of searches: arrays of keys and of what they stand for, least key first."""
 
 from __future__ import annotations
 

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from gazelle import kernels
+from gazelle.announcements import announced_by
 from gazelle.cli.completion import candidates
+from gazelle.cli.demo import _Processes
 from gazelle.cli.main import main
 from gazelle.demo import DEMOS
 from gazelle.graph import Node
+from gazelle.kernels import AREAS, KernelSource
 
 
 def test_without_a_name_all_are_listed(capsys: Any) -> None:
@@ -56,6 +61,21 @@ def test_beside_a_running_world_it_says_how_to_start(robot: Node, port: int, cap
     robot.create_publisher("/clock", "rosgraph_msgs/Clock")
     assert main(["demo", "scout", "--no-browser"]) == 1
     assert f"GAZELLE_PORT={port + 1} gazelle demo scout" in capsys.readouterr().err
+
+
+def test_that_kernels_are_compiled_is_passed_on(
+    monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    monkeypatch.setattr(kernels.dispatch, "area_of", lambda _: AREAS[0])
+    told: list[str] = []
+    with announced_by(told.append):
+        kernels.dispatch.tell(KernelSource(main))
+    shown = _Processes(DEMOS[0], is_verbose=False)
+    shown._read(io.StringIO(f"[INFO] [gazebo]: {told[0]}\nanother line\n"))
+    assert capsys.readouterr().out == (
+        "  compiling the kernels of cameras for this machine: up to 1 s of computing, once "
+        "('gazelle warm' does it ahead)\n"
+    )
 
 
 @pytest.mark.slow(6)

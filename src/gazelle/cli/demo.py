@@ -30,8 +30,6 @@ __all__ = ["main"]
 _LOOK_S = 0.1
 _LAST_LINES = 30
 _FAILED = ("[ERROR]", "[FATAL]", "Traceback", "error:")
-# What is compiled once may take minutes, and nobody should wait without knowing for what.
-_COMPILING = "compiling what "
 # Panels that complain of topics that are not there yet.
 _LATE = frozenset({"rqt_plot"})
 # After SIGINT, then after SIGTERM; a launch gives its nodes most of that.
@@ -260,12 +258,14 @@ class _Processes:
         return self._code
 
     def _read(self, lines: IO[str]) -> None:
+        from gazelle.kernels import COMPILING
+
         for line in lines:
             text = line.rstrip("\n")
             self._last.append(text)
-            _, is_compiling, for_what = text.partition(_COMPILING)
+            _, is_compiling, for_what = text.partition(COMPILING)
             if is_compiling:
-                print(f"  {_COMPILING}{for_what}", flush=True)
+                print(f"  {COMPILING}{for_what}", flush=True)
             if not self._is_ending and any(sign in text for sign in _FAILED):
                 print(text, file=sys.stderr, flush=True)
 

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["AREAS", "Area", "area_of"]
+__all__ = ["AREAS", "COMPILING", "Area", "area_of"]
+
+COMPILING = "compiling the kernels of "
+"""How the line begins that says that somebody compiles."""
 
 
 class Area(NamedTuple):

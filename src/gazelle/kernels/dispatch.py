@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 
 from gazelle.announcements import announce
-from gazelle.kernels.areas import area_of
+from gazelle.kernels.areas import COMPILING, area_of
 from gazelle.kernels.kept_code import KeptCode, file_of, keep, kept
 from gazelle.kernels.kernel_types import (
     Array,
@@ -31,7 +31,7 @@ from gazelle.kernels.kernel_types import (
 from gazelle.kernels.source import KernelSource, digest_of
 from gazelle.kernels.turns import turn
 
-__all__ = ["Kernel", "compiling", "kernel", "kernels"]
+__all__ = ["Kernel", "compiling", "kernel", "kernels", "tell"]
 
 _lock = threading.RLock()
 _all: list[Kernel] = []
@@ -115,13 +115,7 @@ def _compiled(source: KernelSource, types: tuple[KernelType, ...]) -> KeptCode:
     from gazelle.kernels.program import Program
     from gazelle.kernels.python_entry import entry
 
-    area = area_of(source.function.__module__)
-    if area is not None:
-        announce(
-            f"compiling the kernels of {area.what} for this machine: up to {area.compile_s} s of "
-            "computing, once ('gazelle warm' does it ahead)",
-            key=area.package,
-        )
+    tell(source)
     began = time.thread_time()
     program = Program()
     compiled = program.function(source, types)
@@ -132,6 +126,17 @@ def _compiled(source: KernelSource, types: tuple[KernelType, ...]) -> KeptCode:
         watcher(source, time.thread_time() - began)
     uses = tuple(program.uses.values())
     return KeptCode(digest_of(source), uses, compiled.result, name, content)
+
+
+def tell(source: KernelSource) -> None:
+    """Say that a kernel is compiled, of each area once in a process."""
+    area = area_of(source.function.__module__)
+    if area is not None:
+        announce(
+            f"{COMPILING}{area.what} for this machine: up to {area.compile_s} s of computing, "
+            "once ('gazelle warm' does it ahead)",
+            key=area.package,
+        )
 
 
 def _finish(kind: KernelType) -> Callable[[Any], Any] | None:

@@ -147,7 +147,7 @@ def element_of(dtype: Any) -> Scalar | Record:
     dtype = np.dtype(dtype)
     if dtype.fields is not None and dtype.names is not None:
         fields = tuple(_field(dtype, name) for name in dtype.names)
-        return Record(fields, dtype.itemsize, np.empty(0, dtype).data.format)
+        return Record(fields, dtype.itemsize, np.empty(2, dtype).data.format)
     if not dtype.isnative or dtype.name not in _SCALARS:
         raise TypeError(f"kernels take no arrays of {dtype}")
     return _SCALARS[dtype.name]

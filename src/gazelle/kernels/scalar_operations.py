@@ -168,9 +168,14 @@ def _rounded_down(text: FunctionText, word: str, one: Number, other: Number) -> 
     kind, a, b = one.scalar, one.operand, other.operand
     is_plain = kind == UINT64 or (one.is_natural and other.is_natural)
     is_never_zero = bool(other.known)
+    # The least integer has no quotient by -1, and processors stop there.
+    is_never_minus = is_plain or other.is_natural or other.known not in (None, -1)
     if not is_never_zero:
         is_zero = text.let(f"icmp eq i64 {b}, 0")
         b = text.let(f"select i1 {is_zero}, i64 1, i64 {b}")
+    if not is_never_minus:
+        is_minus = text.let(f"icmp eq i64 {b}, -1")
+        b = text.let(f"select i1 {is_minus}, i64 1, i64 {b}")
     sign = "u" if is_plain else "s"
     rest = text.let(f"{sign}rem i64 {a}, {b}")
     found = rest if word == "Mod" else text.let(f"{sign}div i64 {a}, {b}")
@@ -183,6 +188,9 @@ def _rounded_down(text: FunctionText, word: str, one: Number, other: Number) -> 
             found = text.let(f"select i1 {is_off}, i64 {other_rest}, i64 {rest}")
         else:
             found = text.let(f"sub i64 {found}, {text.let(f'zext i1 {is_off} to i64')}")
+    if not is_never_minus and word == "FloorDiv":
+        turned = text.let(f"sub i64 0, {a}")
+        found = text.let(f"select i1 {is_minus}, i64 {turned}, i64 {found}")
     if not is_never_zero:
         found = text.let(f"select i1 {is_zero}, i64 0, i64 {found}")
     return Number(kind, found, is_plain or (word == "Mod" and other.is_natural))

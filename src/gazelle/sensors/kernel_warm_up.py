@@ -18,7 +18,7 @@ def warm_up(progress: Callable[[str], None] | None = None) -> float:
 
     Args:
         progress: told in a sentence when compiling starts and when it is done; silent when the
-            kernels come from the cache (which takes about 0.4 s). Without it who listens to this
+            kernels come from the cache. Without it who listens to this
             process is told that it starts.
 
     Returns:

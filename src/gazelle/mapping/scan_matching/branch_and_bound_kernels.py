@@ -343,7 +343,6 @@ def bound_search(values, words, levels, cells, boxes, reach, done, least):
                     at = top
                     while at > first and worths[at - 1] > worth:
                         worths[at] = worths[at - 1]
-                        # One by one: an assignment of rows takes seconds to compile.
                         for k in range(3):
                             stack[at, k] = stack[at - 1, k]
                         at -= 1
