@@ -11,6 +11,7 @@ whatever module. It is stale where one of them has changed.
 from __future__ import annotations
 
 import contextlib
+import functools
 import hashlib
 import os
 import pickle
@@ -27,9 +28,9 @@ from gazelle.kernels.source import KernelSource, Use, digest_of, fingerprint
 __all__ = ["VARIABLE", "KeptCode", "file_of", "folder_of", "keep", "kept"]
 
 VARIABLE = "GAZELLE_KERNEL_CACHE"
-_HOW_COMPILED = 1
-"""Raised where kernels are compiled in another way, which no source of theirs shows."""
-_DAMAGED = (AttributeError, EOFError, ImportError, LookupError, ValueError, pickle.PickleError)
+_DAMAGED = (
+    AttributeError, EOFError, ImportError, LookupError, TypeError, ValueError, pickle.PickleError,
+)  # fmt: skip
 """What reading half a file, or of types that have another name now, may raise."""
 
 _folders: dict[Path, Path | None] = {}
@@ -86,10 +87,17 @@ def file_of(source: KernelSource, types: tuple[KernelType, ...], machine: str) -
     folder = folder_of(source)
     if folder is None:
         return None
-    words = (_HOW_COMPILED, sys.version_info[:2], machine, [_words(kind) for kind in types])
+    words = (_compiler(), sys.version_info[:2], machine, [_words(kind) for kind in types])
     digest = hashlib.sha256(repr(words).encode()).hexdigest()[:16]
     stem = Path(source.function.__code__.co_filename).stem
     return folder / f"{stem}.{source.function.__qualname__}-{digest}.kernel"
+
+
+@functools.cache
+def _compiler() -> str:
+    """Return what changes where kernels are compiled in another way."""
+    files = sorted(Path(__file__).parent.glob("*.py"))
+    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()
 
 
 def _words(kind: object) -> object:

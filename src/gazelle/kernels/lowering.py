@@ -859,7 +859,7 @@ class _Lowering:
         kinds = parts_of(compiled.result)
         if not kinds:
             text.do(call)
-            return Nothing()
+            return from_parts(compiled.result, [])
         whole = text.let(call)
         if len(kinds) == 1:
             return from_parts(compiled.result, [whole])

@@ -84,6 +84,7 @@ _OBJECTS = {
     "gazelle_true": True,
     "gazelle_class_float": float,
     "gazelle_class_int": int,
+    "gazelle_class_ndarray": np.ndarray,
     "gazelle_class_signed": np.signedinteger,
     "gazelle_class_truth": bool,
     "gazelle_class_tuple": tuple,
@@ -195,6 +196,14 @@ bad:
 define internal i1 @gazelle_array(ptr %object, ptr %buffers, ptr %held, i8 %letter, i8 %other,
                                   i32 %ndim, i1 %contiguous, i32 %flags) noinline nounwind {
 entry:
+  %class = call ptr @gazelle_class(ptr %object)
+  %is_plain = icmp eq ptr %class, @gazelle_class_ndarray
+  br i1 %is_plain, label %take, label %ask
+ask:
+  %is = call i32 @PyObject_IsInstance(ptr %object, ptr @gazelle_class_ndarray)
+  %is_array = icmp eq i32 %is, 1
+  br i1 %is_array, label %take, label %bad
+take:
   %count = load i64, ptr %held
   %buffer = getelementptr [80 x i8], ptr %buffers, i64 %count
   %code = call i32 @PyObject_GetBuffer(ptr %object, ptr %buffer, i32 %flags)
@@ -468,7 +477,7 @@ class _Entry:
         call = f"call {ir} {compiled.name}({words})"
         if not kinds:
             text.do(call)
-            return Nothing()
+            return from_parts(compiled.result, [])
         whole = text.let(call)
         if len(kinds) == 1:
             return from_parts(compiled.result, [whole])

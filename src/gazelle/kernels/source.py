@@ -48,15 +48,14 @@ class External(NamedTuple):
 
 
 def fingerprint(thing: Any) -> str:
-    """Return what changes where a constant, a kernel or a named tuple does; else empty."""
+    """Return what changes where something of a module is another thing; empty for modules."""
     source = getattr(thing, "source", None)
     if isinstance(source, KernelSource):
         return digest_of(source)
-    if isinstance(thing, type) and hasattr(thing, "_fields"):
-        return repr(thing._fields)
-    if isinstance(thing, int | float | tuple | np.generic | np.dtype | External):
+    if isinstance(thing, bool | int | float | str | tuple | np.generic | np.dtype):
         return f"{type(thing).__name__} {thing!r}"
-    return ""
+    name = getattr(thing, "__qualname__", "")
+    return f"{thing.__module__}.{name} {getattr(thing, '_fields', '')}" if name else ""
 
 
 @functools.cache
@@ -72,9 +71,18 @@ def _functions_of(file: str) -> dict[tuple[str, int], ast.FunctionDef]:
 
 
 def tree_of(source: KernelSource) -> ast.FunctionDef:
-    """Return the tree of a kernel's function."""
+    """Return the tree of a kernel's function.
+
+    Raises:
+        TypeError: its file is not there, or has another function in its place by now.
+    """
     code = source.function.__code__
-    return _functions_of(code.co_filename)[code.co_name, code.co_firstlineno]
+    try:
+        found = _functions_of(code.co_filename)[code.co_name, code.co_firstlineno]
+    except (KeyError, OSError, SyntaxError):
+        place = f"{code.co_filename}:{code.co_firstlineno}"
+        raise TypeError(f"the source of the kernel {source.name} is not at {place}") from None
+    return found
 
 
 def digest_of(source: KernelSource) -> str:
