@@ -537,6 +537,22 @@ def _first_x(rows):
     return rows[0].x
 
 
+def test_records_may_lie_without_gaps() -> None:
+    packed = np.dtype([("id", np.int8), ("x", np.float64), ("near", np.float32, (3,))])
+    rows = np.zeros(20, packed).view(np.recarray)
+    rows.x, rows.near = np.arange(20), np.arange(60).reshape(20, 3)
+    assert_as_in_python(_summed_records, rows)
+    assert_as_in_python(_summed_records, rows[1::3])
+
+
+@kernel
+def _summed_records(rows):
+    total = 0.0
+    for k in range(len(rows)):
+        total += rows[k].x + rows[k].near[0] * rows[k].near[2]
+    return total
+
+
 @kernel
 def _no_such_field(rows):
     return rows[0].y

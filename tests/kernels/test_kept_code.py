@@ -152,10 +152,14 @@ def unused(x):
 
 
 SHARE = 0.5
+REAL = np.float32
+TYPE = "int8"
+root = math.sqrt
 """
 _USER = """
 import other
-from other import GAIN, OFFSETS, Pair, outer
+import numpy as np
+from other import GAIN, OFFSETS, REAL, TYPE, Pair, outer, root
 
 from gazelle.kernels import kernel
 
@@ -165,7 +169,9 @@ OWN = 100
 @kernel
 def f(x):
     pair = Pair(x, 3.0)
-    return outer(x) * GAIN + OFFSETS[1] + pair.a * 1000 + OWN + other.SCALE
+    single, small = np.full(1, 2.0**30 + 1.0, REAL), np.full(1, 257, TYPE)
+    more = root(x) - 2.0 + other.root(x) - 2.0 + single[0] - 2.0**30 + small[0] - 1
+    return outer(x) * GAIN + OFFSETS[1] + pair.a * 1000 + OWN + other.SCALE + more
 """
 _CHANGES = [
     ("kernel", "OWN = 100", "OWN = 200", 100),
@@ -178,6 +184,9 @@ _CHANGES = [
     ("other", "_inner(x) * SHARE", "_inner(x) + SHARE", 6),
     ("other", "    a: float\n    b: float", "    b: float\n    a: float", -1000),
     ("other", "SCALE = 10.0", "SCALE = 10", 0),
+    ("other", "REAL = np.float32", "REAL = np.float64", 1),
+    ("other", 'TYPE = "int8"', 'TYPE = "int16"', 256),
+    ("other", "root = math.sqrt", "root = float", 4),
 ]
 
 
@@ -271,6 +280,9 @@ def test_what_another_llvm_or_processor_has_compiled_is_not_taken(
 
 # Damaged, full, gone
 
+_GONE = b"cgazelle.kernels.kept_code\ngone\n."
+_FEWER = b"cgazelle.kernels.kept_code\nKeptCode\n(S'only one'\ntR."
+
 
 @pytest.mark.parametrize(
     "left",
@@ -337,7 +349,9 @@ def test_the_folder_that_a_variable_names_is_made(
     file = _file(tmp_path / "some" / "where")
     assert file.name.startswith("kernel.f-")
     if os.name == "posix":
-        assert file.parents[1].stat().st_mode & 0o777 == 0o700
+        assert {folder.stat().st_mode & 0o777 for folder in (file.parent, file.parents[1])} == {
+            0o700
+        }
 
 
 def _elsewhere(modules: Modules, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:

@@ -70,6 +70,10 @@ def test_whole_division_rounds_down_and_its_rest_has_the_divisors_sign(a: int, b
     assert_as_in_python(_divided, a, b)
 
 
+def test_the_least_integer_is_divided_by_minus_one() -> None:
+    assert _divided(-(2**63), -1) == (-(2**63), 0)
+
+
 @given(_WHOLE)
 def test_dividing_an_integer_by_zero_gives_zero(a: int) -> None:
     assert _divided(a, 0) == (0, 0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 import textwrap
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -60,6 +61,7 @@ def _function(body: str, name: str = "f") -> Callable[..., Any]:
     space: dict[str, Any] = {}
     exec(f"def {name}(a):\n    {body}", space)
     made: Callable[..., Any] = space[name]
+    made.__module__ = __name__
     return made
 
 
@@ -93,24 +95,35 @@ def _twice(x):
 
 @pytest.mark.parametrize(
     "thing",
-    [1, 1.0, True, (1, 2), (1, 2.0), np.float32(1), np.int8(1), np.dtype("f4"),
-     External("f", 1), External("f", 2), External("g", 1), _Pair, _twice],
+    [1, 1.0, True, (1, 2), (1, 2.0), np.float32(1), np.int8(1), np.dtype("f4"), "f4", np.float32,
+     External("f", 1), External("f", 2), External("g", 1), _Pair, _twice, math.sqrt, math.log, min,
+     np.zeros, np.ones, np.float64],
 )  # fmt: skip
 def test_what_is_compiled_in_has_a_fingerprint_of_its_own(thing: object) -> None:
-    others = [1, 1.0, True, (1, 2), (1, 2.0), np.float32(1), np.int8(1), np.dtype("f4")]
-    others += [External("f", 1), External("f", 2), External("g", 1), _Pair, _twice]
+    others = [1, 1.0, True, (1, 2), (1, 2.0), np.float32(1), np.int8(1), np.dtype("f4"), "f4"]
+    others += [External("f", 1), External("f", 2), External("g", 1), _Pair, _twice, np.float32]
+    others += [math.sqrt, math.log, min, np.zeros, np.ones, np.float64]
     assert fingerprint(thing)
     assert [fingerprint(other) for other in others].count(fingerprint(thing)) == 1
 
 
-@pytest.mark.parametrize("thing", [len, np, np.zeros, dict, "words"])
-def test_what_is_not_compiled_in_has_no_fingerprint(thing: object) -> None:
-    assert fingerprint(thing) == ""
+def test_a_module_stands_for_what_is_taken_of_it() -> None:
+    assert fingerprint(math) == fingerprint(np) == ""
 
 
 def test_a_kernels_tree_is_found_below_its_decorators() -> None:
     assert tree_of(_twice.source).name == "_twice"
     assert tree_of(KernelSource(_settled)).name == "_settled"
+
+
+def test_a_function_that_is_not_where_it_was_is_told() -> None:
+    nameless = kernel(lambda x: x)
+    line = nameless.source.function.__code__.co_firstlineno
+    nowhere = kernel(_function("return a"))
+    for run, place in ((nameless, f"{__file__}:{line}"), (nowhere, "<string>:1")):
+        with pytest.raises(TypeError) as error:
+            run(1)
+        assert str(error.value) == f"the source of the kernel {run.source.name} is not at {place}"
 
 
 def test_a_kernel_is_named_with_its_module() -> None:

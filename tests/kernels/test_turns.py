@@ -12,7 +12,7 @@ import pytest
 from tests.patience import eventually, stretched
 
 from gazelle import announcements
-from gazelle.kernels import kernel, kept_code, turns
+from gazelle.kernels import kept_code, kernel, turns
 
 _KERNEL = """
 from gazelle.kernels import kernel
