@@ -75,7 +75,7 @@ def test_numbers_of_every_type_are_taken() -> None:
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("first", [1, 1.5, True, np.float32(1), np.uint8(1), np.uint64(1)])
+@pytest.mark.parametrize("first", [1.5, True, np.float32(1), np.uint64(1)])
 def test_what_came_first_plays_no_part(first: Any) -> None:
     run, third = kernel(_ten_less), kernel(_third)
     run(first)
@@ -202,7 +202,7 @@ def test_another_count_of_arguments_is_told() -> None:
 # Arrays
 
 
-@pytest.mark.parametrize("first", _NAMES)
+@pytest.mark.parametrize("first", ["bool", "int8", "uint64", "float32"])
 def test_an_array_of_another_type_is_another_kind_of_argument(first: str) -> None:
     run = kernel(_first)
     run(np.ones(2, first))
