@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import ctypes
 import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+import llvmlite.binding
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.kernels.python_oracle import assert_as_in_python, exact
 
-from gazelle.kernels import Kernel, kernel
+from gazelle.kernels import External, Kernel, kernel
+from gazelle.kernels.kernel_types import INT64
+from gazelle.kernels.program import Program
 
 _FEW = st.integers(-6, 6)
 
@@ -558,6 +562,37 @@ def _single_constant(x):
 
 def test_a_constant_has_its_own_precision() -> None:
     assert _single_constant(np.float32(3.0))[0] == np.float32(0.1) * np.float32(3.0)
+
+
+@kernel
+def _of_numbers(x):
+    return _sum_of(2, x, 1) + _sum_of(3, x, x) + _sum_of(-1, 2, x)
+
+
+def test_a_kernel_is_not_compiled_for_each_number_that_it_is_given() -> None:
+    assert_as_in_python(_of_numbers, 10)
+    program = Program()
+    program.function(_of_numbers.source, (INT64,))
+    assert program.text().count('define internal i64 @"_sum_of.') == 1
+
+
+_note = External("gazelle_test_note", 2)
+
+
+@kernel
+def _calls_library(n, row):
+    for k in range(n):
+        _note(k, row[k])
+    return n
+
+
+def test_functions_of_libraries_are_called_with_addresses_and_numbers() -> None:
+    noted: list[tuple[int, int]] = []
+    kind = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_int64)
+    function = kind(lambda *numbers: noted.append(numbers))
+    llvmlite.binding.add_symbol(_note.name, ctypes.cast(function, ctypes.c_void_p).value)
+    assert _calls_library(3, np.array([2**40, -1, 7])) == 3
+    assert noted == [(0, 2**40), (1, -1), (2, 7)]
 
 
 @kernel
