@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import itertools
+import os
+import subprocess
+import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -563,3 +567,22 @@ def test_a_field_that_is_not_there_is_told() -> None:
     with pytest.raises(TypeError) as error:
         _no_such_field(_records(1))
     assert str(error.value) == f"kernel {__file__}:{line}:5: there is no 'y' of this"
+
+
+def test_an_array_that_there_is_no_memory_for_ends_the_process_in_words(tmp_path: Path) -> None:
+    (tmp_path / "large.py").write_text(
+        "import numpy as np\n"
+        "from gazelle.kernels import kernel\n"
+        "@kernel\n"
+        "def first(count):\n"
+        "    row = np.ones(count)\n"
+        "    return row[0]\n",
+        encoding="utf-8",
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", "from large import first; first(-1)"],
+        check=False, cwd=tmp_path, capture_output=True, text=True,
+        env={**os.environ, "GAZELLE_KERNEL_CACHE": str(tmp_path / "kept")},
+    )  # fmt: skip
+    assert run.returncode != 0
+    assert run.stderr.startswith("Gazelle: no room for a kernel's array")

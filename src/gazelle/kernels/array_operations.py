@@ -34,9 +34,16 @@ MEMORY = """
 declare noalias ptr @malloc(i64)
 declare noalias ptr @calloc(i64, i64)
 declare void @free(ptr)
+declare void @perror(ptr)
+declare void @abort() noreturn
+
+@gazelle_no_memory = private constant [38 x i8] c"Gazelle: no room for a kernel's array\\00"
 
 define internal noalias ptr @gazelle_memory(ptr %arena, i64 %size, i1 %cleared) noinline nounwind {
 entry:
+  %is_negative = icmp slt i64 %size, 0
+  br i1 %is_negative, label %none, label %begin
+begin:
   %whole = add i64 %size, 16
   br i1 %cleared, label %clear, label %plain
 clear:
@@ -47,11 +54,18 @@ plain:
   br label %join
 join:
   %block = phi ptr [ %a, %clear ], [ %b, %plain ]
+  %is_none = icmp eq ptr %block, null
+  br i1 %is_none, label %none, label %some
+none:
+  call void @perror(ptr @gazelle_no_memory)
+  call void @abort()
+  unreachable
+some:
   %before = load ptr, ptr %arena
   store ptr %before, ptr %block
   store ptr %block, ptr %arena
-  %begin = getelementptr i8, ptr %block, i64 16
-  ret ptr %begin
+  %first = getelementptr i8, ptr %block, i64 16
+  ret ptr %first
 }
 
 define internal void @gazelle_give_back(ptr %arena, ptr %mark) noinline nounwind {
@@ -70,7 +84,7 @@ end:
   ret void
 }
 """
-"""Memory of a call: a list of blocks, the newest first."""
+"""Memory of a call: a list of blocks, the newest first. Where there is none the process ends."""
 
 
 class Cut(NamedTuple):

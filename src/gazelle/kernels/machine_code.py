@@ -71,6 +71,8 @@ def _name_mathematics() -> None:
         "memset",
         "memcpy",
         "strcmp",
+        "perror",
+        "abort",
     ):
         found = getattr(library, name, None)
         if found is not None:
