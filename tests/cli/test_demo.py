@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from gazelle import kernels
+from gazelle import announcements, kernels
 from gazelle.announcements import announced_by
 from gazelle.cli.completion import candidates
 from gazelle.cli.demo import _Processes
@@ -66,6 +66,7 @@ def test_beside_a_running_world_it_says_how_to_start(robot: Node, port: int, cap
 def test_that_kernels_are_compiled_is_passed_on(
     monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:
+    monkeypatch.setattr(announcements, "_told", set())
     monkeypatch.setattr(kernels.dispatch, "area_of", lambda _: AREAS[0])
     told: list[str] = []
     with announced_by(told.append):
