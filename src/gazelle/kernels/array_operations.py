@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from gazelle.kernels.function_text import FunctionText
 from gazelle.kernels.kernel_types import INT64, Record, Scalar
+from gazelle.kernels.kernel_values import ArrayValue, Number, RecordValue, constant
 from gazelle.kernels.scalar_operations import arithmetic, converted, least_or_most
-from gazelle.kernels.values import ArrayValue, Number, RecordValue, constant
 
 __all__ = [
     "MEMORY",

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from gazelle.kernels.function_text import FunctionText
 from gazelle.kernels.kernel_types import BOOL, FLOAT32, FLOAT64, INT64, Scalar, joined_floats
+from gazelle.kernels.kernel_values import ArrayValue, Number, TupleValue, Value, constant
 from gazelle.kernels.scalar_operations import (
     absolute,
     arithmetic,
@@ -15,7 +16,6 @@ from gazelle.kernels.scalar_operations import (
     least_or_most,
     truth,
 )
-from gazelle.kernels.values import ArrayValue, Number, TupleValue, Value, constant
 
 __all__ = ["CALLS", "DECLARATIONS", "Builtin", "Call"]
 

@@ -51,16 +51,7 @@ from gazelle.kernels.kernel_types import (
     parts_of,
     result_ir,
 )
-from gazelle.kernels.scalar_operations import (
-    arithmetic,
-    compared,
-    converted,
-    least_or_most,
-    negated,
-    truth,
-)
-from gazelle.kernels.source import External, KernelSource, settled_names, stored_names, tree_of
-from gazelle.kernels.values import (
+from gazelle.kernels.kernel_values import (
     ArrayValue,
     Known,
     Nothing,
@@ -73,8 +64,17 @@ from gazelle.kernels.values import (
     parts,
     type_of_value,
 )
+from gazelle.kernels.scalar_operations import (
+    arithmetic,
+    compared,
+    converted,
+    least_or_most,
+    negated,
+    truth,
+)
+from gazelle.kernels.source import External, KernelSource, settled_names, stored_names, tree_of
 
-__all__ = ["Compiled", "Functions", "lowered"]
+__all__ = ["Compiled", "Functions", "called", "lowered"]
 
 _MOST_ROUNDS = 60
 _UNSET = object()
@@ -122,6 +122,20 @@ def lowered(
         TypeError: something in its source is not for kernels, with its place.
     """
     return _State(source, types, name).compiled(functions)
+
+
+def called(text: FunctionText, compiled: Compiled, words: str) -> Value:
+    """Write a call of a function, its arguments as words, and return what it gives."""
+    kinds, ir = parts_of(compiled.result), result_ir(compiled.result)
+    call = f"call {ir} {compiled.name}({words})"
+    if not kinds:
+        text.do(call)
+        return from_parts(compiled.result, [])
+    whole = text.let(call)
+    if len(kinds) == 1:
+        return from_parts(compiled.result, [whole])
+    each = [text.let(f"extractvalue {ir} {whole}, {k}") for k in range(len(kinds))]
+    return from_parts(compiled.result, each)
 
 
 class _Variable(NamedTuple):
@@ -855,17 +869,7 @@ class _Lowering:
         words = ["ptr %arena"]
         for kind, value in zip(types, arguments, strict=True):
             words += [f"{ir} {one}" for ir, one in zip(parts_of(kind), parts(value), strict=True)]
-        call = f"call {result_ir(compiled.result)} {compiled.name}({', '.join(words)})"
-        kinds = parts_of(compiled.result)
-        if not kinds:
-            text.do(call)
-            return from_parts(compiled.result, [])
-        whole = text.let(call)
-        if len(kinds) == 1:
-            return from_parts(compiled.result, [whole])
-        ir = result_ir(compiled.result)
-        each = [text.let(f"extractvalue {ir} {whole}, {k}") for k in range(len(kinds))]
-        return from_parts(compiled.result, each)
+        return called(text, compiled, ", ".join(words))
 
     def _method(self, array: ArrayValue, name: str, arguments: list[Value]) -> Value:
         if name == "copy" and not arguments:

@@ -23,17 +23,15 @@ from gazelle.kernels.kernel_types import (
     Scalar,
     Tuple,
     parts_of,
-    result_ir,
 )
-from gazelle.kernels.lowering import Compiled
-from gazelle.kernels.values import (
+from gazelle.kernels.kernel_values import (
     ArrayValue,
     Nothing,
     Number,
     TupleValue,
     Value,
-    from_parts,
 )
+from gazelle.kernels.lowering import Compiled, called
 
 __all__ = ["SYMBOLS", "classes_of", "entry"]
 
@@ -361,7 +359,7 @@ class _Entry:
             operands = self._unboxed(kind, text.let(f"load ptr, ptr {item}"))
             words += [f"{ir} {one}" for ir, one in zip(parts_of(kind), operands, strict=True)]
         state = text.let("call ptr @PyEval_SaveThread()")
-        result = self._called(", ".join(words))
+        result = called(text, self._compiled, ", ".join(words))
         text.do(f"call void @PyEval_RestoreThread(ptr {state})")
         boxed = self._boxed(result)
         text.do(f"call void @gazelle_give_back(ptr {self._arena}, ptr null)")
@@ -469,20 +467,6 @@ class _Entry:
         found = text.let(f"load ptr, ptr {place}")
         order = text.let(f"call i32 @strcmp(ptr {found}, ptr {name})")
         self._require(f"icmp eq i32 {order}, 0")
-
-    def _called(self, words: str) -> Value:
-        text, compiled = self._text, self._compiled
-        kinds = parts_of(compiled.result)
-        ir = result_ir(compiled.result)
-        call = f"call {ir} {compiled.name}({words})"
-        if not kinds:
-            text.do(call)
-            return from_parts(compiled.result, [])
-        whole = text.let(call)
-        if len(kinds) == 1:
-            return from_parts(compiled.result, [whole])
-        each = [text.let(f"extractvalue {ir} {whole}, {k}") for k in range(len(kinds))]
-        return from_parts(compiled.result, each)
 
     def _boxed(self, value: Value) -> str:
         text = self._text

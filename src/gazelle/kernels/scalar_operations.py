@@ -20,7 +20,7 @@ from gazelle.kernels.kernel_types import (
     Scalar,
     joined_floats,
 )
-from gazelle.kernels.values import Number, constant
+from gazelle.kernels.kernel_values import Number, constant
 
 __all__ = ["absolute", "arithmetic", "compared", "converted", "least_or_most", "negated", "truth"]
 
