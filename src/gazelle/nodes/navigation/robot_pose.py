@@ -149,7 +149,10 @@ class Frames:
         return made
 
     def say(self, level: str, text: str, key: str = "", *, every_s: float = 5.0) -> None:
-        """Log something, the same thing at most so often."""
+        """Log something, the same thing at most so often; nothing once the node is closed."""
+        if self._node.closed:
+            # A callback that still waits for tf then would tell of what it could not find.
+            return
         now_ns = self._node.clock.now_ns()
         with self._lock:
             last_ns = self._said.get(key or text)
