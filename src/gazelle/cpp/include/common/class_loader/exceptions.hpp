@@ -1,0 +1,33 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace class_loader {
+
+class ClassLoaderException : public std::runtime_error {
+ public:
+  explicit ClassLoaderException(const std::string& what) : std::runtime_error(what) {}
+};
+
+class LibraryLoadException : public ClassLoaderException {
+ public:
+  explicit LibraryLoadException(const std::string& what) : ClassLoaderException(what) {}
+};
+
+class LibraryUnloadException : public ClassLoaderException {
+ public:
+  explicit LibraryUnloadException(const std::string& what) : ClassLoaderException(what) {}
+};
+
+class CreateClassException : public ClassLoaderException {
+ public:
+  explicit CreateClassException(const std::string& what) : ClassLoaderException(what) {}
+};
+
+class NoClassLoaderExistsException : public ClassLoaderException {
+ public:
+  explicit NoClassLoaderExistsException(const std::string& what) : ClassLoaderException(what) {}
+};
+
+}  // namespace class_loader
