@@ -1,0 +1,29 @@
+"""What goes wrong when C++ is compiled, as errors that say what to do."""
+
+from __future__ import annotations
+
+from gazelle.errors import GazelleError
+
+__all__ = ["CppBuildError", "compiler_failure"]
+
+
+class CppBuildError(GazelleError):
+    """Something of C++ was not built.
+
+    Attributes:
+        output: the words of the compiler, the linker or CMake.
+    """
+
+    def __init__(self, text: str, output: str = "") -> None:
+        super().__init__(text)
+        self.output = output
+
+
+_NO_ROOM = ("No space left on device", "Disk quota exceeded")
+
+
+def compiler_failure(doing: str, output: str) -> CppBuildError:
+    """Return the error for a compiler that ended with a code, by what it printed."""
+    if any(words in output for words in _NO_ROOM):
+        return CppBuildError(f"{doing}: the disk is full; make some room there", output)
+    return CppBuildError(f"{doing} failed:\n{output.strip()}", output)

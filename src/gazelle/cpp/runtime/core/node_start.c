@@ -1,0 +1,19 @@
+/* Part of every node's file: makes a shared library something that can be started.
+ *
+ * The file's interpreter is a small program of Gazelle's, which starts Python with the host of
+ * nodes; the host loads this file and calls main through the pointer below. main itself is hidden,
+ * for Python's program exports one of its own, and the first one of a process would be found.
+ */
+#ifdef __cplusplus
+#error "this file is C"
+#endif
+
+extern int main(int argc, char **argv) __attribute__((visibility("hidden")));
+
+__attribute__((visibility("default"))) int (*gazelle_node_main)(int, char **) = main;
+
+__attribute__((visibility("default"), used)) const char gazelle_node_mark[] = "gazelle-node-abi-1";
+
+#ifdef GAZELLE_INTERPRETER
+__attribute__((section(".interp"), used)) static const char interpreter[] = GAZELLE_INTERPRETER;
+#endif
