@@ -1,4 +1,4 @@
-"""``catkin``: the verbs of catkin tools, for Python and data packages."""
+"""``catkin``: the verbs of catkin tools."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from gazelle.cli.compile_step import compile_step_for
 from gazelle.diagnostics import Diagnostics, did_you_mean, render
 from gazelle.documents import read_limited
 from gazelle.documents.yaml import YamlError, dump_yaml, load_yaml
@@ -145,10 +146,11 @@ def build(argv: list[str]) -> int:
         outcomes.append(outcome)
         _print_end(outcome)
 
+    step = compile_step_for(chosen, definitions, command="catkin build")
     left = run_jobs(
         chosen,
         lambda item: build_catkin_package(
-            item, profile.spaces, definitions, installs=profile.installs
+            item, profile.spaces, definitions, installs=profile.installs, compile_step=step
         ),
         everything=everything,
         workers=options.jobs or os.cpu_count() or 1,
@@ -274,9 +276,7 @@ def _in_table_order(profile: Profile) -> tuple[Path, Path, Path, Path]:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="catkin build", description="Builds a catkin workspace of Python and data packages."
-    )
+    parser = argparse.ArgumentParser(prog="catkin build", description="Builds a catkin workspace.")
     add = parser.add_argument
     add("packages", nargs="*", metavar="PKGNAME", help="these packages and what they need")
     add("-w", "--workspace", type=Path, help="the workspace (the one around the current folder)")

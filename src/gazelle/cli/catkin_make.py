@@ -1,4 +1,4 @@
-"""``catkin_make``: a devel space, and an install space, for Python and data packages."""
+"""``catkin_make``: a devel space, and an install space."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from gazelle.cli.compile_step import compile_step_for
 from gazelle.diagnostics import Diagnostics, did_you_mean, render
 from gazelle.workspace.building.build import Outcome
 from gazelle.workspace.building.catkin_space import (
@@ -45,7 +46,9 @@ def main(argv: list[str]) -> int:
         print(f"{tokens} space: {folder}" if tokens != "Source" else
               f"Base path: {base}\nSource space: {folder}")  # fmt: skip
     packages = _packages(spaces, options, definitions)
-    outcomes = _build(packages, spaces, definitions, installs="install" in targets)
+    outcomes = _build(
+        packages, spaces, definitions, installs="install" in targets, jobs=options.jobs
+    )
     failed = [outcome.name for outcome in outcomes if outcome.code]
     if failed:
         print("-- Configuring incomplete, errors occurred!")
@@ -60,16 +63,14 @@ def main(argv: list[str]) -> int:
 
 def _read(argv: Sequence[str]) -> tuple[argparse.Namespace, list[str], dict[str, str]]:
     """Return options, targets and CMake's variables; these may stand anywhere, as ``-DNAME=…``."""
-    parser = argparse.ArgumentParser(
-        prog="catkin_make", description="Builds a catkin workspace of Python and data packages."
-    )
+    parser = argparse.ArgumentParser(prog="catkin_make", description="Builds a catkin workspace.")
     add = parser.add_argument
     add("-C", "--directory", type=Path, default=Path(), help="the workspace (current folder)")
     add("--source", help="source space (src)")
     add("--build", help="build space (build)")
     add("--pkg", nargs="+", default=[], help="only these packages")
     add("--only-pkg-with-deps", nargs="+", default=[], help="these packages and what they need")
-    add("-j", "--jobs", nargs="?", help=argparse.SUPPRESS)
+    add("-j", "--jobs", nargs="?", type=int, const=0, default=0, help="compilers at a time")
     add("-l", "--load-average", nargs="?", help=argparse.SUPPRESS)
     add("--cmake-args", action="store_true", help="-DNAME=VALUE … follow")
     for name in _WITHOUT_EFFECT:
@@ -83,10 +84,10 @@ def _read(argv: Sequence[str]) -> tuple[argparse.Namespace, list[str], dict[str,
     if unknown:
         hint = did_you_mean(unknown[0], _TARGETS) or f"there are {', '.join(_TARGETS)}"
         parser.error(f"No rule to make target '{unknown[0]}'; {hint}")
-    given = [name for name in (*_WITHOUT_EFFECT, "jobs", "load_average") if getattr(options, name)]
+    given = [name for name in (*_WITHOUT_EFFECT, "load_average") if getattr(options, name)]
     if given:
         listed = ", ".join("--" + name.replace("_", "-") for name in given)
-        print(f"catkin_make: {listed} has no effect: nothing is compiled here", file=sys.stderr)
+        print(f"catkin_make: {listed} has no effect here", file=sys.stderr)
     return options, options.targets, definitions
 
 
@@ -135,15 +136,21 @@ def _build(
     definitions: dict[str, str],
     *,
     installs: bool,
+    jobs: int,
 ) -> list[Outcome]:
     print(f"{_RULE}\n-- ~~  traversing {len(packages)} packages in topological order:")
     print("".join(f"-- ~~  - {item.name}\n" for item in packages) + _RULE, flush=True)
     outcomes = []
+    step = compile_step_for(packages, definitions, command="catkin_make", said=_say, jobs=jobs)
     try:
         for item in packages:
             print(f"-- +++ processing catkin package: '{item.name}'")
             print(f"-- ==> add_subdirectory({item.path.relative_to(spaces.source)})", flush=True)
-            outcomes.append(build_catkin_package(item, spaces, definitions, installs=installs))
+            outcomes.append(
+                build_catkin_package(
+                    item, spaces, definitions, installs=installs, compile_step=step
+                )
+            )
             if outcomes[-1].errors:
                 print("\n".join(outcomes[-1].errors), file=sys.stderr, flush=True)
         spaces.build.mkdir(parents=True, exist_ok=True)
@@ -155,3 +162,7 @@ def _build(
     except OSError as error:
         raise BuildError(f"cannot write '{error.filename}': {error.strerror}") from error
     return outcomes
+
+
+def _say(line: str) -> None:
+    print(line, flush=True)

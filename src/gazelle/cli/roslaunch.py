@@ -8,6 +8,7 @@ import shlex
 import sys
 from pathlib import Path
 
+from gazelle.cpp.lookup import CPP_VARIABLE
 from gazelle.diagnostics import Diagnostics, did_you_mean, render
 from gazelle.errors import NotFoundError
 from gazelle.launch.console import dump_text
@@ -26,6 +27,8 @@ def main(argv: list[str]) -> int:
     """Run roslaunch."""
     options = _parser().parse_args([word for word in argv if not _is_arg(word)])
     args = dict(word.split(":=", 1) for word in argv if _is_arg(word))
+    if options.cpp:
+        os.environ[CPP_VARIABLE] = "1"
     if options.core:
         from gazelle.cli import roscore
 
@@ -86,6 +89,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--disable-title", action="store_true", help="accepted: kept off where no terminal is")
     add("--sigint-timeout", type=float, default=15.0, help="seconds after SIGINT")
     add("--sigterm-timeout", type=float, default=2.0, help="seconds after SIGTERM")
+    add("--cpp", action="store_true", help="take packages' C++ where Gazelle has nodes of its own")
     add("--no-bridge", action="store_true", help="do not join a real ROS that runs")
     add("--fast", action="store_true", help="simulate as fast as possible")
     add(

@@ -7,19 +7,21 @@ import shlex
 import sys
 from contextlib import nullcontext
 
+from gazelle.cpp.lookup import CPP_VARIABLE
 from gazelle.diagnostics import Diagnostics, render
+from gazelle.launch.cpp_nodes import find_and_compile
 from gazelle.launch.environment import is_own_command, node_environment
-from gazelle.launch.node_commands import find_executable
 from gazelle.launch.spawner_sequence import is_simulator
 from gazelle.process_lifetime import interrupts_held
 from gazelle.workspace import Workspace
 
 __all__ = ["main"]
 
-_USAGE = """Usage: rosrun [--prefix cmd] PACKAGE EXECUTABLE [ARGS]
+_USAGE = """Usage: rosrun [--prefix cmd] [--cpp] PACKAGE EXECUTABLE [ARGS]
   rosrun will locate PACKAGE and try to find
   an executable named EXECUTABLE in the PACKAGE tree.
-  If it finds it, it will run it with ARGS."""
+  If it finds it, it will run it with ARGS.
+  --cpp takes the package's C++ where Gazelle has a node of that name."""
 
 
 def main(argv: list[str]) -> int:
@@ -30,6 +32,9 @@ def main(argv: list[str]) -> int:
             prefix, argv = shlex.split(argv[1]), argv[2:]
         elif argv[0] in {"--debug", "-d"}:
             argv = argv[1:]
+        elif argv[0] == "--cpp":
+            os.environ[CPP_VARIABLE] = "1"
+            argv = argv[1:]
         else:
             print(_USAGE)
             return 0 if argv[0] in {"-h", "--help"} else 1
@@ -38,9 +43,10 @@ def main(argv: list[str]) -> int:
         return 1
     package, type_name, *rest = argv
     workspace, diagnostics = Workspace.discover(), Diagnostics()
-    found = find_executable(package, type_name, workspace=workspace, diagnostics=diagnostics)
-    if found is None:
+    found = find_and_compile(package, type_name, workspace=workspace, diagnostics=diagnostics)
+    if found is None or found.is_of_cpp or diagnostics.by_code("launch.builtin-instead"):
         render(diagnostics)
+    if found is None:
         return 3
     command = [*prefix, *found.command, *rest]
     # What it starts is ROS 1's, whichever ROS the shell was set up for.

@@ -19,6 +19,7 @@ from gazelle.description.xml import Tag, read_xml
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import NotFoundError
 from gazelle.graph import Graph
+from gazelle.launch.cpp_nodes import compiled_ahead
 from gazelle.launch.environment import node_environment
 from gazelle.launch.launch_config import LaunchConfig, TestTag
 from gazelle.launch.node_commands import find_executable
@@ -104,6 +105,7 @@ class _TestRun:
             diagnostics=diagnostics,
             span=node.span,
         )
+        (found,) = compiled_ahead([found], workspace=self._workspace, diagnostics=diagnostics)
         if found is None:
             why = "; ".join(item.message for item in diagnostics)
             return [_missing_result(test.test_name, f"Test node cannot be found: {why}")]

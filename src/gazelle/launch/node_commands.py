@@ -9,16 +9,31 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from gazelle.cpp.lookup import (
+    CPP_VARIABLE,
+    CppProgram,
+    built_file,
+    cpp_program,
+    cpp_programs,
+    host_command,
+    is_node_file,
+    prefers_cpp,
+)
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.extensions import ExtensionError
 from gazelle.node_specs.registry import builtin_executables, command_of, node_spec
 from gazelle.node_specs.spec import NodeSpec
 from gazelle.workspace import Package, Workspace
-from gazelle.workspace.building.cmake_lists import read_cmake_lists
 from gazelle.workspace.entry_points import console_scripts
 
-__all__ = ["Executable", "executables_of", "find_executable", "script_command"]
+__all__ = [
+    "Executable",
+    "compiled_executable",
+    "executables_of",
+    "find_executable",
+    "script_command",
+]
 
 _COMPILED = (".cpp", ".cc", ".cxx", ".c", ".rs")
 
@@ -33,6 +48,9 @@ class Executable:
         folder: folder of the file, for ``cwd="node"``.
         script: the user's Python file that is run, None for anything else.
         takes_ros_args: ``__name:=`` and the like follow too.
+        is_of_cpp: it is C++ of the user.
+        cpp: the C++ that has to be compiled first, None for what can run at once; the command does
+            that when it starts, and `gazelle.launch.cpp_nodes` does it for many before.
     """
 
     command: tuple[str, ...]
@@ -40,6 +58,8 @@ class Executable:
     folder: Path | None = None
     script: Path | None = None
     takes_ros_args: bool = True
+    is_of_cpp: bool = False
+    cpp: CppProgram | None = None
 
 
 def find_executable(
@@ -54,26 +74,29 @@ def find_executable(
 ) -> Executable | None:
     """Return what runs a node; None (and a diagnostic) when nothing does.
 
-    The order is: a file of the user's package, a built-in node, an executable of an installed
-    ROS (``lib/<package>`` below its prefixes). The diagnostic names commands of `ros_version`.
+    The order is: a script of the user's package, a built-in node, C++ of the user's package, an
+    executable of an installed ROS (``lib/<package>`` below its prefixes). ``GAZELLE_CPP=1`` puts
+    the user's C++ before built-in nodes. The diagnostic names commands of `ros_version`.
     """
+    environ = os.environ if environ is None else environ
     found = _in_workspace(package, type_name, workspace, diagnostics, span)
+    is_of_cpp = found is not None and found.is_of_cpp
+    if found is not None and (not is_of_cpp or prefers_cpp(environ)):
+        return found
+    try:
+        builtin = _builtin(package, type_name)
+    except ExtensionError as error:
+        if found is None:
+            message = f"Cannot locate node of type [{type_name}] in package [{package}]: {error}"
+            diagnostics.report("launch.executable-missing", message, span)
+        return found
+    if builtin is not None:
+        if found is not None:
+            _tell_of_precedence(package, type_name, diagnostics, span)
+        return builtin
     if found is not None:
         return found
-    command = command_of(package, type_name)
-    if command:
-        argv = (sys.executable, "-m", "gazelle.cli", *command)
-        return Executable(argv)
-    try:
-        builtin = node_spec(package, type_name)
-    except ExtensionError as error:
-        message = f"Cannot locate node of type [{type_name}] in package [{package}]: {error}"
-        diagnostics.report("launch.executable-missing", message, span)
-        return None
-    if builtin is not None:
-        argv = (sys.executable, "-m", "gazelle.nodes", f"{package}/{type_name}")
-        return Executable(argv, builtin)
-    native = _native(package, type_name, os.environ if environ is None else environ)
+    native = _native(package, type_name, environ)
     if native is not None:
         return Executable((str(native),), folder=native.parent)
     _report_missing(package, type_name, workspace, diagnostics, span, ros_version)
@@ -87,14 +110,24 @@ def executables_of(package: str, workspace: Workspace) -> tuple[str, ...]:
         found = workspace.package(package)
     except NotFoundError:
         return tuple(sorted(existing))
-    return tuple(sorted({*existing, *_scripts(found), *console_scripts(found.path)}))
+    own = {*_scripts(found), *console_scripts(found.path), *cpp_programs(found)}
+    return tuple(sorted({*existing, *own}))
 
 
 def script_command(path: Path) -> tuple[str, ...]:
-    """Return the words that run a file: Python goes through our runner, the rest as it is."""
+    """Return the words that run a file.
+
+    Python goes through our runner, nodes that Gazelle compiled through their host, the rest as it
+    is.
+    """
     if path.suffix == ".py" or _is_python(path):
         return (sys.executable, "-m", "gazelle.compat.script_runner", str(path))
-    return (str(path),)
+    return host_command(path) if is_node_file(path) else (str(path),)
+
+
+def compiled_executable(file: Path) -> Executable:
+    """Return how a node is run that was compiled to a file."""
+    return Executable(host_command(file), folder=file.parent, is_of_cpp=True)
 
 
 def _in_workspace(
@@ -110,8 +143,11 @@ def _in_workspace(
         return None
     files = found.find_executables(type_name)
     if not files:
-        return None
+        program = cpp_program(found, type_name, span)
+        return None if program is None else _of_program(program)
     path = files[0]
+    if is_node_file(path):
+        return compiled_executable(path)
     may_run = os.access(path, os.X_OK) or found.is_builtin
     if not may_run and type_name not in console_scripts(found.path):
         message = f"'{path}' is not executable; it runs here, real ROS would not find it"
@@ -122,6 +158,38 @@ def _in_workspace(
         command = (*command[:-1], "--entry", function, command[-1])
     script = path if command[0] == sys.executable else None
     return Executable(command, folder=path.parent, script=script)
+
+
+def _of_program(program: CppProgram) -> Executable:
+    """Return how C++ is run; what a build of the workspace has made of it is taken as it is."""
+    file = built_file(program)
+    if file is not None:
+        return compiled_executable(file)
+    command = (sys.executable, "-m", "gazelle.cpp.compile_and_run", *program.words)
+    return Executable(command, folder=program.package.path, is_of_cpp=True, cpp=program)
+
+
+def _builtin(package: str, type_name: str) -> Executable | None:
+    """Return Gazelle's own program behind a name, None when there is none.
+
+    Raises:
+        ExtensionError: an installed package names a node that cannot be had.
+    """
+    command = command_of(package, type_name)
+    if command:
+        return Executable((sys.executable, "-m", "gazelle.cli", *command))
+    builtin = node_spec(package, type_name)
+    if builtin is None:
+        return None
+    return Executable((sys.executable, "-m", "gazelle.nodes", f"{package}/{type_name}"), builtin)
+
+
+def _tell_of_precedence(
+    package: str, type_name: str, diagnostics: Diagnostics, span: SourceSpan | None
+) -> None:
+    text = f"Gazelle's own {package}/{type_name} runs, not the C++ of your package"
+    fix = f"--cpp, or {CPP_VARIABLE}=1, compiles and runs yours"
+    diagnostics.report("launch.builtin-instead", text, span, fix=fix)
 
 
 def _function(package: Package, type_name: str, path: Path) -> str:
@@ -173,7 +241,7 @@ def _report_missing(
     if source is not None:
         message = (
             f"Cannot locate node of type [{type_name}] in package [{package}]: it is compiled "
-            f"code ('{source}') that is not built here"
+            f"code ('{source}') that no add_executable() makes"
         )
         diagnostics.report("launch.compiled-node", message, span)
         return
@@ -193,8 +261,7 @@ def _compiled_source(package: Package, type_name: str) -> Path | None:
     for path in sorted(package.path.rglob("*")):
         if path.suffix in _COMPILED and path.stem == type_name:
             return path
-    lists = read_cmake_lists(package.path, package.name)
-    return lists.file if lists is not None and type_name in lists.executables() else None
+    return None
 
 
 def _scripts(package: Package) -> list[str]:

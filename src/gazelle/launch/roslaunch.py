@@ -24,6 +24,7 @@ from gazelle.graph import Graph, NoGraphError
 from gazelle.graph.gazebo_names import offered_name
 from gazelle.interfaces import service_type
 from gazelle.launch.console import Console, RunLog, begin_log, run_log, summary
+from gazelle.launch.cpp_nodes import compiled_ahead
 from gazelle.launch.environment import node_environment
 from gazelle.launch.launch_config import LaunchConfig, NodeTag
 from gazelle.launch.node_commands import Executable, find_executable
@@ -227,17 +228,27 @@ def _unpause(graph: Graph) -> None:
 def find_executables(
     config: LaunchConfig, workspace: Workspace, diagnostics: Diagnostics, options: LaunchOptions
 ) -> tuple[list[tuple[NodeTag, Executable]], int]:
-    """Return every node with its command, and how many have none."""
-    found: list[tuple[NodeTag, Executable]] = []
+    """Return every node with its command, C++ compiled, and how many have none."""
+    commands: list[Executable | None] = []
     for spec in config.nodes:
-        executable = find_executable(
-            spec.package, spec.type, workspace=workspace, diagnostics=diagnostics, span=spec.span
+        commands.append(
+            find_executable(
+                spec.package,
+                spec.type,
+                workspace=workspace,
+                diagnostics=diagnostics,
+                span=spec.span,
+            )
         )
-        if executable is not None:
-            found.append((_with_options(spec, executable, options), executable))
         if spec.machine and spec.machine != "localhost":
             message = f"node '{spec.name}' asks for machine '{spec.machine}'; it runs here"
             diagnostics.report("launch.remote-machine", message, spec.span)
+    commands = compiled_ahead(commands, workspace=workspace, diagnostics=diagnostics)
+    found = [
+        (_with_options(spec, executable, options), executable)
+        for spec, executable in zip(config.nodes, commands, strict=True)
+        if executable is not None
+    ]
     return found, len(config.nodes) - len(found)
 
 

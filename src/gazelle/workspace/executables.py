@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gazelle.documents.files import is_file
 
-__all__ = ["executable_names", "executables_named"]
+__all__ = ["compiled_names", "executable_names", "executables_named"]
 
 _FOLDERS = ("scripts", "nodes", "bin", "src", "script", "test", "")
 _SCRIPT_FOLDERS = frozenset({"bin", "nodes", "script", "scripts"})
@@ -35,7 +35,7 @@ def executables_named(
 
     installed = installed_files(path, package)
     spellings = _spellings(type_name)
-    if len(spellings) > 1 and type_name in _compiled_names(path, package):
+    if len(spellings) > 1 and type_name in compiled_names(path, package):
         spellings = (type_name,)
     for name in spellings:
         if f"lib/{package}/{name}" in installed:
@@ -61,7 +61,7 @@ def executable_names(package: str, path: Path, prefix: Path | None) -> tuple[str
     from gazelle.workspace.entry_points import console_scripts
     from gazelle.workspace.installed_files import installed_files
 
-    names = set(console_scripts(path))
+    names = {*console_scripts(path), *compiled_names(path, package)}
     start = f"lib/{package}/"
     installed = (target for target in installed_files(path, package) if target.startswith(start))
     names.update(target.removeprefix(start) for target in installed)
@@ -82,15 +82,30 @@ def _spellings(type_name: str) -> tuple[str, ...]:
     return (type_name,) if Path(type_name).suffix else (type_name, f"{type_name}.py")
 
 
+def compiled_names(path: Path, package: str) -> frozenset[str]:
+    """Return the names of the programs that a compiler makes of a package's sources.
+
+    Args:
+        path: source folder of the package.
+        package: its name.
+    """
+    try:
+        changed_ns = (path / "CMakeLists.txt").stat().st_mtime_ns
+    except OSError:
+        return frozenset()
+    return _read_compiled_names(path, package, changed_ns)
+
+
 @lru_cache(maxsize=256)
-def _compiled_names(path: Path, package: str) -> frozenset[str]:
+def _read_compiled_names(path: Path, package: str, _changed_ns: int) -> frozenset[str]:
     from gazelle.workspace.building.cmake_lists import read_cmake_lists
 
     try:
         lists = read_cmake_lists(path, package)
     except OSError:
         return frozenset()
-    return frozenset() if lists is None else frozenset(lists.executables())
+    names = () if lists is None else lists.executables()
+    return frozenset(name for name in names if "${" not in name)
 
 
 def _module_file(path: Path, target: str) -> Path:

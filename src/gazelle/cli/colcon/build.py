@@ -7,6 +7,7 @@ import os
 import sys
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from gazelle.cli.colcon.events import Console, Log
@@ -16,6 +17,7 @@ from gazelle.cli.colcon.package_selection import (
     parser_for,
     split_cmake_arguments,
 )
+from gazelle.cli.compile_step import compile_step_for
 from gazelle.workspace.building.build import BuildOptions, Outcome, build_package, run_jobs
 from gazelle.workspace.building.packages import BuildError, SourcePackage
 from gazelle.workspace.building.setup_scripts import write_prefix_scripts
@@ -23,7 +25,7 @@ from gazelle.workspace.building.setup_scripts import write_prefix_scripts
 __all__ = ["run"]
 
 _LAYOUT_FILE = ".colcon_install_layout"
-# Options of compilers' builds: taken, and said to do nothing.
+# Options of the original that change nothing here: taken, and said to do nothing.
 _WITHOUT_EFFECT = {
     "--cmake-clean-cache": 0,
     "--cmake-clean-first": 0,
@@ -75,9 +77,13 @@ def _build_all(
         console.ended(outcome)
         log.keep(outcome)
 
+    step = compile_step_for(chosen, build.definitions, command="colcon build")
+    # Others of the workspace that this run leaves as they are have been built before.
+    prefixes = dict.fromkeys(build.prefix(package.name) for package in everything)
+    build = replace(build, prefixes=tuple(prefixes))
     return run_jobs(
         chosen,
-        lambda package: build_package(package, build),
+        lambda package: build_package(package, build, step),
         everything=everything,
         workers=1 if options.executor == "sequential" else options.parallel_workers,
         started=console.started,
@@ -87,7 +93,7 @@ def _build_all(
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = parser_for("build", "Install Python and data packages of a workspace.")
+    parser = parser_for("build", "Build the packages of a workspace.")
     add = parser.add_argument
     add("--build-base", type=Path, default=Path("build"), help="where records go (build)")
     add("--install-base", type=Path, default=Path("install"), help="where packages go (install)")
@@ -110,7 +116,7 @@ def _parser() -> argparse.ArgumentParser:
 def _say_without_effect(options: argparse.Namespace) -> None:
     given = [name for name in _WITHOUT_EFFECT if getattr(options, name[2:].replace("-", "_"), None)]
     if given:
-        text = f"colcon build: {', '.join(given)} has no effect here: nothing is compiled"
+        text = f"colcon build: {', '.join(given)} has no effect here"
         print(text, file=sys.stderr)
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from gazelle.cli.ros2.verbs import guarded
 from gazelle.cli.ros_tool import ToolError
+from gazelle.cpp.lookup import CPP_VARIABLE
 from gazelle.diagnostics import Severity, did_you_mean, render
 from gazelle.launch.environment import drop_in_folder, node_environment
 from gazelle.process_lifetime import when_nobody_reads
@@ -174,6 +175,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--launch-prefix", help=text)
     text = "Regex pattern for filtering which executables the --launch-prefix is applied to by"
     add("--launch-prefix-filter", help=f"{text} matching the executable name.")
+    text = "Take the C++ of packages where Gazelle has nodes of the same names"
+    add("--cpp", action="store_true", help=text)
     add("package_name", help="Name of the ROS package which contains the launch file")
     add("launch_file_name", nargs="?", help="Name of the launch file")
     text = "Arguments to the launch file; '<name>:=<value>' (for duplicates, last one wins)"
@@ -191,6 +194,8 @@ def _run(options: argparse.Namespace, given: list[str]) -> int:
         if value:
             tokens.append(f"{name.replace('_', '-')}{_ASSIGN}{value}")
     arguments = launch_arguments(tokens)
+    if options.cpp:
+        os.environ[CPP_VARIABLE] = "1"
     if options.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
     prepare_launch_environment()

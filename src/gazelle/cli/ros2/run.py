@@ -13,9 +13,10 @@ from contextlib import nullcontext
 from types import FrameType
 
 from gazelle.cli.ros2.verbs import fail, guarded
+from gazelle.cpp.lookup import CPP_VARIABLE
 from gazelle.diagnostics import Diagnostics, render
+from gazelle.launch.cpp_nodes import find_and_compile
 from gazelle.launch.environment import is_own_command, node_environment
-from gazelle.launch.node_commands import find_executable
 from gazelle.node_specs.registry import builtin_executables
 from gazelle.process_lifetime import interrupts_held
 from gazelle.workspace import Workspace
@@ -39,6 +40,11 @@ def _parser() -> argparse.ArgumentParser:
         help="Prefix command, which should go before the executable. Command must be wrapped in "
         "quotes if it contains spaces (e.g. --prefix 'gdb -ex run --args').",
     )
+    parser.add_argument(
+        "--cpp",
+        action="store_true",
+        help="Take the C++ of the package where Gazelle has a node of that name",
+    )
     parser.add_argument("package_name", help="Name of the ROS package")
     parser.add_argument("executable_name", help="Name of the executable")
     parser.add_argument(
@@ -50,7 +56,9 @@ def _parser() -> argparse.ArgumentParser:
 def _run(options: argparse.Namespace) -> int:
     workspace, diagnostics = Workspace.discover(), Diagnostics()
     package, name = options.package_name, options.executable_name
-    found = find_executable(
+    if options.cpp:
+        os.environ[CPP_VARIABLE] = "1"
+    found = find_and_compile(
         package, name, workspace=workspace, diagnostics=diagnostics, ros_version=2
     )
     render(diagnostics)

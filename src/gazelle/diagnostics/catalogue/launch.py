@@ -184,10 +184,18 @@ _ROS1 = (
     Entry(
         "launch.compiled-node",
         "error",
-        "A node is compiled code that is not here",
-        "Gazelle runs Python nodes and its own built-in nodes; C++ has to be built first.",
-        "build it with catkin or colcon and source its workspace, or write the node in Python",
+        "A node is compiled code that nothing builds",
+        "Gazelle compiles the C++ that CMakeLists.txt makes programs of; this file it does not name,"
+        " or it is of another language.",
+        "add_executable() and target_link_libraries() in CMakeLists.txt",
         "Cannot locate node of type in package",
+    ),
+    Entry(
+        "launch.builtin-instead",
+        "info",
+        "A node of Gazelle runs in place of a package's C++",
+        "It does the same and needs no compiler.",
+        "--cpp, or GAZELLE_CPP=1, compiles the package's C++ and runs that",
     ),
     Entry(
         "launch.remote-machine",

@@ -10,14 +10,23 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan, render_text
-from gazelle.workspace.building.cmake_plan import plan_cmake
+from gazelle.workspace.building.cmake_lists import read_cmake_lists
+from gazelle.workspace.building.cmake_plan import has_compiled_targets, plan_cmake
+from gazelle.workspace.building.compile_step import Compiled, CompileRequest, CompileStep
 from gazelle.workspace.building.install import install
 from gazelle.workspace.building.packages import SourcePackage, needed_by
 from gazelle.workspace.building.plan import Layout, Plan, site_packages
 from gazelle.workspace.building.python_plan import plan_python
 from gazelle.workspace.building.setup_scripts import add_package_scripts
 
-__all__ = ["BUILD_TYPES", "BuildOptions", "Outcome", "build_package", "run_jobs"]
+__all__ = [
+    "BUILD_TYPES",
+    "BuildOptions",
+    "Outcome",
+    "build_package",
+    "needs_compiler",
+    "run_jobs",
+]
 
 BUILD_TYPES = ("ament_cmake", "ament_python", "catkin", "cmake")
 """The build types that there are rules for."""
@@ -35,6 +44,7 @@ class BuildOptions:
         merged: all packages get one prefix.
         symlinks: link to the sources in place of copying them.
         definitions: variables for ``CMakeLists.txt``.
+        prefixes: spaces of packages that were built before, first wins.
     """
 
     build_base: Path
@@ -42,6 +52,7 @@ class BuildOptions:
     merged: bool = False
     symlinks: bool = False
     definitions: Mapping[str, str] = field(default_factory=dict)
+    prefixes: tuple[Path, ...] = ()
 
     def prefix(self, name: str) -> Path:
         """Return a package's install prefix."""
@@ -66,36 +77,61 @@ class Outcome(NamedTuple):
     errors: tuple[str, ...] = ()
 
 
-def build_package(package: SourcePackage, options: BuildOptions) -> Outcome:
+def build_package(
+    package: SourcePackage, options: BuildOptions, compile_step: CompileStep | None = None
+) -> Outcome:
     """Install a package below its prefix; nothing is installed when a rule of it cannot be met.
 
     Args:
         package: what to build.
         options: where to and how.
+        compile_step: what compiles; without it compiled code is left out and told.
     """
     begin = time.monotonic()
     plan, layout = Plan(), Layout(options.prefix(package.name), site_packages(), options.symlinks)
     if package.build_type == "ament_python":
         plan_python(package, layout, plan)
     elif package.build_type in BUILD_TYPES:
-        plan_cmake(package, layout, options.definitions, plan)
+        compiles = compile_step is not None
+        plan_cmake(package, layout, options.definitions, plan, compiles=compiles)
     else:
         _report_type(package, plan)
     code = 0
     output: tuple[str, ...] = ()
+    compiled = Compiled()
     if plan.diagnostics.errors:
         code = _PYTHON_CODE if package.build_type == "ament_python" else _CMAKE_CODE
-    else:
+    elif compile_step is not None and needs_compiler(package, options.definitions):
+        # Before the rest: what it installs too is linked afterwards where links are wanted.
+        compiled = compile_step(
+            CompileRequest(
+                package,
+                build=options.build_base / package.name,
+                install=layout.prefix,
+                definitions=options.definitions,
+                prefixes=options.prefixes,
+            )
+        )
+        code = compiled.code
+    if not code:
         add_package_scripts(package, layout, plan)
-        record = options.build_base / package.name / "install_manifest.txt"
+        name = "install_manifest.txt" if compiled == Compiled() else "gazelle_manifest.txt"
+        record = options.build_base / package.name / name
         try:
             output = tuple(install(plan.items.values(), layout, record).lines)
         except OSError as error:
             text = f"cannot write '{error.filename}': {error.strerror}"
             plan.diagnostics.report("build.cannot-write", text)
             code = _CMAKE_CODE
-    errors = tuple(render_text(item) for item in plan.diagnostics)
+    output = (*compiled.output, *output)
+    errors = (*compiled.errors, *(render_text(item) for item in plan.diagnostics))
     return Outcome(package.name, code, time.monotonic() - begin, output, errors)
+
+
+def needs_compiler(package: SourcePackage, definitions: Mapping[str, str]) -> bool:
+    """Tell whether a package has C++ to compile, or libraries of headers alone."""
+    lists = read_cmake_lists(package.path, package.name, definitions)
+    return lists is not None and has_compiled_targets(lists)
 
 
 def run_jobs(

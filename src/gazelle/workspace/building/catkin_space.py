@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan, render_text
-from gazelle.workspace.building.build import Outcome
+from gazelle.workspace.building.build import Outcome, needs_compiler
 from gazelle.workspace.building.cmake_plan import (
     add_catkin,
     add_interfaces,
@@ -18,6 +18,7 @@ from gazelle.workspace.building.cmake_plan import (
     plan_cmake,
     read_lists,
 )
+from gazelle.workspace.building.compile_step import Compiled, CompileRequest, CompileStep
 from gazelle.workspace.building.install import install
 from gazelle.workspace.building.install_rules import cmake_rules
 from gazelle.workspace.building.packages import SourcePackage
@@ -61,6 +62,7 @@ def build_catkin_package(
     definitions: Mapping[str, str],
     *,
     installs: bool,
+    compile_step: CompileStep | None = None,
 ) -> Outcome:
     """Put a package's scripts, modules and hooks into the devel space; install it when asked to.
 
@@ -69,29 +71,47 @@ def build_catkin_package(
         spaces: of the workspace.
         definitions: variables for ``CMakeLists.txt``.
         installs: also do what ``make install`` does.
+        compile_step: what compiles; without it compiled code is left out and told.
     """
     begin = time.monotonic()
+    compiles = compile_step is not None
     devel = Layout(spaces.devel, _PYTHON, symlinks=True)
     plans = [(Plan(), devel, "devel_manifest.txt")]
-    _plan_devel(package, devel, definitions, plans[0][0])
+    _plan_devel(package, devel, definitions, plans[0][0], compiles=compiles)
     if installs and not plans[0][0].diagnostics.errors:
         layout = Layout(spaces.install, _PYTHON)
         plans.append((Plan(), layout, "install_manifest.txt"))
-        plan_cmake(package, layout, definitions, plans[1][0])
+        plan_cmake(package, layout, definitions, plans[1][0], compiles=compiles)
         plans[1][0].diagnostics.extend(plans[0][0].diagnostics)
     found = plans[-1][0].diagnostics
     code, lines = (1 if found.errors else 0), []
+    compiled = Compiled()
+    if compile_step is not None and not code and needs_compiler(package, definitions):
+        compiled = compile_step(
+            CompileRequest(
+                package,
+                build=spaces.build / package.name,
+                devel=spaces.devel,
+                install=spaces.install if installs else None,
+                definitions=definitions,
+                prefixes=(spaces.devel,),
+            )
+        )
+        code = compiled.code
     for plan, layout, record in plans if not code else []:
+        # CMake has a file of the plain name.
+        name = record if compiled == Compiled() else f"gazelle_{record}"
         try:
-            done = install(plan.items.values(), layout, spaces.build / package.name / record)
+            done = install(plan.items.values(), layout, spaces.build / package.name / name)
         except OSError as error:
             text = f"cannot write '{error.filename}': {error.strerror}"
             found.report("build.cannot-write", text)
             code = 1
             break
         lines += done.lines if layout is not devel else []
-    errors = tuple(render_text(item) for item in found)
-    return Outcome(package.name, code, time.monotonic() - begin, tuple(lines), errors)
+    errors = (*compiled.errors, *(render_text(item) for item in found))
+    output = (*compiled.output, *lines)
+    return Outcome(package.name, code, time.monotonic() - begin, output, errors)
 
 
 def write_space_scripts(space: Path, sources: tuple[Path, ...], environ: Mapping[str, str]) -> None:
@@ -124,7 +144,12 @@ def write_space_scripts(space: Path, sources: tuple[Path, ...], environ: Mapping
 
 
 def _plan_devel(
-    package: SourcePackage, layout: Layout, definitions: Mapping[str, str], plan: Plan
+    package: SourcePackage,
+    layout: Layout,
+    definitions: Mapping[str, str],
+    plan: Plan,
+    *,
+    compiles: bool,
 ) -> None:
     if not (package.path / "CMakeLists.txt").is_file():
         text = f"package '{package.name}' has no CMakeLists.txt: it is used from its source folder,"
@@ -141,7 +166,8 @@ def _plan_devel(
         if any(rule.span == step.span for step in lists.called("catkin_install_python"))
     ]
     add_rules(plan, package.path, scripts, _NO_SUCH_SCRIPT)
-    compiled_targets(package, lists, plan)
+    if not compiles:
+        compiled_targets(package, lists, plan)
     # Messages are read from the source space; only what is wrong with them counts here.
     add_interfaces(package, lists, Plan(diagnostics=plan.diagnostics))
     add_catkin(package, lists, layout, plan)

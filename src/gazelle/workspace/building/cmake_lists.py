@@ -34,6 +34,7 @@ _MAKE_PROGRAMS = (
     "cs_add_executable",
     "cuda_add_executable",
     "qt_add_executable",
+    "rosbuild_add_executable",
 )
 _ENDS = {"foreach": "endforeach", "macro": "endmacro", "function": "endfunction"}
 _CLOSED_BY = {closing: opening for opening, closing in _ENDS.items()} | {"endif": "if"}
@@ -78,6 +79,7 @@ class CMakeLists:
         problem: where its syntax is wrong.
         hidden: commands that may do more than was read: own macros and files of elsewhere.
         compiling: calls of own macros that make executables or libraries.
+        programs_of_own: names of the executables that those make.
         made: texts that ``configure_file()`` writes, by their places: relative to the package, or
             below ``${CMAKE_BINARY_DIR}``. Only those in which every variable is known.
     """
@@ -89,6 +91,7 @@ class CMakeLists:
     problem: tuple[SyntaxProblem, SourceSpan] | None = None
     hidden: list[Step] = field(default_factory=list)
     compiling: list[Step] = field(default_factory=list)
+    programs_of_own: list[str] = field(default_factory=list)
     made: dict[str, str] = field(default_factory=dict)
 
     def called(self, *names: str) -> tuple[Step, ...]:
@@ -96,8 +99,9 @@ class CMakeLists:
         return tuple(step for step in self.steps if step.name in names)
 
     def executables(self) -> tuple[str, ...]:
-        """Return the names of the programs that a compiler would make, variables replaced."""
+        """Return the names of the programs that a compiler makes, variables replaced."""
         found = [step.arguments[0] for step in self.called(*_MAKE_PROGRAMS) if step.arguments]
+        found += self.programs_of_own
         for step in self.called("rclcpp_components_register_node"):
             found += step.after("EXECUTABLE", ("PLUGIN", "EXECUTOR", "RESOURCE_INDEX"))
         for step in self.called("set_target_properties"):
@@ -131,6 +135,18 @@ class _Own(NamedTuple):
 
     installs: bool
     compiles: bool
+    parameters: tuple[str, ...] = ()
+    programs: tuple[str, ...] = ()
+
+    def programs_of(self, arguments: Sequence[str]) -> list[str]:
+        """Return the names of programs that a call makes, with its arguments in their places."""
+        values = dict(zip(self.parameters, arguments, strict=False))
+        values |= {f"ARGV{index}": value for index, value in enumerate(arguments)}
+        values["ARGN"] = ";".join(arguments[len(self.parameters) :])
+        return [
+            _VARIABLE.sub(lambda found: values.get(found[1] or "", found[0]), name)
+            for name in self.programs
+        ]
 
 
 class _Walker:
@@ -218,7 +234,7 @@ class _Walker:
         arguments = self._arguments(command.arguments)
         if command.name != "foreach":
             if arguments:
-                self._own[arguments[0].lower()] = _own_of(body)
+                self._own[arguments[0].lower()] = _own_of(body, arguments[1:])
             return
         if not arguments:
             return
@@ -255,6 +271,8 @@ class _Walker:
                 self.lists.hidden.append(step)
             if own.compiles:
                 self.lists.compiling.append(step)
+                programs = own.programs_of(arguments)
+                self.lists.programs_of_own += [self._replaced(name) for name in programs]
 
     def _arguments(self, arguments: Iterable[Argument]) -> list[str]:
         found: list[str] = []
@@ -462,10 +480,12 @@ def _ends_of(commands: Sequence[Command]) -> list[int]:
     return ends
 
 
-def _own_of(body: _Piece) -> _Own:
+def _own_of(body: _Piece, parameters: Sequence[str]) -> _Own:
     commands = body.commands[body.first : body.last]
     compiles = any(item.name in {"add_executable", "add_library"} for item in commands)
-    return _Own(_installs(commands), compiles)
+    programs = [item for item in commands if item.name in _MAKE_PROGRAMS and item.arguments]
+    names = tuple(item.arguments[0].text for item in programs)
+    return _Own(_installs(commands), compiles, tuple(parameters), names)
 
 
 def _branches(body: _Piece) -> tuple[_Piece, _Piece] | None:

@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 from gazelle.diagnostics import Severity, SourceSpan
 from gazelle.documents.files import is_file, is_folder
 from gazelle.workspace.building.cmake_lists import CMakeLists, Step, read_cmake_lists
-from gazelle.workspace.building.install_rules import cmake_rules
+from gazelle.workspace.building.install_rules import InstallRule, cmake_rules
 from gazelle.workspace.building.packages import SourcePackage
 from gazelle.workspace.building.plan import Item, Layout, Plan, add_rules
 from gazelle.workspace.building.python_plan import (
@@ -22,13 +22,20 @@ __all__ = [
     "add_catkin",
     "add_interfaces",
     "compiled_targets",
+    "has_compiled_targets",
     "plan_cmake",
     "read_lists",
 ]
 
 _FAILURE = 'CMake Error: file INSTALL cannot find "{path}": No such file or directory'
 _EXECUTABLES = frozenset(
-    {"add_executable", "ament_auto_add_executable", "cs_add_executable", "cuda_add_executable"}
+    {
+        "add_executable",
+        "ament_auto_add_executable",
+        "cs_add_executable",
+        "cuda_add_executable",
+        "rosbuild_add_executable",
+    }
 )
 _LIBRARIES = frozenset(
     {
@@ -37,6 +44,7 @@ _LIBRARIES = frozenset(
         "cs_add_library",
         "cuda_add_library",
         "pybind11_add_module",
+        "rosbuild_add_library",
     }
 )
 _NOT_COMPILED = frozenset({"ALIAS", "IMPORTED", "INTERFACE"})
@@ -58,7 +66,7 @@ def _add_environment_file(
 ) -> None:
     """Plan a shell or ``.dsv`` file that the package has sourced with its own."""
     if "${" in argument:
-        # ament's own: the path of libraries, which nobody builds here, and PATH, which is set.
+        # ament's own: the paths of libraries and programs, which are set.
         if not argument.startswith("${ament_cmake_package_templates_"):
             text = f"'{argument}' is known to CMake only; it is left out"
             plan.diagnostics.report("package.install-unread", text, step.span)
@@ -105,25 +113,54 @@ def read_lists(
 
 
 def plan_cmake(
-    package: SourcePackage, layout: Layout, definitions: Mapping[str, str], plan: Plan
+    package: SourcePackage,
+    layout: Layout,
+    definitions: Mapping[str, str],
+    plan: Plan,
+    *,
+    compiles: bool = False,
 ) -> None:
-    """Plan a package with a ``CMakeLists.txt``; what would have to be compiled is reported."""
+    """Plan a package with a ``CMakeLists.txt``.
+
+    Args:
+        package: what to build.
+        layout: where its modules go.
+        definitions: variables for ``CMakeLists.txt``.
+        plan: receives items and findings.
+        compiles: somebody compiles; otherwise what has to be compiled is reported.
+    """
     lists = read_lists(package, plan, definitions)
     if lists is None:
         return
     share = f"share/{package.name}"
     rules = cmake_rules(lists, share)
-    add_rules(plan, package.path, rules.rules, _FAILURE, lists.made)
-    for span in rules.unread:
+    by_cmake = compiles and has_compiled_targets(lists)
+    found = [rule for rule in rules.rules if not (by_cmake and _is_made(rule))]
+    add_rules(plan, package.path, found, _FAILURE, lists.made)
+    for span in () if by_cmake else rules.unread:
         text = "what this installs is known only to CMake; it is left out"
         plan.diagnostics.report("package.install-unread", text, span)
-    compiled_targets(package, lists, plan)
+    if not compiles:
+        compiled_targets(package, lists, plan)
     add_interfaces(package, lists, plan)
     if package.build_type == "catkin":
         add_catkin(package, lists, layout, plan)
     else:
         _add_ament(package, lists, layout, plan)
     plan.add(Item(f"{share}/package.xml", package.path / "package.xml"))
+
+
+def _is_made(rule: InstallRule) -> bool:
+    """Tell whether a rule installs what CMake makes, or where only it knows to."""
+    return not rule.is_known or "$<" in rule.source + rule.destination
+
+
+def has_compiled_targets(lists: CMakeLists) -> bool:
+    """Tell whether a ``CMakeLists.txt`` has something to compile, or headers for those who do."""
+    return bool(lists.compiling) or any(
+        len(step.arguments) > 1 and not {"ALIAS", "IMPORTED"} & set(step.arguments)
+        for step in lists.called(*_EXECUTABLES, *_LIBRARIES)
+    )
 
 
 def compiled_targets(package: SourcePackage, lists: CMakeLists, plan: Plan) -> None:

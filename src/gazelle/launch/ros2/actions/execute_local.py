@@ -329,12 +329,27 @@ class ExecuteLocal(Action):
         assert self.__ending is not None
         assert self.__completed is not None
         try:
+            assert self.process_details is not None
+            if not await self._may_start(context, self.process_details):
+                return
             while await self.__run_once(context):
                 if not await self.__may_respawn(context):
                     break
         finally:
             self.__ending.cancel()
             self.__completed.set_result(None)
+
+    async def _may_start(self, context: LaunchContext, details: dict[str, Any]) -> bool:
+        """Wait for what has to be there before it; False when it is not to start any more.
+
+        Args:
+            context: of the launch.
+            details: of the process; its command may change.
+        """
+        if context.cpp_builds is not None:
+            await context.cpp_builds.finished()
+            return not context.is_shutdown
+        return True
 
     async def __run_once(self, context: LaunchContext) -> bool:
         """Run the process to its end; False when it cannot be started."""

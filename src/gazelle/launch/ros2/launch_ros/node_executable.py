@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shlex
 import stat
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -31,7 +31,7 @@ __all__ = ["NodeCommand", "NodeExecutable", "node_command", "wrapper_script"]
 
 _COMPILED = "launch.compiled-node"
 _NO_PACKAGE = "launch.package-missing"
-_BUILD = "build it with colcon and source its workspace, or write the node in Python with rclpy"
+_BUILD = "add_executable() in its CMakeLists.txt, or write the node in Python with rclpy"
 
 
 class NodeCommand(NamedTuple):
@@ -46,6 +46,30 @@ class NodeCommand(NamedTuple):
     argv: tuple[str, ...]
     program: str
     found: FoundExecutable | None = None
+
+    @property
+    def has_to_be_compiled(self) -> bool:
+        """Whether it is C++ that nobody has compiled yet."""
+        return self.found is not None and self.found.cpp is not None
+
+    @property
+    def executable(self) -> FoundExecutable:
+        """What was found.
+
+        Raises:
+            ValueError: it is a path.
+        """
+        if self.found is None:
+            raise ValueError(f"'{self.program}' is a path")
+        return self.found
+
+    def replaced_in(self, words: Sequence[str], other: Sequence[str]) -> list[str]:
+        """Return a command's words with other ones in the place of this one's."""
+        count = len(self.argv)
+        for start in range(len(words) - count + 1):
+            if tuple(words[start : start + count]) == self.argv:
+                return [*words[:start], *other, *words[start + count :]]
+        return list(words)
 
 
 class NodeExecutable(Executable):
@@ -67,7 +91,7 @@ class NodeExecutable(Executable):
     def find(
         self, context: LaunchContext, package: Any, executable: Any, span: SourceSpan | None
     ) -> bool:
-        """Look for what runs the node; False when it is compiled code that is not here.
+        """Look for what runs the node; False when it is code that nothing here compiles.
 
         Raises:
             PackageNotFoundError: there is no such package.
@@ -107,8 +131,8 @@ def node_command(
         span: of the user's file, for messages.
 
     Returns:
-        None when it is compiled code that is not built here, or a package of ROS that Gazelle
-        does not bring: the launch goes on without it.
+        None when it is code that nothing here compiles, or a package of ROS that Gazelle does
+        not bring: the launch goes on without it.
 
     Raises:
         PackageNotFoundError: there is no such package.

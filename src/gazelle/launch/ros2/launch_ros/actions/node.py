@@ -12,6 +12,7 @@ from gazelle.documents.files import is_file, is_folder
 from gazelle.documents.yaml import MESSAGE_STYLE, PYTHON_STYLE, Layout, Writer, dump_yaml
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.actions import ExecuteProcess
+from gazelle.launch.ros2.cpp_builds import CppBuilds
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
 from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.launch_ros.actions.node_keywords import (
@@ -78,7 +79,7 @@ class Node(ExecuteProcess):
     installed ROS. Parameters in dictionaries go to it by a file, as in ROS 2.
 
     Attributes:
-        is_absent: it was to start and is compiled code that is not here.
+        is_absent: it was to start and is compiled code that is not here, or does not compile.
     """
 
     is_absent = False
@@ -261,9 +262,31 @@ class Node(ExecuteProcess):
             return None
         what.add_arguments([*self.__own_arguments(context), *(self.__ros_arguments or ())])
         carry_graph()
+        if what.command is not None and what.command.has_to_be_compiled:
+            if context.cpp_builds is None:
+                context.cpp_builds = CppBuilds(context)
+            context.cpp_builds.want(what.command.executable)
         found = super().execute(context)
         self.__count_name(context)
         return found
+
+    async def _may_start(self, context: LaunchContext, details: dict[str, Any]) -> bool:
+        may_start = await super()._may_start(context, details)
+        what = self.process_description
+        assert isinstance(what, NodeExecutable)
+        if not may_start or what.command is None or not what.command.has_to_be_compiled:
+            return may_start
+        assert context.cpp_builds is not None
+        made = context.cpp_builds.made_of(what.command.executable)
+        if made is None:
+            self.is_absent = True
+            self.__note_absence(context)
+            name = what.command.program
+            launch_logging.get_logger(name).error("it does not compile; the others go on")
+            return False
+        details["cmd"] = what.command.replaced_in(details["cmd"], made.command)
+        what.final_cmd = details["cmd"]
+        return True
 
     def __note_absence(self, context: LaunchContext) -> None:
         """Let nodes that wait for others, such as lifecycle managers, know who does not come."""
