@@ -1,0 +1,3 @@
+#pragma once
+
+#include <pr2_controller_interface/controller.h>

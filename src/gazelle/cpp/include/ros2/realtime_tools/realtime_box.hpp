@@ -1,0 +1,3 @@
+#pragma once
+
+#include "gazelle/realtime/realtime_box.hpp"
