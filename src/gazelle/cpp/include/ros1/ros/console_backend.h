@@ -1,0 +1,2 @@
+#pragma once
+#include <ros/console_sites.h>

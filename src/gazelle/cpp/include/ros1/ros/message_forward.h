@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include <boost/shared_ptr.hpp>
+
+// Names a message's class and its pointers without its header.
+#define ROS_DECLARE_MESSAGE_WITH_ALLOCATOR(msg, new_name, alloc) \
+  template <class Allocator>                                     \
+  struct msg##_;                                                 \
+  typedef msg##_<alloc<void>> new_name;                          \
+  typedef boost::shared_ptr<new_name> new_name##Ptr;             \
+  typedef boost::shared_ptr<new_name const> new_name##ConstPtr;
+
+#define ROS_DECLARE_MESSAGE(msg) ROS_DECLARE_MESSAGE_WITH_ALLOCATOR(msg, msg, std::allocator)

@@ -1,0 +1,5 @@
+#pragma once
+
+#ifndef ROSCPP_SERIALIZATION_DECL
+#define ROSCPP_SERIALIZATION_DECL
+#endif

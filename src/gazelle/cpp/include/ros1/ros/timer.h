@@ -1,0 +1,36 @@
+#pragma once
+
+#include <ros/common.h>
+#include <ros/forwards.h>
+#include <ros/timer_options.h>
+
+namespace ros {
+
+/// Calls back at a period of ros::Time until it is stopped or the last copy goes.
+class ROSCPP_DECL Timer {
+ public:
+  Timer() {}
+
+  void start();
+  void stop();
+  bool hasPending();
+  bool isValid() const;
+  bool hasStarted() const;
+  /// A new period; by `reset` it begins now.
+  void setPeriod(const Duration& period, bool reset = true);
+
+  operator void*() const { return isValid() ? reinterpret_cast<void*>(1) : 0; }
+  bool operator<(const Timer& other) const { return impl_ < other.impl_; }
+  bool operator==(const Timer& other) const { return impl_ == other.impl_; }
+  bool operator!=(const Timer& other) const { return impl_ != other.impl_; }
+
+  class Impl;
+
+ private:
+  friend class NodeHandle;
+  explicit Timer(const TimerOptions& options);
+
+  boost::shared_ptr<Impl> impl_;
+};
+
+}  // namespace ros
