@@ -78,7 +78,7 @@ def test_install_goes_where_it_is_told(workspace: Path, capsys: Captured) -> Non
     assert (workspace / "there/share/arm/package.xml").is_file()
     printed = capsys.readouterr()
     assert "Install the project...\n" in printed.out
-    assert "--jobs has no effect" in printed.err
+    assert "no effect" not in printed.err
 
 
 @pytest.mark.parametrize(

@@ -82,10 +82,10 @@ def test_packages_of_several_launch_files_are_joined() -> None:
 
 
 def test_nodes_that_are_not_compiled_are_listed() -> None:
-    text = "Cannot locate node of type [{}] in package [bot]: it is compiled code that is not built"
+    text = "Cannot locate node of type [{}] in package [bot]: it is compiled code"
     found = condensed(_found("launch.compiled-node", text.format("a"), text.format("b")))
     assert [item.message for item in found] == [
-        "Cannot locate node of 2 types: they are compiled code that is not built here: bot/a, bot/b"
+        "Cannot locate node of 2 types: they are compiled code that nothing builds: bot/a, bot/b"
     ]
 
 

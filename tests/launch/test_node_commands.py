@@ -10,7 +10,7 @@ import pytest
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
 from gazelle.launch.launch_config import LaunchConfig, NodeTag
-from gazelle.launch.node_commands import Executable, find_executable
+from gazelle.launch.node_commands import Executable, executables_of, find_executable
 from gazelle.launch.roslaunch import LaunchOptions, find_executables
 from gazelle.node_specs.registry import node_specs
 from gazelle.node_specs.unavailable_packages import missing_node
@@ -95,7 +95,8 @@ def test_built_in_node_stands_for_the_users_own_compiled_one(package: Path) -> N
     found, diagnostics = _find("turtlebot3_gazebo", "turtlebot3_drive", folder)
     assert found is not None and found.builtin is not None
     assert found.builtin.entry == "gazelle.nodes.turtlebot3.drive:run"
-    assert not tuple(diagnostics)
+    (told,) = diagnostics
+    assert told.code == "launch.builtin-instead"
     script = folder / "scripts" / "turtlebot3_drive"
     script.parent.mkdir()
     script.write_text("#!/usr/bin/env python3\n", encoding="utf-8")
@@ -183,7 +184,7 @@ def test_compiled_node_is_called_so(package: Path) -> None:
     _, diagnostics = _find("tests_pkg", "planner", package)
     (error,) = diagnostics
     assert error.code == "launch.compiled-node"
-    assert f"it is compiled code ('{source}') that is not built here" in error.message
+    assert f"it is compiled code ('{source}') that no add_executable() makes" in error.message
 
 
 @pytest.mark.parametrize(
@@ -195,15 +196,55 @@ def test_compiled_node_is_called_so(package: Path) -> None:
         'rclcpp_components_register_node(robot PLUGIN "robot::Node" EXECUTABLE robot_node)',
         "add_executable(robot src/main.cpp)\n"
         "set_target_properties(robot PROPERTIES OUTPUT_NAME robot_node PREFIX x)",
+        "rosbuild_add_executable(robot_node src/main.cpp)",
+        "macro(my_node name)\nadd_executable(${name}_node src/${name}.cpp)\nendmacro()\n"
+        "my_node(robot)",
+        "function(my_node folder)\nadd_executable(${ARGN} src/a.cpp)\nendfunction()\n"
+        "my_node(src robot_node)",
     ],
 )
-def test_node_that_a_cmake_file_makes_is_called_compiled(package: Path, lists: str) -> None:
+def test_node_that_a_cmake_file_makes_is_compiled_before_it_starts(
+    package: Path, lists: str
+) -> None:
     file = package / "CMakeLists.txt"
     file.write_text(f"{lists}\n", encoding="utf-8")
-    _, diagnostics = _find("tests_pkg", "robot_node", package)
-    (error,) = diagnostics
-    assert error.code == "launch.compiled-node"
-    assert f"it is compiled code ('{file}') that is not built here" in error.message
+    found, diagnostics = _find("tests_pkg", "robot_node", package)
+    assert found is not None and not list(diagnostics)
+    assert found.cpp is not None and found.cpp.name == "tests_pkg/robot_node"
+    assert found.is_of_cpp and found.command[-3:] == (str(package), "tests_pkg", "robot_node")
+
+
+def test_script_wins_over_cpp_of_the_same_name(package: Path) -> None:
+    (package / "CMakeLists.txt").write_text("add_executable(does a.cpp)\n", encoding="utf-8")
+    found, _ = _find("tests_pkg", "does", package)
+    assert found is not None and found.script == package / "scripts" / "does"
+
+
+def _with_cpp_of_turtlesim(package: Path) -> Path:
+    own = package.parent / "turtlesim"
+    package.rename(own)
+    manifest = own / "package.xml"
+    text = manifest.read_text(encoding="utf-8").replace("tests_pkg", "turtlesim")
+    manifest.write_text(text, encoding="utf-8")
+    (own / "CMakeLists.txt").write_text("add_executable(draw_square d.cpp)\n", encoding="utf-8")
+    return own
+
+
+def test_cpp_is_taken_where_it_is_asked_for(package: Path) -> None:
+    own = _with_cpp_of_turtlesim(package)
+    found, diagnostics = _find("turtlesim", "draw_square", own, GAZELLE_CPP="1")
+    assert found is not None and found.cpp is not None and not list(diagnostics)
+    found, _ = _find("turtlesim", "draw_square", own, GAZELLE_CPP="0")
+    assert found is not None and found.cpp is None
+
+
+def test_names_of_cpp_are_offered(package: Path) -> None:
+    (package / "CMakeLists.txt").write_text(
+        "add_executable(talker a.cpp)\nadd_executable(${unknown} b.cpp)\n", encoding="utf-8"
+    )
+    workspace = Workspace.discover(environ={}, cwd=package)
+    assert executables_of("tests_pkg", workspace) == ("does", "talker")
+    assert "talker" in workspace.package("tests_pkg").executable_names
 
 
 def test_script_without_execute_permission_runs_with_a_warning(package: Path) -> None:

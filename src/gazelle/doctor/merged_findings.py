@@ -43,7 +43,7 @@ def condensed(findings: Sequence[Diagnostic], packages: Iterable[str] = ()) -> l
 
     What stands in the user's files keeps its places. Put together is what is true of the whole
     examination: packages of ROS that are not on this machine, models of Gazebo's collection,
-    nodes that are not compiled, plug-ins by library, launch files that were read and not run.
+    nodes that nothing compiles, plug-ins by library, launch files that were read and not run.
 
     Args:
         findings: in the order found.
@@ -147,8 +147,8 @@ def _compiled_nodes(group: list[Diagnostic]) -> Diagnostic:
     names = dict.fromkeys("/".join(reversed(_node(item))) for item in group)
     if len(names) == 1:
         return group[0]
-    text = f"Cannot locate node of {len(names)} types: they are compiled code that is not built "
-    return replace(group[0], message=f"{text}here: {_listed(list(names))}")
+    text = f"Cannot locate node of {len(names)} types: they are compiled code that nothing "
+    return replace(group[0], message=f"{text}builds: {_listed(list(names))}")
 
 
 def _node(item: Diagnostic) -> tuple[str, str]:

@@ -1,7 +1,7 @@
 """Findings that are errors of a run here and none of the user's files: a ROS may have the part.
 
-Gazelle runs no compiled code and brings a part of ROS's programs along. A run without them fails,
-and so tells an error; a package that needs them is right all the same, and is only warned of it.
+Gazelle compiles the C++ of nodes and brings a part of ROS's programs along. A run without the rest
+fails, and so tells an error; a package that needs it is right all the same, and is only warned.
 """
 
 from __future__ import annotations

@@ -178,7 +178,7 @@ _ROS1 = (
         "error",
         "The executable of a node does not exist",
         "Neither the package, nor the built-in nodes, nor an installed ROS has it.",
-        "correct type, or make the script executable; compiled nodes have to be built first",
+        "correct type, make the script executable, or let CMakeLists.txt make the program",
         "Cannot locate node of type in package",
     ),
     Entry(

@@ -177,7 +177,7 @@ _PLACEMENT = (
         "plugin.compiled",
         "warning",
         "A plug-in of the workspace is compiled code",
-        "Its C++ source is there, but Gazelle has neither a compiler nor Gazebo's libraries. A "
+        "Its C++ source is there, but Gazelle does not have the libraries of Gazebo. A "
         "Python file of the plug-in's name takes its place.",
         "write the plug-in in Python (docs/howto/own_plugin.md)",
         "Failed to load plugin",

@@ -30,9 +30,8 @@ _BUILDING = (
         "build.compiled-target",
         "warning",
         "A program or library of a package is not built",
-        "Gazelle builds Python and data packages and has no compiler. Everything else of the"
-        " package is installed.",
-        "use a built-in node of Gazelle, a Python node, or build the package in real ROS",
+        "There is no C++ compiler here. Everything else of the package is installed.",
+        "pip install 'gazelle-sim[cpp]', which brings one, or install g++ or clang++",
         "No executable found; Couldn't find executable named",
     ),
     Entry(

@@ -97,9 +97,9 @@ _ROWS: tuple[tuple[str, tuple[str, ...], str, str, int, str, str, bool], ...] = 
     ("code", _CODE, r"(?m)^[ \t]*(?:import|from) rclpy\b", "ROS 2", 2, "rclpy is ROS 2's",
      _AS_IT_IS, True),
     ("code", _CPP, r"#include\s*[<\"]ros/ros\.h", "ROS 1", 1, "ros/ros.h is ROS 1's",
-     "compiled code has to be built by catkin", True),
+     "compiled when it is started", True),
     ("code", _CPP, r"#include\s*[<\"]rclcpp/", "ROS 2", 2, "rclcpp is ROS 2's",
-     "compiled code has to be built by colcon", True),
+     "compiled when it is started", True),
     # -- parameters
     ("parameters", _YAML, r"(?m)^\s*(?:TrajectoryPlannerROS|DWAPlannerROS|TebLocalPlannerROS):",
      "ROS 1", 1, "parameters of move_base", "read", False),

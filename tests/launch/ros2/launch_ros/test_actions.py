@@ -242,7 +242,7 @@ def test_launch_goes_on_without_compiled_nodes(run: Run, package: Path) -> None:
     assert len(_words(ran)) == 1
     (found,) = ran.context.diagnostics.errors
     assert found.code == "launch.compiled-node"
-    assert "build it with colcon" in found.fix
+    assert "add_executable() in its CMakeLists.txt" in found.fix
 
 
 @_row
