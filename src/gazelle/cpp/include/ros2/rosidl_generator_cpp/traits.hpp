@@ -1,0 +1,3 @@
+#pragma once
+
+#include <rosidl_runtime_cpp/traits.hpp>

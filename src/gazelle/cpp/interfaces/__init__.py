@@ -1,0 +1,7 @@
+"""C++ headers of messages, services, actions, ``.cfg`` files and parameter files."""
+
+from __future__ import annotations
+
+from gazelle.cpp.interfaces.header_trees import known_messages, package_messages
+
+__all__ = ["known_messages", "package_messages"]
