@@ -1,0 +1,39 @@
+# Compiles and links a package of the user's by Gazelle's rules.
+#
+# Programs are linked as shared libraries, which the host of nodes loads; what our flags decide
+# comes after the user's, so it holds whatever a package writes to CMAKE_CXX_FLAGS.
+
+cmake_policy(PUSH)
+cmake_policy(VERSION 3.5...3.31)
+
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES GAZELLE_SETTINGS)
+include("${GAZELLE_SETTINGS}")
+
+set(CMAKE_CXX_COMPILER "${GAZELLE_CXX}")
+set(CMAKE_C_COMPILER "${GAZELLE_CC}")
+if(GAZELLE_AR)
+  set(CMAKE_AR "${GAZELLE_AR}" CACHE FILEPATH "" FORCE)
+  set(CMAKE_RANLIB "${GAZELLE_RANLIB}" CACHE FILEPATH "" FORCE)
+  set(CMAKE_CXX_COMPILER_AR "${GAZELLE_AR}" CACHE FILEPATH "" FORCE)
+  set(CMAKE_CXX_COMPILER_RANLIB "${GAZELLE_RANLIB}" CACHE FILEPATH "" FORCE)
+  set(CMAKE_C_COMPILER_AR "${GAZELLE_AR}" CACHE FILEPATH "" FORCE)
+  set(CMAKE_C_COMPILER_RANLIB "${GAZELLE_RANLIB}" CACHE FILEPATH "" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES ${GAZELLE_INCLUDE_DIRS})
+set(CMAKE_C_STANDARD_INCLUDE_DIRECTORIES ${GAZELLE_INCLUDE_DIRS})
+
+get_property(gazelle_is_try GLOBAL PROPERTY IN_TRY_COMPILE)
+if(NOT gazelle_is_try)
+  set(CMAKE_CXX_COMPILE_OBJECT
+    "<CMAKE_CXX_COMPILER> ${GAZELLE_FIRST_FLAGS} <DEFINES> <INCLUDES> <FLAGS> ${GAZELLE_LAST_FLAGS} -o <OBJECT> -c <SOURCE>")
+  set(CMAKE_C_COMPILE_OBJECT
+    "<CMAKE_C_COMPILER> ${GAZELLE_FIRST_C_FLAGS} <DEFINES> <INCLUDES> <FLAGS> ${GAZELLE_LAST_C_FLAGS} -o <OBJECT> -c <SOURCE>")
+  if(GAZELLE_IS_ROS)
+    foreach(gazelle_language CXX C)
+      set(CMAKE_${gazelle_language}_LINK_EXECUTABLE
+        "<CMAKE_CXX_COMPILER> <CMAKE_CXX_LINK_FLAGS> -shared <LINK_FLAGS> <OBJECTS> ${GAZELLE_NODE_OBJECTS} -o <TARGET> -Wl,-z,defs <LINK_LIBRARIES> ${GAZELLE_ALWAYS_LINKED}")
+    endforeach()
+  endif()
+endif()
+set(CMAKE_SKIP_INSTALL_RPATH OFF)
+cmake_policy(POP)

@@ -1,0 +1,192 @@
+"""What ``find_package`` finds of ours, a row for each name: libraries, targets, variables.
+
+Packages of messages need no row: those are all that Gazelle's interfaces know. Every package that
+is found has the targets ``name::name`` and the variables ``name_LIBRARIES``, ``name_INCLUDE_DIRS``
+and ``name_TARGETS``, as catkin and ament make them. A name that is refused is found as well, so
+that what stands beside it is built; targets that use it are left out and told.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["PROVIDED", "REFUSED", "ProvidedPackage", "provided", "refusal"]
+
+
+@dataclass(frozen=True, slots=True)
+class ProvidedPackage:
+    """A package of ROS, or a library that ROS packages look for, whose headers are ours.
+
+    Attributes:
+        name: as in ``find_package``.
+        libraries: runtime libraries that it means.
+        generations: the ROS that it belongs to.
+        targets: names of CMake targets beside ``name::name``.
+        scripts: files below ``cmake`` that bring its functions.
+        variables: names in front of ``_LIBRARIES`` and so on, beside the package's.
+    """
+
+    name: str
+    libraries: tuple[str, ...] = ()
+    generations: tuple[int, ...] = (1, 2)
+    targets: tuple[str, ...] = ()
+    scripts: tuple[str, ...] = ()
+    variables: tuple[str, ...] = ()
+
+
+def _ros1(name: str, *libraries: str, targets: tuple[str, ...] = ()) -> ProvidedPackage:
+    return ProvidedPackage(name, libraries or ("roscpp",), (1,), targets)
+
+
+def _ros2(name: str, *libraries: str, targets: tuple[str, ...] = ()) -> ProvidedPackage:
+    return ProvidedPackage(name, libraries or ("rclcpp",), (2,), targets)
+
+
+_ROWS = (
+    # Build systems and generators.
+    ProvidedPackage("catkin", (), (1,), scripts=("catkin",)),
+    ProvidedPackage("rosbuild", (), (1,), scripts=("rosbuild",)),
+    ProvidedPackage("genmsg", (), (1,), scripts=("messages",)),
+    ProvidedPackage("message_generation", (), (1,), scripts=("messages",)),
+    ProvidedPackage("message_runtime", ("roscpp",), (1,)),
+    ProvidedPackage("cmake_modules", (), (1,)),
+    ProvidedPackage("roslaunch", (), (1,), scripts=("roslaunch",)),
+    ProvidedPackage("rostest", (), (1,), scripts=("rostest",)),
+    ProvidedPackage("roslint", (), (1,), scripts=("roslint",)),
+    ProvidedPackage("ament_cmake", (), (2,), scripts=("ament",)),
+    ProvidedPackage("ament_cmake_auto", (), (2,), scripts=("ament", "ament_auto")),
+    ProvidedPackage("ament_cmake_ros", (), (2,), scripts=("ament",)),
+    *(
+        ProvidedPackage(name, (), (2,), scripts=("ament",))
+        for name in (
+            "ament_cmake_core", "ament_cmake_export_dependencies", "ament_cmake_export_targets",
+            "ament_cmake_gmock", "ament_cmake_google_benchmark", "ament_cmake_gtest",
+            "ament_cmake_libraries", "ament_cmake_pytest", "ament_cmake_python",
+            "ament_cmake_target_dependencies", "ament_index", "ament_lint_auto",
+            "ament_lint_common", "ament_cmake_uncrustify", "ament_cmake_cppcheck",
+            "ament_cmake_cpplint", "ament_cmake_lint_cmake", "ament_cmake_copyright",
+            "ament_cmake_flake8", "ament_cmake_pep257", "ament_cmake_xmllint",
+            "ament_cmake_clang_format", "launch_testing_ament_cmake",
+        )
+    ),
+    ProvidedPackage("rosidl_default_generators", ("rclcpp",), (2,), scripts=("rosidl",)),
+    ProvidedPackage("rosidl_default_runtime", ("rclcpp",), (2,)),
+    ProvidedPackage("rosidl_cmake", (), (2,), scripts=("rosidl",)),
+    ProvidedPackage(
+        "generate_parameter_library", ("rclcpp",), (2,), scripts=("parameter_library",)
+    ),
+    ProvidedPackage("backward_ros", (), (2,)),
+    ProvidedPackage("eigen3_cmake_module", (), (2,)),
+    # ROS 1.
+    *(
+        _ros1(name)
+        for name in (
+            "cpp_common", "image_transport", "message_filters", "nodelet", "rosbag",
+            "rosbag_storage", "rosconsole", "roscpp", "roscpp_serialization", "roscpp_traits",
+            "roslib", "rostime", "rosconsole_bridge", "topic_tools", "xmlrpcpp", "actionlib",
+            "camera_info_manager", "diagnostic_updater", "ros_type_introspection",
+            "polled_camera", "rospack", "self_test", "bondcpp", "smclib", "cv_bridge",
+            "image_geometry", "pcl_conversions", "pcl_ros", "rospy", "roscpp_core",
+        )
+    ),
+    ProvidedPackage("dynamic_reconfigure", ("roscpp",), (1,), scripts=("dynamic_reconfigure",)),
+    _ros1("tf2_ros", "tf2_ros1"),
+    *(
+        _ros1(name, "tf2_ros1")
+        for name in ("tf2_geometry_msgs", "tf2_eigen", "tf2_sensor_msgs", "tf2_kdl")
+    ),
+    # ROS 2.
+    *(
+        _ros2(name)
+        for name in (
+            "rcl", "rcl_action", "rcl_lifecycle", "rcl_yaml_param_parser", "rcl_logging_interface",
+            "rclcpp", "rclcpp_action", "rclcpp_lifecycle", "rcpputils", "rcutils", "rmw",
+            "rmw_implementation", "rmw_implementation_cmake", "rmw_fastrtps_cpp",
+            "rosidl_runtime_c", "rosidl_runtime_cpp", "rosidl_typesupport_cpp",
+            "rosidl_typesupport_c", "rosidl_typesupport_interface", "rosidl_generator_cpp",
+            "rosidl_typesupport_introspection_cpp", "rosidl_dynamic_typesupport", "tracetools",
+            "libstatistics_collector", "image_transport", "message_filters",
+            "camera_info_manager", "diagnostic_updater", "cv_bridge", "image_geometry",
+            "pcl_conversions", "pcl_ros", "parameter_traits", "rsl", "tl_expected",
+            "tcb_span", "ament_index_cpp", "camera_calibration_parsers", "topic_tools",
+            "rosbag2_cpp", "rosbag2_storage", "lifecycle", "rclpy", "rosidl_adapter",
+        )
+    ),
+    ProvidedPackage(
+        "rclcpp_components",
+        ("rclcpp",),
+        (2,),
+        ("rclcpp_components::component", "rclcpp_components::component_manager"),
+        ("components",),
+    ),
+    _ros2("tf2_ros", "tf2_ros2", targets=("tf2_ros::static_transform_broadcaster_node",)),
+    *(
+        _ros2(name, "tf2_ros2")
+        for name in ("tf2_geometry_msgs", "tf2_eigen", "tf2_sensor_msgs", "tf2_kdl")
+    ),
+    # Both.
+    ProvidedPackage("angles"),
+    ProvidedPackage("console_bridge", ("core",)),
+    ProvidedPackage("tf2", ("tf2",)),
+    ProvidedPackage("class_loader", ("class_loader",), scripts=("class_loader",)),
+    ProvidedPackage("pluginlib", ("class_loader",), scripts=("pluginlib",)),
+)
+
+PROVIDED: tuple[ProvidedPackage, ...] = _ROWS
+
+
+_GAZEBO = "plug-ins of Gazebo are written against its libraries, which are not here"
+_GZ = "plug-ins of gz are written against its libraries, which are not here"
+_RVIZ = "displays and panels of RViz are not run; Studio shows the robot"
+_RQT = "plug-ins of rqt are not run; Studio has panels of its own"
+_NAV = "plug-ins of the navigation stack are not loaded; the built-in planners are used"
+_CONTROL = "controllers and hardware of C++ are not loaded; the built-in controllers are used"
+
+REFUSED: dict[str, str] = {
+    **dict.fromkeys(
+        ("gazebo", "gazebo_dev", "gazebo_plugins", "gazebo_ros", "gazebo_ros_control",
+         "gazebo_msgs_plugins", "gazebo_ros2_control", "gazebo_ros_pkgs"),
+        _GAZEBO,
+    ),
+    **dict.fromkeys(
+        ("ros_gz_bridge", "ros_gz_sim", "ros_ign_bridge", "ros_ign_gazebo", "gz_ros2_control",
+         "ign_ros2_control", "gz_plugin_vendor", "gz_sim_vendor", "sdformat_vendor"),
+        _GZ,
+    ),
+    **dict.fromkeys(
+        ("rviz", "rviz_common", "rviz_rendering", "rviz_default_plugins", "rviz_ogre_vendor"), _RVIZ
+    ),
+    **dict.fromkeys(("rqt_gui", "rqt_gui_cpp", "qt_gui_cpp", "rqt_gui_py"), _RQT),
+    **dict.fromkeys(
+        ("nav_core", "nav2_core", "costmap_2d", "nav2_costmap_2d", "base_local_planner",
+         "nav2_util", "nav2_behavior_tree", "nav_core2", "navfn", "move_base"),
+        _NAV,
+    ),
+}  # fmt: skip
+"""Names that are looked for in vain, and why."""
+
+_REFUSED_BEGINNINGS = {"gz-": _GZ, "ignition-": _GZ, "sdformat": _GZ, "rviz_": _RVIZ, "rqt_": _RQT}
+_REFUSED_IN_ROS2 = dict.fromkeys(
+    ("controller_interface", "hardware_interface", "controller_manager",
+     "transmission_interface", "ros2_control_test_assets"),
+    _CONTROL,
+)  # fmt: skip
+
+
+def refusal(name: str, generation: int) -> str:
+    """Return why a package is refused, empty where it is not.
+
+    Args:
+        name: as in ``find_package``.
+        generation: of ROS.
+    """
+    if name in REFUSED:
+        return REFUSED[name]
+    if generation == 2 and name in _REFUSED_IN_ROS2:
+        return _REFUSED_IN_ROS2[name]
+    return next((why for start, why in _REFUSED_BEGINNINGS.items() if name.startswith(start)), "")
+
+
+def provided(generation: int) -> dict[str, ProvidedPackage]:
+    """Return the rows of a ROS by name."""
+    return {row.name: row for row in PROVIDED if generation in row.generations}
