@@ -20,7 +20,6 @@ __all__ = ["MemberTables", "member_tables"]
 _LOG = "rosgraph_msgs/msg/Log"
 _KINDS = {
     "bool": "boolean",
-    "byte": "uint8",
     "char": "uint8",
     "builtin_interfaces/msg/Time": "time",
     "builtin_interfaces/msg/Duration": "duration",

@@ -73,6 +73,7 @@ enum class Kind : std::uint8_t {
   uint64,
   float32,
   float64,
+  byte,  // an unsigned number that texts show as 0x0f
   string,
   wstring,
   time,
