@@ -38,9 +38,10 @@ struct gazelle_host {
   int (*publish)(uint64_t publisher, const uint8_t *cdr, size_t size, int64_t sequence,
                  int64_t stamp_ns);
 
-  /* Ask a service; gazelle_on_response is called once for `call`, from another thread. */
+  /* Ask a service; gazelle_on_response is called once for `call`: by another thread, or, where
+   * is_waiting is not 0, by this one before it returns. timeout_s < 0: as long as it takes. */
   int (*request)(uint64_t client, uint64_t call, const uint8_t *cdr, size_t size,
-                 double timeout_s);
+                 double timeout_s, int is_waiting);
 
   /* Answer what gazelle_on_request brought; `error` is text where is_error is not 0. */
   int (*respond)(uint64_t request, int is_error, const uint8_t *data, size_t size);
@@ -67,8 +68,11 @@ void gazelle_on_message(uint64_t subscription, const uint8_t *cdr, size_t size, 
                         const uint8_t *gid, const char *publisher);
 
 /* How many ends a publisher or a subscription is matched with on the whole graph, and whether
- * anybody outside of this runtime wants what it publishes. */
+ * anybody outside of this runtime wants what it publishes (-1: it is a subscription). */
 void gazelle_on_matched(uint64_t end, uint64_t count, int is_wanted_elsewhere);
+
+/* A subscriber of a publisher's topic has come or gone; by the global name of its node. */
+void gazelle_on_subscriber(uint64_t publisher, const char *node, int is_there);
 
 /* A request; to be answered by `respond(request, …)`. Bytes as with gazelle_on_message. */
 void gazelle_on_request(uint64_t server, uint64_t request, const uint8_t *cdr, size_t size,

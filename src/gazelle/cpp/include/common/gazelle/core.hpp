@@ -14,10 +14,9 @@
 
 #include "gazelle/bytes.hpp"
 #include "gazelle/error.hpp"
+#include "gazelle/export.hpp"
 #include "gazelle/json.hpp"
 #include "gazelle/message_type.hpp"
-
-#define GAZELLE_EXPORT __attribute__((visibility("default")))
 
 namespace gazelle {
 

@@ -9,10 +9,12 @@
 #include <variant>
 #include <vector>
 
+#include "gazelle/export.hpp"
+
 namespace gazelle {
 
 // A JSON value. Objects keep the order of their members; whole numbers stay whole.
-class Json {
+class GAZELLE_EXPORT Json {
  public:
   using Array = std::vector<Json>;
   using Member = std::pair<std::string, Json>;
