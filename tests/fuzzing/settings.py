@@ -11,7 +11,7 @@ import yaml
 from tests.fuzzing.kind import Kind
 
 from gazelle.cli.catkin import load_profile
-from gazelle.compat.rclpy.arguments import parse_ros_arguments
+from gazelle.graph.ros2_arguments import parse_ros_arguments
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.moveit.config import typed_config

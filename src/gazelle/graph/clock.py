@@ -129,6 +129,7 @@ class Clock:
         self._switches = 0
         self._last_jump_ns = 0
         self._listeners: list[Callable[[int], None]] = []
+        self._watchers: tuple[Callable[[], None], ...] = ()
         self._untold: list[int] = []
         self._telling = threading.RLock()
 
@@ -136,6 +137,30 @@ class Clock:
     def use_sim_time(self) -> bool:
         """True while the clock follows ``/clock``."""
         return self._use_sim_time
+
+    @property
+    def page(self) -> PageView | None:
+        """The page that shows the time just now, None where messages tell it."""
+        return self._page if self._use_sim_time else None
+
+    @property
+    def last_jump_ns(self) -> int:
+        """How far time went back when it did so last, negative; 0 when it never did."""
+        return self._last_jump_ns
+
+    @property
+    def told_jumps(self) -> int:
+        """How often time went backwards, without looking at the page."""
+        return self._jumps
+
+    def watch(self, act: Callable[[], None]) -> None:
+        """Call something, in any thread, whenever the clock is switched or told a time."""
+        self._watchers = (*self._watchers, act)
+
+    def prefer_messages(self, *, messages: bool) -> None:
+        """Let messages tell the time although there is a page, or go back to that."""
+        if self._finder is not None:
+            self._finder.prefer(messages=messages)
 
     @property
     def jumps(self) -> int:
@@ -295,6 +320,7 @@ class Clock:
                 self._subscribe()
             elif not wanted and self._subscription is not None:
                 self._unsubscribe()
+        self._show()
 
     def _subscribe(self) -> None:
         """Let the first node that is not about to end carry the subscription."""
@@ -335,6 +361,7 @@ class Clock:
                 # It was on its way when the page was found.
                 return
             self._take(now_ns, now_ns - self._sim_ns)
+        self._show()
         self._tell()
 
     def _use_page(self, finder: ClockFinder | None, page: PageView | None) -> None:
@@ -350,6 +377,7 @@ class Clock:
                 now_ns, self._page_jumps, _ = page.read()
                 self._take(now_ns, now_ns - self._sim_ns)
             self._wake(everybody=True)
+        self._show()
         self._tell()
 
     def _look(self) -> None:
@@ -358,6 +386,7 @@ class Clock:
             if self._page is not None:
                 self._catch_up(self._page)
                 self._wake(everybody=True)
+        self._show()
         self._tell()
 
     def _read(self, page: PageView) -> int:
@@ -389,6 +418,10 @@ class Clock:
             self._last_jump_ns = delta_ns
             self._untold.append(delta_ns)
         self._wake(everybody=delta_ns < 0)
+
+    def _show(self) -> None:
+        for act in self._watchers:
+            act()
 
     def _tell(self) -> None:
         """Tell the listeners of jumps, or wait for whoever is doing so."""

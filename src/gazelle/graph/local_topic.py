@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -22,9 +23,10 @@ class LocalTopic:
         publishers: of this process.
         subscriptions: of this process.
         sent_s: when a reliable message last went to other processes, by `time.monotonic`.
+        watchers: called when the subscriptions have changed.
     """
 
-    __slots__ = ("lock", "publishers", "sent_s", "subscriptions", "transport")
+    __slots__ = ("lock", "publishers", "sent_s", "subscriptions", "transport", "watchers")
 
     def __init__(self) -> None:
         self.lock = threading.RLock()
@@ -36,6 +38,7 @@ class LocalTopic:
         self.publishers: tuple[Publisher, ...] = ()
         self.subscriptions: tuple[Subscription, ...] = ()
         self.sent_s = -math.inf
+        self.watchers: tuple[Callable[[], None], ...] = ()
 
     def add_publisher(self, publisher: Publisher) -> None:
         """Add a publisher."""
@@ -53,11 +56,17 @@ class LocalTopic:
             for publisher in self.publishers if latched else ():
                 publisher.hand_latched(subscription)
             self.subscriptions = (*self.subscriptions, subscription)
+        self._tell()
 
     def remove_subscription(self, subscription: Subscription) -> None:
         """Remove a subscription, if it is there."""
         with self.lock:
             self.subscriptions = tuple(one for one in self.subscriptions if one is not subscription)
+        self._tell()
+
+    def _tell(self) -> None:
+        for act in self.watchers:
+            act()
 
 
 class LocalTopics:

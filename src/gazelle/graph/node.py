@@ -126,6 +126,7 @@ class Node:
         queue_size: int = 10,
         copy_local: bool = False,
         qos: Qos | None = None,
+        native: bool = False,
     ) -> Publisher:
         """Offer a topic.
 
@@ -139,6 +140,7 @@ class Node:
             copy_local: give subscriptions of this process a copy, for callers that go on
                 changing the message, as rospy's users may.
             qos: told to others in place of `reliable` and `queue_size`, which act all the same.
+            native: native subscriptions of this process get its messages another way.
         """
         message_class = type_support.resolve_type(message_type)
         told = qos or Qos(reliable, latch, queue_size)
@@ -150,6 +152,7 @@ class Node:
             message_class,
             copy_local=copy_local,
             reliable=reliable,
+            native=native,
             is_mute=self._is_mute,
         )
         return self._keep(made)
@@ -166,6 +169,7 @@ class Node:
         inline: bool = False,
         announced: str = "",
         qos: Qos | None = None,
+        native: bool = False,
     ) -> Subscription:
         """Receive a topic.
 
@@ -181,12 +185,14 @@ class Node:
             announced: the type that a subscription of any type shows to others.
             qos: told to others; without it latched messages come, as in ROS 1, with it only when
                 it asks for them.
+            native: messages of native publishers of this process come another way.
         """
         message_class = type_support.resolve_type(message_type)
         any_type = announced or ANY_TYPE
         type_name = any_type if message_class is None else type_support.type_name_of(message_class)
         told = qos or Qos(depth=queue_size)
-        delivery = Delivery(raw, with_info, inline, queue_size, qos is None or qos.latched)
+        latched = qos is None or qos.latched
+        delivery = Delivery(raw, with_info, inline, queue_size, latched, native)
         entity = self._entity(Kind.SUBSCRIPTION, topic, type_name, message_class, qos=told)
         return self._keep(
             Subscription(
@@ -273,6 +279,10 @@ class Node:
             caller.f_code.co_name,
             caller.f_lineno,
         )
+        self.tell(record, padded=padded, console=console)
+
+    def tell(self, record: LogRecord, *, padded: bool = True, console: bool = True) -> None:
+        """Say what is in a record, whatever its level; see `log`."""
         if console:
             self.console(record, padded=padded)
         if self._rosout is not None and self._rosout.matched and not self._closed:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.errors import GraphError
 from gazelle.graph import type_support
 from gazelle.graph.key_expressions import Attachment, Entity, entity_gid, token, topic_key
+from gazelle.process_lifetime import called_by_library
 
 if TYPE_CHECKING:
     from gazelle.graph.graph import Graph
@@ -31,6 +32,7 @@ class Publisher:
         message_class: class of the messages.
         latch: whether late subscriptions get the last message.
         graph: the graph it publishes on.
+        native: native subscriptions of this process get its messages another way.
     """
 
     def __init__(
@@ -41,9 +43,11 @@ class Publisher:
         *,
         copy_local: bool,
         reliable: bool,
+        native: bool,
         is_mute: Callable[[], bool],
     ) -> None:
         """Declare the topic; use `Node.create_publisher`."""
+        self.native = native
         self.topic = entity.name
         self.message_class = message_class
         self.latch = entity.qos.latched
@@ -56,6 +60,7 @@ class Publisher:
         self._last: Any = None
         self._latching = threading.RLock()
         self._sequence = 0
+        self._watching: list[Any] = []
         self._unsure = True
         self._sure_s = time.monotonic() + _UNSURE_S
         text = token(graph.domain, entity)
@@ -80,6 +85,23 @@ class Publisher:
         return self._matched_elsewhere()
 
     @property
+    def wanted(self) -> bool:
+        """True when a message would reach somebody through `publish`, or nobody knows yet."""
+        return bool(self._listeners()) or self._is_wanted_elsewhere()
+
+    def watch(self, act: Callable[[], None]) -> None:
+        """Call something, in any thread, whenever `wanted` may have changed, except by time."""
+        if self._closed:
+            return
+
+        @called_by_library
+        def on_status(_status: Any) -> None:
+            act()
+
+        self._watching.append(self._matcher.declare_matching_listener(on_status))
+        self._local.watchers = (*self._local.watchers, act)
+
+    @property
     def subscription_count(self) -> int:
         """Number of subscriptions of the topic on the whole graph."""
         return self.graph.subscription_count(self.topic)
@@ -101,7 +123,7 @@ class Publisher:
             self._publish_latched(message)
             return
         self._sequence += 1
-        local = self._local.subscriptions
+        local = self._listeners()
         if local:
             self._hand(message, local)
         if self._is_wanted_elsewhere():
@@ -131,6 +153,8 @@ class Publisher:
         self._local.remove_publisher(self)
         with self._transport:
             self._token.undeclare()
+            for one in self._watching:
+                one.undeclare()
             self._matcher.undeclare()
             if self._sender is not self._matcher:
                 self._sender.undeclare()
@@ -138,7 +162,7 @@ class Publisher:
 
     def hand_latched(self, subscription: Subscription) -> None:
         """Give the last latched message to a new subscription of this process."""
-        if self._last is not None:
+        if self._last is not None and not (self.native and subscription.native):
             subscription.take_local(self._last, self._attachment())
 
     def _is_over(self) -> bool:
@@ -152,8 +176,12 @@ class Publisher:
             with self._local.lock:
                 self._sequence += 1
                 self._last = message
-                self._hand(message, self._local.subscriptions)
+                self._hand(message, self._listeners())
             self._send(message)
+
+    def _listeners(self) -> tuple[Subscription, ...]:
+        local = self._local.subscriptions
+        return tuple(one for one in local if not one.native) if self.native else local
 
     def _hand(self, message: Any, subscriptions: tuple[Subscription, ...]) -> None:
         if self._copy_local and subscriptions:

@@ -118,6 +118,7 @@ class Delivery(NamedTuple):
         inline: in the thread that publishes (same process) or receives.
         queue_size: most messages that wait; 0 for no limit.
         latched: with those that latched publishers sent before.
+        native: messages of native publishers of this process come another way.
     """
 
     raw: bool = False
@@ -125,6 +126,7 @@ class Delivery(NamedTuple):
     inline: bool = False
     queue_size: int = 0
     latched: bool = True
+    native: bool = False
 
 
 class _WaitingSample(NamedTuple):
@@ -147,6 +149,7 @@ class Subscription:
     Attributes:
         topic: global name.
         message_class: class of the messages, None for any type or raw.
+        native: messages of native publishers of this process come another way.
     """
 
     def __init__(
@@ -167,6 +170,7 @@ class Subscription:
         self.entity = entity
         self._graph = graph
         self._callback = callback
+        self.native = delivery.native
         self._raw = delivery.raw
         self._takes_any = message_class is None
         self._with_info = delivery.with_info

@@ -43,10 +43,10 @@ def main(argv: list[str]) -> int:
 def _single(name: str, argv: list[str]) -> int:
     from gazelle.errors import GazelleError, file_refusal_text
     from gazelle.graph import Graph
+    from gazelle.graph.log_output import LogFile
     from gazelle.node_specs.registry import node_spec
     from gazelle.nodes.arguments import read_arguments
     from gazelle.nodes.host import run_node
-    from gazelle.nodes.log_output import LogFile
 
     found = node_spec(*name.split("/", 1)) if "/" in name else None
     is_writer = found is not None and found.writes_at_end

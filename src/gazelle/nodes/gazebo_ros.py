@@ -6,8 +6,8 @@ import threading
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph
+from gazelle.graph.log_output import print_ros2
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.log_output import print_ros2
 from gazelle.nodes.parameters import start_node
 from gazelle.simulator.gzserver_ros_parameters import PARAMETERS
 

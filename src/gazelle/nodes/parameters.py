@@ -13,9 +13,9 @@ from gazelle.diagnostics import Diagnostic, Diagnostics, brief
 from gazelle.errors import LaunchError
 from gazelle.graph import Graph, Level, Node, TimeJumpError, offer_loggers
 from gazelle.graph.console import aside_path, level_of, write_aside
+from gazelle.graph.log_output import keep_log, print_ros2
 from gazelle.graph.ros2_node_parameters import Descriptor, NodeParameters, ParameterPolicy
 from gazelle.nodes.arguments import NodeArguments, file_params
-from gazelle.nodes.log_output import keep_log, print_ros2
 from gazelle.parameters import Parameter, ParameterTable
 from gazelle.parameters.reader import ParameterOwner, ParameterReader, TreeSource
 from gazelle.parameters.trees import flattened, nested, values_only

@@ -10,9 +10,9 @@ from collections.abc import Callable, Sequence
 from types import FrameType
 from typing import Any
 
-from gazelle.compat.rclpy.arguments import RosArguments, parse_ros_arguments
 from gazelle.compat.rclpy.exceptions import NotInitializedException
 from gazelle.graph import Graph
+from gazelle.graph.ros2_arguments import RosArguments, parse_ros_arguments
 
 __all__ = ["Context", "get_default_context", "handle_signals"]
 

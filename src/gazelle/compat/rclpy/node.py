@@ -117,7 +117,7 @@ class Node:
         automatically_declare_parameters_from_overrides: bool = False,
         enable_logger_service: bool = False,
     ) -> None:
-        from gazelle.compat.rclpy.arguments import RosArguments, parse_ros_arguments
+        from gazelle.graph.ros2_arguments import RosArguments, parse_ros_arguments
 
         self.context = context or get_default_context()
         if not self.context.ok():

@@ -8,11 +8,11 @@ import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.compat.rclpy.context import get_default_context
 from gazelle.compat.rclpy.init_shutdown import ok, shutdown, try_shutdown
 from gazelle.compat.rclpy.publisher_subscription_service import RMW_IDENTIFIER
 from gazelle.compat.rclpy.qos import QoSProfile, announced_qos, as_profile
+from gazelle.graph.ros2_arguments import parse_ros_arguments
 
 if TYPE_CHECKING:
     from gazelle.compat.rclpy.node import Node

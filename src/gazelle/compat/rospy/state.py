@@ -16,8 +16,8 @@ from typing import Any
 from gazelle.compat.rospy.exceptions import ROSException, ROSInitException, ROSInterruptException
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Level, Node, offer_loggers
+from gazelle.graph.log_output import keep_log
 from gazelle.graph.names import CommandLine, parse_command_line, resolve
-from gazelle.nodes.log_output import keep_log
 from gazelle.process_lifetime import raise_or_end
 
 __all__ = ["STATE", "NodeState"]

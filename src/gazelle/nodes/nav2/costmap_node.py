@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from gazelle.diagnostics import Diagnostics
 from gazelle.graph import Graph, Node
+from gazelle.graph.log_output import print_ros2
 from gazelle.graph.names import join
 from gazelle.interfaces import service_type
 from gazelle.navigation.costmap import CostGrid
 from gazelle.nodes.arguments import NodeArguments
-from gazelle.nodes.log_output import print_ros2
 from gazelle.nodes.navigation.costmap_2d_ros import Costmap2DRos
 from gazelle.nodes.navigation.costmap_from_parameters import assemble
 from gazelle.nodes.navigation.costmap_publisher import CostmapPublisher

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.compat.rclpy.arguments import parse_ros_arguments
 from gazelle.errors import GraphError, UserFileError
+from gazelle.graph.ros2_arguments import parse_ros_arguments
 
 
 def test_arguments_of_ros_stand_between_ros_args_and_two_dashes() -> None:

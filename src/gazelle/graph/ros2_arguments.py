@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.compat.warn_once import is_first_time
 from gazelle.errors import GraphError
 from gazelle.ros_arguments import (
     LOG_LEVEL,
@@ -94,9 +93,13 @@ class RosArguments:
         return found[-1] if found else None
 
 
+_told: set[Diagnostic] = set()
+
+
 def _tell_once(found: Iterable[Diagnostic]) -> None:
     """Show what is odd in parameter files, once for all nodes of a process."""
-    new = [one for one in found if is_first_time(one)]
+    new = [one for one in found if one not in _told]
+    _told.update(new)
     if new:
         from gazelle.diagnostics import render
 

@@ -8,8 +8,8 @@ import pytest
 
 from gazelle.graph import Level
 from gazelle.graph.console import LogRecord
+from gazelle.graph.log_output import LogFile, keep_log, print_ros2
 from gazelle.interfaces import ros1_message_type
-from gazelle.nodes.log_output import LogFile, keep_log, print_ros2
 from gazelle.nodes.rosout import line_of
 
 
