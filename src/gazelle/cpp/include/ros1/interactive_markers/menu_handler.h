@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "interactive_markers/interactive_marker_server.h"
+
+namespace interactive_markers {
+
+#include "gazelle/interactive_markers/menu_handler.inc"
+
+}  // namespace interactive_markers
