@@ -35,7 +35,8 @@ class ControllerHost:
         diagnostics: is told what keeps it from being compiled.
         attach: makes this process one where C++ runs; returns the loaded library of controllers.
         post: has a function called in the thread of the control loop, between two steps.
-        set_time: tells C++ the time of now, ns.
+        now_ns: the time of now.
+        set_time: tells C++ a time.
         description: the text of the robot's description, empty where there is none.
     """
 
@@ -43,6 +44,7 @@ class ControllerHost:
     diagnostics: Diagnostics
     attach: Callable[[], ctypes.CDLL]
     post: Callable[[Callable[[], None]], None]
+    now_ns: Callable[[], int]
     set_time: Callable[[int], None]
     description: Callable[[], str]
 
@@ -96,7 +98,7 @@ class CompiledController(Controller):
         self._notify = _NOTIFY(self._wake)
         self._is_woken = False
         self._object: int | None = None
-        self._time_ns = 0
+        self._time_ns = self.HOST.now_ns()
         library = self._library()
         self._functions = self.HOST.attach()
         self._check(self._functions.gazelle_control_start(b"gazebo", self._sink, None), "ros::init")

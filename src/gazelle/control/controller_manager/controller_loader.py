@@ -19,7 +19,10 @@ from gazelle.parameters.trees import flattened
 if TYPE_CHECKING:
     from gazelle.workspace import Workspace
 
-__all__ = ["ControllerMaker"]
+__all__ = ["CompiledFinder", "ControllerMaker"]
+
+CompiledFinder = Callable[[str], "type[Controller] | None"]
+"""Gives the class of C++ that a type's name means, None where there is none."""
 
 
 class ControllerMaker:
@@ -37,8 +40,10 @@ class ControllerMaker:
         diagnostics: Diagnostics,
         workspace: Workspace | None,
         namespace: str,
+        find_compiled: CompiledFinder | None = None,
     ) -> None:
         self.source = source
+        self._find_compiled = find_compiled or (lambda _type_name: None)
         self._namespace = namespace.strip("/")
         self._robot = robot
         self._make_ports = make_ports
@@ -68,7 +73,7 @@ class ControllerMaker:
         )
 
     def class_of(self, name: str, type_name: str) -> type[Controller]:
-        """Return the class of a type: a built-in one, the user's in Python, or an installed one.
+        """Return the class of a type: a built-in one, the user's, or an installed one.
 
         Raises:
             ControllerError: there is none.
@@ -93,7 +98,8 @@ class ControllerMaker:
 
         workspace = self._workspace
         own = None if workspace is None else find_python_controller(type_name, workspace)
-        return own or find_installed_controller(type_name)
+        # A class in Python may stand in for one of C++ that is there as well.
+        return own or self._find_compiled(type_name) or find_installed_controller(type_name)
 
     def make(self, record: ControllerRecord) -> None:
         """Make a record's controller and open its ports.
@@ -153,8 +159,9 @@ class ControllerMaker:
     def _searched(self, type_name: str) -> str:
         word = type_name.replace("::", "/").rpartition("/")[2]
         return (
-            f", and no Python file of the workspace has a class '{word}' (compiled controllers do "
-            "not run here; one of your own is a Python class with init, starting, update, stopping)"
+            f", no Python file of the workspace has a class '{word}', and no plug-in description "
+            "declares it for pr2_controller_interface (other controllers of C++ do not run here; "
+            "one of your own is a Python class with init, starting, update, stopping)"
         )
 
 

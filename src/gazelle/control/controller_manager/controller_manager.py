@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from gazelle.control.controller_manager.controller_loader import ControllerMaker
+from gazelle.control.controller_manager.controller_loader import CompiledFinder, ControllerMaker
 from gazelle.control.controller_manager.controller_spec import (
     ControllerRecord,
     ControllerState,
@@ -51,6 +51,7 @@ class ControllerManager:
         update_rate_hz: float,
         workspace: Workspace | None = None,
         clock: Callable[[], int] | None = None,
+        find_compiled: CompiledFinder | None = None,
     ) -> None:
         """Take over a robot; nothing is loaded yet.
 
@@ -64,6 +65,7 @@ class ControllerManager:
             workspace: where controllers written in Python are looked for.
             clock: gives the time in ns for what happens between updates; the time of the last
                 update when None.
+            find_compiled: finds a class of C++ by its type's name; not looked for when None.
         """
         self.robot = robot
         self.namespace = "/" + namespace.strip("/")
@@ -71,7 +73,7 @@ class ControllerManager:
         self.diagnostics = diagnostics
         self.update_rate_hz = update_rate_hz
         self._maker = ControllerMaker(
-            robot, source, make_ports, diagnostics, workspace, self.namespace
+            robot, source, make_ports, diagnostics, workspace, self.namespace, find_compiled
         )
         self._clock = clock
         self._records: dict[str, ControllerRecord] = {}

@@ -5,8 +5,10 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,6 +18,8 @@
 #include "gazelle/json.hpp"
 #include "gazelle/urdf/model_from_text.hpp"
 #include "gazelle_abi.h"
+
+struct gazelle_controller;
 
 namespace {
 
@@ -73,11 +77,27 @@ int guarded(gazelle_sink sink, void* context, Function function) {
   }
 }
 
+std::mutex g_mutex;
+
+// All that are there, so that requests find the queue that they wait in.
+std::vector<gazelle_controller*>& controllers() {
+  static auto& all = *new std::vector<gazelle_controller*>;
+  return all;
+}
+
 }  // namespace
 
 struct gazelle_controller {
   gazelle_controller(Notify notify, void* context)
-      : queue(notify, context), robot(&hardware), state(&robot) {}
+      : queue(notify, context), robot(&hardware), state(&robot) {
+    const std::lock_guard<std::mutex> lock(g_mutex);
+    controllers().push_back(this);
+  }
+  ~gazelle_controller() {
+    const std::lock_guard<std::mutex> lock(g_mutex);
+    auto& all = controllers();
+    all.erase(std::remove(all.begin(), all.end(), this), all.end());
+  }
 
   void read(int64_t time_ns) {
     hardware.current_time_ = time_of(time_ns);
@@ -248,6 +268,20 @@ GAZELLE_EXPORT int gazelle_control_spin(gazelle_controller* controller, gazelle_
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration());
     return static_cast<int>(GAZELLE_OK);
   });
+}
+
+// The same for every controller that is there.
+GAZELLE_EXPORT int gazelle_control_spin_all(gazelle_sink sink, void* context) {
+  std::vector<gazelle_controller*> all;
+  {
+    const std::lock_guard<std::mutex> lock(g_mutex);
+    all = controllers();
+  }
+  for (gazelle_controller* controller : all) {
+    const int status = gazelle_control_spin(controller, sink, context);
+    if (status != GAZELLE_OK) return status;
+  }
+  return GAZELLE_OK;
 }
 
 GAZELLE_EXPORT int gazelle_control_destroy(gazelle_controller* controller, gazelle_sink sink,
