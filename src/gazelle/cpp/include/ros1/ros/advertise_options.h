@@ -3,6 +3,7 @@
 #include <ros/common.h>
 #include <ros/forwards.h>
 #include <ros/message_traits.h>
+#include <ros/subscription_callback_helper.h>
 
 namespace ros {
 
@@ -36,6 +37,7 @@ struct ROSCPP_DECL AdvertiseOptions {
     datatype = message_traits::datatype<M>();
     message_definition = message_traits::definition<M>();
     has_header = message_traits::hasHeader<M>();
+    type = detail::messageTypeOf<M>();
   }
 
   template <class M>
@@ -62,6 +64,7 @@ struct ROSCPP_DECL AdvertiseOptions {
   VoidConstPtr tracked_object;
   bool latch;
   bool has_header;
+  const gazelle::MessageType* type = 0;  ///< Gazelle's: the class, where it is known
 };
 
 }  // namespace ros
