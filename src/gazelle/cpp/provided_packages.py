@@ -10,7 +10,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["PROVIDED", "REFUSED", "ProvidedPackage", "provided", "refusal"]
+__all__ = [
+    "PROVIDED",
+    "REFUSED",
+    "REFUSED_BEGINNINGS",
+    "REFUSED_IN_ROS2",
+    "ProvidedPackage",
+    "provided",
+    "refusal",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,8 +101,15 @@ _ROWS = (
     _ros1("tf2_ros", "tf2_ros1"),
     *(
         _ros1(name, "tf2_ros1")
-        for name in ("tf2_geometry_msgs", "tf2_eigen", "tf2_sensor_msgs", "tf2_kdl")
+        for name in ("tf2_geometry_msgs", "tf2_eigen", "tf2_sensor_msgs")
     ),
+    _ros1("tf2_kdl", "tf2_ros1", "kdl"),
+    _ros1("tf", "tf"),
+    _ros1("tf_conversions", "tf", "kdl"),
+    _ros1("kdl_conversions", "roscpp", "kdl"),
+    _ros1("eigen_conversions", "roscpp", "kdl"),
+    _ros1("laser_geometry", "laser_geometry1"),
+    _ros1("geometry", "tf", "kdl"),
     # ROS 2.
     *(
         _ros2(name)
@@ -122,10 +137,33 @@ _ROWS = (
     _ros2("tf2_ros", "tf2_ros2", targets=("tf2_ros::static_transform_broadcaster_node",)),
     *(
         _ros2(name, "tf2_ros2")
-        for name in ("tf2_geometry_msgs", "tf2_eigen", "tf2_sensor_msgs", "tf2_kdl")
+        for name in ("tf2_geometry_msgs", "tf2_eigen", "tf2_sensor_msgs")
     ),
+    _ros2("tf2_kdl", "tf2_ros2", "kdl"),
+    # Robots and their control.
+    *(
+        _ros1(name, "control")
+        for name in (
+            "control_toolbox", "realtime_tools", "pr2_controller_interface",
+            "pr2_controller_manager", "pr2_hardware_interface", "pr2_mechanism_model",
+        )
+    ),
+    _ros2("realtime_tools", targets=("realtime_tools::thread_priority",)),
+    _ros1("interactive_markers"),
+    _ros2("interactive_markers"),
+    ProvidedPackage("urdf", ("urdf",)),
+    *(
+        ProvidedPackage(name, ("urdf",), targets=(f"{name}::{name}", "urdfdom_model"))
+        for name in ("urdfdom", "urdfdom_headers", "urdf_parser_plugin")
+    ),
+    _ros2("tf2_eigen_kdl", "tf2_ros2", "kdl"),
+    _ros2("eigen_kdl", "kdl"),
+    _ros2("laser_geometry", "laser_geometry2"),
     # Both.
-    ProvidedPackage("angles"),
+    ProvidedPackage("angles", targets=("angles",)),
+    ProvidedPackage("orocos_kdl", ("kdl",), targets=("orocos-kdl",), variables=("OROCOS_KDL",)),
+    ProvidedPackage("orocos-kdl", ("kdl",), targets=("orocos-kdl::orocos-kdl",)),
+    ProvidedPackage("orocos_kdl_vendor", ("kdl",)),
     ProvidedPackage("console_bridge", ("core",)),
     ProvidedPackage("tf2", ("tf2",)),
     ProvidedPackage("class_loader", ("class_loader",), scripts=("class_loader",)),
@@ -165,8 +203,8 @@ REFUSED: dict[str, str] = {
 }  # fmt: skip
 """Names that are looked for in vain, and why."""
 
-_REFUSED_BEGINNINGS = {"gz-": _GZ, "ignition-": _GZ, "sdformat": _GZ, "rviz_": _RVIZ, "rqt_": _RQT}
-_REFUSED_IN_ROS2 = dict.fromkeys(
+REFUSED_BEGINNINGS = {"gz-": _GZ, "ignition-": _GZ, "sdformat": _GZ, "rviz_": _RVIZ, "rqt_": _RQT}
+REFUSED_IN_ROS2 = dict.fromkeys(
     ("controller_interface", "hardware_interface", "controller_manager",
      "transmission_interface", "ros2_control_test_assets"),
     _CONTROL,
@@ -182,9 +220,9 @@ def refusal(name: str, generation: int) -> str:
     """
     if name in REFUSED:
         return REFUSED[name]
-    if generation == 2 and name in _REFUSED_IN_ROS2:
-        return _REFUSED_IN_ROS2[name]
-    return next((why for start, why in _REFUSED_BEGINNINGS.items() if name.startswith(start)), "")
+    if generation == 2 and name in REFUSED_IN_ROS2:
+        return REFUSED_IN_ROS2[name]
+    return next((why for start, why in REFUSED_BEGINNINGS.items() if name.startswith(start)), "")
 
 
 def provided(generation: int) -> dict[str, ProvidedPackage]:

@@ -53,9 +53,15 @@ LIBRARIES: dict[str, RuntimeLibrary] = {
         RuntimeLibrary("roscpp", ("core",), 1),
         RuntimeLibrary("rclcpp", ("core",), 2),
         RuntimeLibrary("class_loader", ("core",)),
+        RuntimeLibrary("urdf", ("core",)),
+        RuntimeLibrary("control", ("roscpp", "class_loader", "urdf"), 1),
         RuntimeLibrary("tf2", ("core",)),
         RuntimeLibrary("tf2_ros1", ("tf2", "roscpp"), 1),
         RuntimeLibrary("tf2_ros2", ("tf2", "rclcpp"), 2),
+        RuntimeLibrary("tf", ("tf2_ros1",), 1),
+        RuntimeLibrary("kdl", ("core",)),
+        RuntimeLibrary("laser_geometry1", ("tf",), 1),
+        RuntimeLibrary("laser_geometry2", ("tf2_ros2",), 2),
     )
 }
 

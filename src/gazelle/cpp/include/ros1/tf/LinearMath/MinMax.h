@@ -1,0 +1,2 @@
+#pragma once
+#include "tf/LinearMath/Transform.h"
