@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gazelle.cpp.interfaces.config_headers import config_header
 from gazelle.cpp.interfaces.header_trees import known_messages, package_messages
 
-__all__ = ["known_messages", "package_messages"]
+__all__ = ["config_header", "known_messages", "package_messages"]

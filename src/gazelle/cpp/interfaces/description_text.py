@@ -65,7 +65,8 @@ def service_description(types: TypeStore, full: str, ros_version: RosVersion) ->
     """
     name = class_name(full, ros_version)
     request, response = (
-        class_name(full + end, ros_version, "ContainerAllocator") for end in ("_Request", "_Response")
+        class_name(full + end, ros_version, "ContainerAllocator")
+        for end in ("_Request", "_Response")
     )
     is_ros1 = ros_version is RosVersion.ROS1
     lines = [
@@ -86,7 +87,7 @@ def service_description(types: TypeStore, full: str, ros_version: RosVersion) ->
 def raw_string(text: str) -> str:
     """Return a text as raw string literals of C++."""
     mark = "D"
-    while f"){mark}\"" in text:
+    while f'){mark}"' in text:
         mark += "D"
     pieces = [text[at : at + _LONGEST_LITERAL] for at in range(0, len(text), _LONGEST_LITERAL)]
     return " ".join(f'R"{mark}({piece}){mark}"' for piece in pieces) or '""'
@@ -95,7 +96,11 @@ def raw_string(text: str) -> str:
 def _array(name: str, rows: tuple[str, ...]) -> list[str]:
     if not rows:
         return []
-    return [f"    static const Member {name}[] = {{", *(f"        {row}," for row in rows), "    };"]
+    return [
+        f"    static const Member {name}[] = {{",
+        *(f"        {row}," for row in rows),
+        "    };",
+    ]
 
 
 def _names(types: TypeStore, full: str, *, is_ros1: bool) -> list[str]:

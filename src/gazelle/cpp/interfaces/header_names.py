@@ -17,7 +17,7 @@ _ROS2_PARTS = re.compile(
 
 
 def snake_name(name: str) -> str:
-    """Return a type's name as rosidl writes it in file names: ``PointCloud2`` → ``point_cloud2``."""
+    """Return a type's name as rosidl writes it in files' names: ``point_cloud2``."""
     return _WORD_STARTS.sub("_", name).lower()
 
 
@@ -30,7 +30,8 @@ def header_path(full: str, ros_version: RosVersion) -> str:
     """
     package, part, name = split_name(full)
     if ros_version is RosVersion.ROS1:
-        return f"{package}/{_ROS1_PARTS.sub(r'\1', name) if part == 'srv' else name}.h"
+        bare = _ROS1_PARTS.sub(r"\1", name) if part == "srv" else name
+        return f"{package}/{bare}.h"
     if part != "msg":
         name = _ROS2_PARTS.sub("", name)
     return f"{package}/{part}/{snake_name(name)}.hpp"

@@ -11,11 +11,21 @@ from gazelle.cpp.interfaces.ros2_headers import (
     ros2_message_headers,
     ros2_service_headers,
 )
+from gazelle.documents import read_limited
 from gazelle.interfaces import RosVersion, TypeStore, split_name
+from gazelle.workspace.package_xml import MANIFEST_BYTES, quick_name
 
-__all__ = ["known_messages", "package_messages", "write_headers"]
+__all__ = ["known_messages", "package_messages", "package_name", "write_headers"]
 
-_ACTION_ENDS = ("Action", "ActionGoal", "ActionResult", "ActionFeedback", "Goal", "Result", "Feedback")
+_ACTION_ENDS = (
+    "Action",
+    "ActionGoal",
+    "ActionResult",
+    "ActionFeedback",
+    "Goal",
+    "Result",
+    "Feedback",
+)
 
 
 def known_messages(generation: int, folder: Path | str) -> list[Path]:
@@ -67,9 +77,9 @@ def package_messages(
 def package_name(folder: Path) -> str:
     """Return the name that a package's ``package.xml`` gives it, else its folder's."""
     manifest = folder / "package.xml"
-    if manifest.is_file():
-        from gazelle.description.xml import parse_xml_file
-    return folder.name
+    if not manifest.is_file():
+        return folder.name
+    return quick_name(read_limited(manifest, MANIFEST_BYTES)) or folder.name
 
 
 def write_headers(folder: Path, headers: Iterable[tuple[str, str]]) -> list[Path]:

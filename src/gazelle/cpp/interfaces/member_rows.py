@@ -74,8 +74,9 @@ def member_tables(types: TypeStore, definition: Definition) -> MemberTables:
             rows.append(absent.row(slot))
         else:
             mine = by_attribute[slot.attribute]
-            wide = slot.base == "wstring"
-            rows.append(_own_row(mine, ros_version, kind="wide_on_wire" if wide else ""))
+            bounded = mine.type._replace(size=slot.size, string_bound=slot.string_bound)
+            kind = "wide_on_wire" if slot.base == "wstring" else ""
+            rows.append(_own_row(mine._replace(type=bounded), ros_version, kind))
     cdr = tuple(rows)
     if cdr == own:
         return MemberTables(own, (), True, ())

@@ -1,4 +1,4 @@
-"""Headers of ROS 1: ``std_msgs/String.h``, ``std_srvs/SetBool.h``, as gencpp names and lays them."""
+"""Headers of ROS 1 as gencpp names and lays them: ``std_msgs/String.h``, ``std_srvs/SetBool.h``."""
 
 from __future__ import annotations
 
@@ -104,7 +104,8 @@ def _operators(definition: Definition, template: str) -> Iterator[str]:
     equal = " && ".join(f"l.{item.name} == r.{item.name}" for item in definition.fields)
     yield "template <class ContainerAllocator>"
     yield f"std::ostream &operator<<(std::ostream &stream, const {template} &message) {{"
-    yield f"  ::gazelle::print_ros1(stream, ::gazelle::Description<{template}>::layout(), &message);"
+    layout = f"::gazelle::Description<{template}>::layout()"
+    yield f"  ::gazelle::print_ros1(stream, {layout}, &message);"
     yield "  return stream;\n}"
     arguments = f"const {template} &l, const {template} &r"
     if not equal:

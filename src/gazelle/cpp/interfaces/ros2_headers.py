@@ -126,15 +126,15 @@ def _struct(definition: Definition) -> Iterator[str]:
         yield "  using _structure_needs_at_least_one_member_type = uint8_t;"
         yield "  uint8_t structure_needs_at_least_one_member{};"
     for item in fields:
-        yield f"  Type &set__{item.name}(const _{item.name}_type &value) {{"
-        yield f"    {item.name} = value;\n    return *this;\n  }}"
+        yield f"  Type &set__{item.name}(const _{item.name}_type &_arg) {{"
+        yield f"    this->{item.name} = _arg;\n    return *this;\n  }}"
     for constant in definition.constants:
         yield f"  {constant_lines(constant, RosVersion.ROS2)}"
     yield f"  GAZELLE_ROS2_POINTERS({bare})"
-    equal = " && ".join(f"{item.name} == other.{item.name}" for item in fields)
-    argument = f"const {bare} &other" if fields else f"const {bare} &"
+    equal = " && ".join(f"{item.name} == _other.{item.name}" for item in fields)
+    argument = f"const {bare} &_other" if fields else f"const {bare} &"
     yield f"  bool operator==({argument}) const {{ return {equal or 'true'}; }}"
-    yield f"  bool operator!=(const {bare} &other) const {{ return !(*this == other); }}"
+    yield f"  bool operator!=(const {bare} &_other) const {{ return !(*this == _other); }}"
     yield "};"
     yield f"template <class ContainerAllocator>\nusing {bare}_ = {name};\n"
 
