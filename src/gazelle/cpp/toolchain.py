@@ -11,6 +11,7 @@ from __future__ import annotations
 import hashlib
 import os
 import platform
+import re
 import shlex
 import shutil
 import subprocess
@@ -66,6 +67,7 @@ class Toolchain:
         version: first line that the compiler says of itself.
         boost: include folder of Boost, None where it is among the system's.
         eigen: include folder of Eigen, None where there is none.
+        system_boost: where the system's Boost is, if that one is used.
         key: digest of all of it, in the path of everything compiled.
     """
 
@@ -75,8 +77,50 @@ class Toolchain:
     version: str
     boost: Path | None
     eigen: Path | None
-    has_boost: bool
+    system_boost: Path | None
     key: str
+
+    @property
+    def has_boost(self) -> bool:
+        """Whether there are headers of Boost."""
+        return self.boost is not None or self.system_boost is not None
+
+    @cached_property
+    def boost_version(self) -> str:
+        """Boost's version as CMake writes it, ``1.74.0``; empty without Boost."""
+        top = self.boost or self.system_boost
+        if top is None:
+            return ""
+        text = (top / "boost" / "version.hpp").read_text(encoding="utf-8", errors="replace")
+        found = re.search(r"#define\s+BOOST_VERSION\s+(\d+)", text)
+        number = int(found[1]) if found else 0
+        return f"{number // 100000}.{number // 100 % 1000}.{number % 100}"
+
+    @cached_property
+    def boost_libraries(self) -> Mapping[str, Path]:
+        """The system's libraries of just the Boost whose headers are used, by component."""
+        if self.boost is not None or self.system_boost is None:
+            return {}
+        found: dict[str, Path] = {}
+        for folder in _system_library_folders():
+            for file in sorted(folder.glob(f"libboost_*.so.{self.boost_version}")):
+                found.setdefault(file.name.split(".")[0].removeprefix("libboost_"), file)
+        return found
+
+    @property
+    def programs(self) -> tuple[str, str, str, str]:
+        """C++ compiler, C compiler, archiver and ranlib, one word each; empty for CMake's choice."""
+        if self.kind != "zig":
+            return " ".join(self.command[:1]), " ".join(self.c_command[:1]), "", ""
+        from gazelle.cpp.build_tools import zig_programs
+
+        return zig_programs(self)
+
+    def launcher(self) -> Path:
+        """Return the program that goes before the compiler, see ``runtime/tools``."""
+        from gazelle.cpp.build_tools import tool
+
+        return tool("compiler_words", self)
 
     @cached_property
     def flags(self) -> tuple[str, ...]:
@@ -163,13 +207,13 @@ def _described(command: tuple[str, ...], c_command: tuple[str, ...]) -> Toolchai
         kind = "zig"
     elif "clang" in version.lower():
         kind = "clang"
-    boost = None if kind != "zig" and _system_has("boost/version.hpp") else _boost_of_wheel()
-    has_boost = boost is not None or (kind != "zig" and _system_has("boost/version.hpp"))
+    boost = None if kind != "zig" and _system_boost() is not None else _boost_of_wheel()
+    system_boost = None if boost is not None or kind == "zig" else _system_boost()
     eigen = _eigen(of_system=kind != "zig")
     words = (kind, command, c_command, version, str(boost), str(eigen), _stamp(command[0]))
     text = repr((*words, platform.machine(), _COMMON_FLAGS))
     key = hashlib.sha256(text.encode(errors="surrogateescape")).hexdigest()[:12]
-    return Toolchain(kind, command, c_command, version, boost, eigen, has_boost, key)
+    return Toolchain(kind, command, c_command, version, boost, eigen, system_boost, key)
 
 
 def _version(command: tuple[str, ...]) -> str:
@@ -190,8 +234,15 @@ def _stamp(program: str) -> tuple[str, int]:
     return str(real), real.stat().st_size
 
 
-def _system_has(header: str) -> bool:
-    return any((Path(top) / header).is_file() for top in ("/usr/local/include", "/usr/include"))
+def _system_boost() -> Path | None:
+    tops = (Path("/usr/local/include"), Path("/usr/include"))
+    return next((top for top in tops if (top / "boost" / "version.hpp").is_file()), None)
+
+
+def _system_library_folders() -> list[Path]:
+    triple = f"{platform.machine()}-linux-gnu"
+    places = ("/usr/local/lib", f"/usr/lib/{triple}", "/usr/lib64", "/usr/lib")
+    return [Path(place) for place in places if Path(place).is_dir()]
 
 
 def _boost_of_wheel() -> Path | None:

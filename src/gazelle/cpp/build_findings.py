@@ -1,0 +1,98 @@
+"""The words of CMake, compiler and linker, passed on as they are, and one line of ours to each."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from gazelle.cpp.build_cmake import CMakeRun
+from gazelle.cpp.build_settings import Unit
+from gazelle.cpp.requirements import header_advice, package_advice
+from gazelle.diagnostics import Diagnostics, SourceSpan
+
+__all__ = ["report_failures"]
+
+_PLACE = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?:(?P<column>\d+):)? (?:fatal )?error: (?P<text>.*)$", re.M)
+_HEADER = re.compile(r"fatal error: '?([^\s':]+)'?(?:: No such file or directory| file not found)")
+_PACKAGE = re.compile(r"provided by\s+\"([^\"]+)\"|Could NOT find (\w+)|By not providing \"Find(\w+)\.cmake\"")
+_CMAKE_PLACE = re.compile(r"CMake Error at ([^:\n]+):(\d+)")
+_LINKER = re.compile(r"undefined reference to [`'\"](.+?)['\"]|undefined symbol: (\S.*)")
+_NO_ROOM = re.compile(r"No space left on device|Disk quota exceeded")
+
+
+def report_failures(unit: Unit, run: CMakeRun, diagnostics: Diagnostics) -> None:
+    """Report what a step said of what went wrong.
+
+    Args:
+        unit: the package.
+        run: the step.
+        diagnostics: receives a finding for each thing that failed.
+    """
+    everything = "\n".join(run.lines)
+    if _NO_ROOM.search(everything):
+        text = f"compiling '{unit.name}' in '{unit.build}': no space left on device"
+        diagnostics.report("cpp.no-room", text)
+        return
+    if not run.failures:
+        _report_cmake(unit, everything, diagnostics)
+        return
+    for made, words in run.failures.items():
+        _report_one(unit, made, words, diagnostics)
+
+
+def _report_cmake(unit: Unit, words: str, diagnostics: Diagnostics) -> None:
+    place = _CMAKE_PLACE.search(words)
+    span = SourceSpan(str(unit.path / "CMakeLists.txt"))
+    if place is not None:
+        file = Path(place[1])
+        # A path is relative to the sources; one of ours is not the user's.
+        full = file if file.is_absolute() else unit.path / file
+        if full.is_relative_to(unit.path):
+            span = SourceSpan(str(full), int(place[2]))
+        elif calls := re.search(r"^\s+(CMakeLists\.txt):(\d+) \(", words, re.M):
+            span = SourceSpan(str(unit.path / calls[1]), int(calls[2]))
+    for found in _PACKAGE.finditer(words):
+        name = next(filter(None, found.groups()))
+        text, fix = package_advice(name, unit.generation)
+        diagnostics.report("cpp.missing-package", f"{unit.name}: {text}", span, fix=fix)
+        return
+    start = words.find("CMake Error")
+    quoted = words[start:].strip() if start >= 0 else words.strip()[-2000:]
+    diagnostics.report("cpp.configure-error", f"CMake of '{unit.name}' failed:\n{quoted}", span)
+
+
+def _report_one(unit: Unit, made: str, words: str, diagnostics: Diagnostics) -> None:
+    place = _PLACE.search(words)
+    span = None
+    if place is not None:
+        file = Path(place["file"])
+        full = file if file.is_absolute() else (unit.build / file).resolve()
+        span = SourceSpan(str(full), int(place["line"]), int(place["column"] or 0))
+    if header := _HEADER.search(words):
+        text, fix = header_advice(header[1], unit.generation)
+        diagnostics.report("cpp.missing-header", f"{_trimmed(words)}\n{text}", span, fix=fix)
+        return
+    name = made.split(".dir/")[0].rsplit("/", 1)[-1] if ".dir/" in made else Path(made).name
+    missing = list(dict.fromkeys(_undefined(words)))
+    if missing and span is None:
+        text = f"'{name}' does not link:\n{_trimmed(words)}"
+        diagnostics.report("cpp.link-error", text, SourceSpan(str(unit.path / "CMakeLists.txt")))
+        return
+    text = f"'{name}' of '{unit.name}' does not compile:\n{_trimmed(words)}"
+    diagnostics.report("cpp.compile-error", text, span)
+
+
+def _undefined(words: str) -> Iterator[str]:
+    for found in _LINKER.finditer(words):
+        yield found[1] or found[2]
+
+
+_LONGEST = 60
+
+
+def _trimmed(words: str) -> str:
+    lines = words.strip().splitlines()
+    if len(lines) > _LONGEST:
+        lines = [*lines[:_LONGEST], f"… and {len(lines) - _LONGEST} lines more"]
+    return "\n".join(lines)

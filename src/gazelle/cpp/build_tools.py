@@ -1,0 +1,51 @@
+"""Small programs that the build itself needs, compiled once."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+from gazelle.cpp.build_cache import cache_top, digest_of_file, digest_of_text, make_whole
+from gazelle.cpp.build_errors import compiler_failure
+from gazelle.cpp.runtime_libraries import HERE
+from gazelle.cpp.toolchain import Toolchain
+
+__all__ = ["tool", "zig_programs"]
+
+
+def tool(name: str, toolchain: Toolchain, *flags: str) -> Path:
+    """Return a program of ``runtime/tools``, compiled where that has not been done.
+
+    Args:
+        name: of its source without ``.c``.
+        toolchain: by what.
+        flags: beside the usual ones.
+
+    Raises:
+        CppBuildError: it does not compile.
+    """
+    source = HERE / "runtime" / "tools" / f"{name}.c"
+    key = digest_of_text(toolchain.key, digest_of_file(source), *flags)
+    folder = cache_top() / "tools" / f"{name}-{key}"
+    if not (folder / name).is_file():
+        with make_whole(folder) as made:
+            command = [*toolchain.c_command, "-O1", *flags, str(source), "-o", str(made / name)]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            if done.returncode:
+                raise compiler_failure(f"compiling '{source.name}'", done.stderr + done.stdout)
+    return folder / name
+
+
+def zig_programs(toolchain: Toolchain) -> tuple[str, str, str, str]:
+    """Return programs of one word each for zig's subcommands, which CMake wants."""
+    folder = cache_top() / "tools" / f"zig-{toolchain.key}"
+    names = ("c++", "cc", "ar", "ranlib")
+    if not folder.is_dir():
+        with make_whole(folder) as made:
+            for name in names:
+                file = made / f"zig-{name}"
+                text = f"#!/bin/sh\nexec '{toolchain.command[0]}' {name} \"$@\"\n"
+                file.write_text(text, encoding="utf-8")
+                file.chmod(0o755)
+    cxx, cc, archiver, ranlib = (str(folder / f"zig-{name}") for name in names)
+    return cxx, cc, archiver, ranlib
