@@ -46,9 +46,7 @@ _MAKES_SOMETHING = re.compile(
 _CANNOT = 126
 
 
-def build_package(
-    request: CompileRequest, said: Callable[[str], None] | None = None
-) -> Compiled:
+def build_package(request: CompileRequest, said: Callable[[str], None] | None = None) -> Compiled:
     """Compile a package of a workspace that is being built, and install what is made.
 
     Args:
@@ -195,7 +193,9 @@ def _tell_left_out(unit: Unit, diagnostics: Diagnostics) -> None:
     for name, targets in sorted(by_package.items()):
         named = ", ".join(f"'{target}'" for target in sorted(targets))
         text = f"{unit.name}: {named} left out: {refusal(name, unit.generation) or name}"
-        diagnostics.report("cpp.target-left-out", text, SourceSpan(str(unit.path / "CMakeLists.txt")))
+        diagnostics.report(
+            "cpp.target-left-out", text, SourceSpan(str(unit.path / "CMakeLists.txt"))
+        )
 
 
 def _remove_left_out(unit: Unit) -> None:
@@ -283,9 +283,10 @@ def _empty_packages(prefixes: Iterable[Path]) -> tuple[str, ...]:
     for prefix in prefixes:
         for file in sorted(prefix.glob("share/*/package.xml")):
             folder = file.parent
-            if not any((folder / "cmake").glob("*onfig.cmake")) and not (
-                folder / "cmake" / "gazelle_export.cmake"
-            ).is_file():
+            if (
+                not any((folder / "cmake").glob("*onfig.cmake"))
+                and not (folder / "cmake" / "gazelle_export.cmake").is_file()
+            ):
                 names.setdefault(folder.name)
     return tuple(names)
 

@@ -13,9 +13,14 @@ from gazelle.diagnostics import Diagnostics, SourceSpan
 
 __all__ = ["report_failures"]
 
-_PLACE = re.compile(r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?:(?P<column>\d+):)? (?:fatal )?error: (?P<text>.*)$", re.M)
+_PLACE = re.compile(
+    r"^(?P<file>[^\s:][^:\n]*):(?P<line>\d+):(?:(?P<column>\d+):)? (?:fatal )?error: (?P<text>.*)$",
+    re.M,
+)
 _HEADER = re.compile(r"fatal error: '?([^\s':]+)'?(?:: No such file or directory| file not found)")
-_PACKAGE = re.compile(r"provided by\s+\"([^\"]+)\"|Could NOT find (\w+)|By not providing \"Find(\w+)\.cmake\"")
+_PACKAGE = re.compile(
+    r"provided by\s+\"([^\"]+)\"|Could NOT find (\w+)|By not providing \"Find(\w+)\.cmake\""
+)
 _CMAKE_PLACE = re.compile(r"CMake Error at ([^:\n]+):(\d+)")
 _LINKER = re.compile(r"undefined reference to [`'\"](.+?)['\"]|undefined symbol: (\S.*)")
 _NO_ROOM = re.compile(r"No space left on device|Disk quota exceeded")

@@ -5,7 +5,14 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 
-from gazelle.cpp.build_cache import cache_top, digest_of_text, make_whole, only_one, stat_signature, touch
+from gazelle.cpp.build_cache import (
+    cache_top,
+    digest_of_text,
+    make_whole,
+    only_one,
+    stat_signature,
+    touch,
+)
 from gazelle.cpp.runtime_libraries import HERE
 
 __all__ = ["known_messages"]

@@ -17,11 +17,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from gazelle.cpp.build_cache import digest_of_file, digest_of_text, make_whole
+from gazelle.cpp.build_cache import digest_of_file, digest_of_text, make_whole, only_one
 from gazelle.cpp.build_errors import CppBuildError, compiler_failure
 from gazelle.cpp.toolchain import Toolchain
 
-__all__ = ["Job", "Roots", "compiled"]
+__all__ = ["Job", "Roots", "compiled", "link"]
 
 _KEPT_VERSIONS = 4
 _DEPENDENCIES = "dependencies.json"
@@ -70,11 +70,15 @@ def compiled(job: Job, toolchain: Toolchain, top: Path) -> Path:
     words = (toolchain.key, job.source.name, *job.flags, *job.roots, str(job.is_header))
     key = digest_of_text(*words, str(job.source.parent))
     place = top / f"{job.source.stem}-{key}"
-    while True:
-        if found := _kept(place, job.roots):
-            return found
-        if made := _made(job, toolchain, place):
-            return made
+    if found := _kept(place, job.roots):
+        return found
+    # Of the processes of a launch several want the same file: one compiles it.
+    with only_one(place / ".lock", "compiling Gazelle's C++ libraries"):
+        while True:
+            if found := _kept(place, job.roots):
+                return found
+            if made := _made(job, toolchain, place):
+                return made
 
 
 def _kept(place: Path, roots: Roots) -> Path | None:
@@ -157,9 +161,7 @@ def _forget_old(place: Path) -> None:
             shutil.rmtree(folder, ignore_errors=True)
 
 
-def link(
-    objects: Sequence[Path], toolchain: Toolchain, output: Path, flags: Sequence[str]
-) -> None:
+def link(objects: Sequence[Path], toolchain: Toolchain, output: Path, flags: Sequence[str]) -> None:
     """Link objects to a shared library.
 
     Raises:

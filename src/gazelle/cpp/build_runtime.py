@@ -19,7 +19,6 @@ from gazelle.cpp.build_cache import (
     cache_top,
     digest_of_text,
     make_whole,
-    only_one,
     stat_signature,
     touch,
 )
@@ -86,9 +85,8 @@ def ensure_runtime(
     )
     known = _read_state(state, signature)
     if known is None:
-        with only_one(top / "runtime.lock", "compiling Gazelle's C++ libraries"):
-            known = _read_state(state, signature) or _build(rows, chosen, top)
-            _write_state(state, signature, known)
+        known = _build(rows, chosen, top)
+        _write_state(state, signature, known)
     for path in known.values():
         touch(path.parent)
     return Runtime(chosen, generation, known)
