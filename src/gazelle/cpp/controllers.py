@@ -6,14 +6,18 @@ import ctypes
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
+from gazelle.cpp.build_runtime import libraries_for
+from gazelle.cpp.embedded_host import EmbeddedHost, EmbeddingWorld, embedded_host
 from gazelle.cpp.plugins import PluginClass, declared_plugins, library_file
 from gazelle.diagnostics import Diagnostics
+from gazelle.errors import GazelleError
 from gazelle.parameters import ParameterTable
 from gazelle.workspace import Workspace
 
@@ -33,19 +37,17 @@ class ControllerHost:
     Attributes:
         workspace: where its package is.
         diagnostics: is told what keeps it from being compiled.
-        attach: makes this process one where C++ runs; returns the loaded library of controllers.
+        world: the node and the thread that C++ becomes a part of.
         post: has a function called in the thread of the control loop, between two steps.
         now_ns: the time of now.
-        set_time: tells C++ a time.
-        description: the text of the robot's description, empty where there is none.
+        description: gives the text of the robot's description, empty where there is none.
     """
 
     workspace: Workspace
     diagnostics: Diagnostics
-    attach: Callable[[], ctypes.CDLL]
+    world: EmbeddingWorld
     post: Callable[[Callable[[], None]], None]
     now_ns: Callable[[], int]
-    set_time: Callable[[int], None]
     description: Callable[[], str]
 
 
@@ -100,7 +102,11 @@ class CompiledController(Controller):
         self._object: int | None = None
         self._time_ns = self.HOST.now_ns()
         library = self._library()
-        self._functions = self.HOST.attach()
+        self._runtime = _runtime()
+        self._functions = self._runtime.functions
+        self._enter()
+        for path in libraries_for(library):
+            ctypes.CDLL(str(path), mode=ctypes.RTLD_GLOBAL)
         self._check(self._functions.gazelle_control_start(b"gazebo", self._sink, None), "ros::init")
         create = self._functions.gazelle_control_create
         create.restype = ctypes.c_void_p
@@ -187,7 +193,7 @@ class CompiledController(Controller):
             "description": self.HOST.description(),
             "joints": joints,
         }
-        self.HOST.set_time(self._time_ns)
+        self._enter()
         status = self._functions.gazelle_control_init(
             ctypes.c_void_p(self._object),
             json.dumps(setup).encode(),
@@ -208,11 +214,14 @@ class CompiledController(Controller):
         if self._object is None:
             return
         self._time_ns = time_ns
-        self.HOST.set_time(time_ns)
+        self._enter()
         self._spin()
         function = getattr(self._functions, f"gazelle_control_{name}")
         arguments = (ctypes.c_void_p(self._object), ctypes.c_int64(time_ns), *more)
         self._check(function(*arguments, self._sink, None), f"{name}()")
+
+    def _enter(self) -> None:
+        self._runtime.host.enter(self.HOST.world, self._time_ns)
 
     def _spin(self) -> None:
         """Call what waits in the controller's queue."""
@@ -241,3 +250,34 @@ class CompiledController(Controller):
             text = f"Initializing controller '{self.context.name}' failed: init() of class "
             return f"{text}'{self.PLUGIN.type}' returned false"
         return f"{place} of controller class '{self.PLUGIN.type}' failed: {reason}"
+
+
+class _Runtime(NamedTuple):
+    host: EmbeddedHost
+    functions: ctypes.CDLL
+
+
+@cache
+def _runtime() -> _Runtime:
+    """Return the runtime with controllers in it, loaded for good.
+
+    Raises:
+        ControllerError: it cannot be compiled.
+    """
+    try:
+        host = embedded_host("control")
+    except GazelleError as error:
+        raise ControllerError(f"controllers of C++ cannot be run here: {error}") from error
+    for name, path in host.libraries.items():
+        loaded = ctypes.CDLL(str(path), mode=ctypes.RTLD_GLOBAL)
+        if name == "control":
+            functions = loaded
+    sink = _SINK(lambda _context, data, size: said.append(ctypes.string_at(data, size)))
+    said: list[bytes] = []
+
+    def spin() -> None:
+        if functions.gazelle_control_spin_all(sink, None):
+            raise ControllerError(said.pop().decode("utf-8", "replace"))
+
+    host.spin = spin
+    return _Runtime(host, functions)

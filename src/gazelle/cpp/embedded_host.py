@@ -77,6 +77,7 @@ class EmbeddedHost:
     Attributes:
         core: the runtime.
         libraries: all of its libraries by name.
+        state: what families of verbs keep.
         spin: calls what waits in the queues of C++; set by whoever runs the code.
     """
 
@@ -89,6 +90,7 @@ class EmbeddedHost:
         self.libraries = libraries
         self.core = Core(libraries["core"])
         self.spin: Callable[[], None] = lambda: None
+        self.state: dict[str, Any] = {}
         self._world: EmbeddingWorld | None = None
         self._time_ns = 0
         self._numbers = itertools.count(1)
@@ -101,14 +103,10 @@ class EmbeddedHost:
     def enter(self, world: EmbeddingWorld, time_ns: int) -> None:
         """Let what C++ asks from now on be about a world, and tell the time there."""
         self._world = world
+        self.state["package/workspace"] = world.workspace
         jump_ns = min(time_ns - self._time_ns, 0)
         self._time_ns = time_ns
         self.core.on_clock(sim_time=True, page=0, now_ns=time_ns, jump_ns=jump_ns)
-
-    @property
-    def workspace(self) -> Workspace | None:
-        """Packages of the world."""
-        return self._of_world().workspace
 
     def call(self, verb: str, request: dict[str, Any]) -> Any:
         """Do what a verb says."""

@@ -40,7 +40,7 @@ class ControllerManager:
         update_rate_hz: of the control loop.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - users give all by keyword
         self,
         robot: Robot,
         *,

@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from gazelle.parameters import Parameter, ParameterTable, Topic
+from gazelle.simulator.plugins.compiled_controllers import compiled_controllers
 from gazelle.simulator.plugins.context import PluginContext, join_names
 from gazelle.simulator.plugins.control_loop import (
     check_controllers,
@@ -143,6 +144,9 @@ def _make(context: PluginContext, parameters: PluginReader) -> ControllerManager
         update_rate_hz=1e9 / float(steps * engine.step_ns),
         workspace=host.workspace,
         clock=lambda: engine.time_ns,
+        find_compiled=compiled_controllers(
+            context, lambda: _description_text(context, parameters, namespace)
+        ),
     )
     offer_manager(manager, host, resources)
     run_control_loop(context, manager, steps)
@@ -223,6 +227,15 @@ def _source(context: PluginContext, namespace: str) -> Any:
     from gazelle.control.parameter_sources.ros1_parameter_server import StoreSource
 
     return StoreSource(context.host.node.parameters, namespace)
+
+
+def _description_text(context: PluginContext, parameters: PluginReader, namespace: str) -> str:
+    """Return the first description that the parameter store has, upwards from the namespace."""
+    name = parameters.text("robotParam")
+    parts = [part for part in namespace.split("/") if part]
+    places = [join_names("/", *parts[:count], name) for count in range(len(parts), -1, -1)]
+    texts = (context.host.node.parameters.get(place, None) for place in places)
+    return next((text for text in texts if isinstance(text, str) and text.strip()), "")
 
 
 def _description(

@@ -1,4 +1,4 @@
-// pluginlib: what packages declare, by the verbs package/plugins and package/plugin_library.
+// pluginlib: what packages declare, by the verbs plugins/declared and plugins/library.
 #include <algorithm>
 
 #include "gazelle/core.hpp"
@@ -37,7 +37,7 @@ void PluginFinder::refresh() {
   request.set("xml_paths", gazelle::Json(given_paths_));
   gazelle::Json found;
   try {
-    found = gazelle::call("package/plugins", request);
+    found = gazelle::call("plugins/declared", request);
   } catch (const std::runtime_error& error) {
     throw ClassLoaderException(error.what());
   }
@@ -73,7 +73,7 @@ std::string PluginFinder::library_path(const std::string& lookup_name) {
                                               {"manifest", desc.plugin_manifest_path_}});
   gazelle::Json found;
   try {
-    found = gazelle::call("package/plugin_library", request);
+    found = gazelle::call("plugins/library", request);
   } catch (const std::runtime_error& error) {
     throw LibraryLoadException("Could not find library corresponding to plugin " + lookup_name +
                                ": " + error.what());
