@@ -184,6 +184,11 @@ class ServiceClient:
         self._token = graph.announcements.announce(text)
 
     @property
+    def known_to_be_available(self) -> bool:
+        """True when somebody is known to offer the service; the graph is not asked."""
+        return self._noted(self._is_offered(self._graph.discovery.known()))
+
+    @property
     def available(self) -> bool:
         """True when somebody offers the service."""
         return self._noted(self._graph.has_service(self.name))

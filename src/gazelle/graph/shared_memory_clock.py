@@ -110,6 +110,14 @@ class PageView:
         self._last: Reading = (0, 0, 0)
         self.read()
 
+    @property
+    def address(self) -> int:
+        """Where the four numbers lie in this process's memory, for as long as this object does."""
+        # Only nodes of C++ look there themselves.
+        from gazelle.graph.buffer_address import address_of
+
+        return address_of(self._integers)
+
     def read(self) -> Reading:
         """Return what the page shows; from any thread, in less than a microsecond."""
         for _ in range(_TRIES):

@@ -59,10 +59,15 @@ struct gazelle_host {
 /* Take the table; 0, or 1 where it is of another version. */
 int gazelle_attach(const struct gazelle_host *host);
 
-/* Run the `main` of a node file: the exit code, 134 semantics (terminate) for exceptions. */
+/* Make this process one of C++: crashes are told, and exit() leaves the graph. Called before
+ * anything of the program is loaded; not where C++ is a guest in a process of Python. */
+void gazelle_prepare_process(void);
+
+/* Run the `main` of a node file and end the process with exit(); an exception ends it with abort(). */
 int gazelle_run_main(int (*main)(int, char **, char **), int argc, char **argv);
 
-/* A message from elsewhere. The bytes live until `release(owner)`; the runtime calls that. */
+/* A message from elsewhere. The bytes live until the runtime calls `release(owner)`, or, where the
+ * owner is null, until this function returns. */
 void gazelle_on_message(uint64_t subscription, const uint8_t *cdr, size_t size, void *owner,
                         const char *type_name, int64_t sequence, int64_t stamp_ns,
                         const uint8_t *gid, const char *publisher);

@@ -54,6 +54,7 @@ SignalsBlocked::SignalsBlocked() {
 SignalsBlocked::~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
 Bytes lent(const std::uint8_t *data, std::size_t size, void *owner) {
+  if (owner == nullptr) return Bytes(std::vector<std::uint8_t>(data, data + size));
   return {data, size, std::shared_ptr<const void>(owner, [](void *held) {
             if (const gazelle_host *host = table()) host->release(held);
           })};

@@ -28,7 +28,8 @@ class SignalsBlocked {
   sigset_t before_;
 };
 
-// Bytes that the host has lent; they are given back with the last copy.
+// Bytes that the host has lent; they are given back with the last copy. Without an owner they are
+// copied at once.
 Bytes lent(const std::uint8_t *data, std::size_t size, void *owner);
 
 // Called when the graph has been left.

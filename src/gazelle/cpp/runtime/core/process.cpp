@@ -182,9 +182,15 @@ static int run_main(int (*main)(int, char **, char **), int argc, char **argv) n
   return main(argc, argv, environ);
 }
 
-extern "C" GAZELLE_EXPORT int gazelle_run_main(int (*main)(int, char **, char **), int argc,
-                                               char **argv) {
+extern "C" {
+
+GAZELLE_EXPORT void gazelle_prepare_process(void) {
   gazelle::install_crash_handler();
   gazelle::leave_graph_at_exit();
+}
+
+GAZELLE_EXPORT int gazelle_run_main(int (*main)(int, char **, char **), int argc, char **argv) {
   std::exit(run_main(main, argc, argv));
 }
+
+}  // extern "C"
