@@ -366,6 +366,39 @@ _PACKAGES = (
         "nothing, or write the rules out",
     ),
     Entry(
+        "package.cpp-header",
+        "warning",
+        "C++ of a package includes a header that is not here",
+        "Gazelle has headers of its own under the names of ROS's; this one is neither among them nor"
+        " in the workspace, nor is it the system's. The node is left out, the rest is built.",
+        "put the package that has it into the workspace, install its library, or see"
+        " docs/cpp_headers.md for what there is",
+        "fatal error: No such file or directory",
+    ),
+    Entry(
+        "package.cpp-package",
+        "warning",
+        "CMakeLists.txt requires a package that is not here",
+        "CMake stops there, and nothing of the package is compiled.",
+        "put the package into the workspace, or install its library",
+        "Could not find a package configuration file",
+    ),
+    Entry(
+        "package.cpp-left-out",
+        "info",
+        "A program or library is left out",
+        "It is written against the libraries of Gazebo, RViz and the like, which are not here; what"
+        " stands beside it is built.",
+        "nothing, or a plug-in in Python (docs/howto/own_plugin.md)",
+    ),
+    Entry(
+        "package.cpp-compiler",
+        "warning",
+        "A package has C++, and there is no compiler",
+        "Its nodes cannot be compiled here; everything else of the package works.",
+        "pip install 'gazelle-sim[cpp]', which brings one, or install g++ or clang++",
+    ),
+    Entry(
         "package.empty-glob",
         "warning",
         "A glob of setup.py finds no file",

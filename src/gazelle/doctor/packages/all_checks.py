@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle.diagnostics import Diagnostics
+from gazelle.doctor.packages.cpp_checks import check_cpp
 from gazelle.doctor.packages.dependency_checks import check_dependencies
 from gazelle.doctor.packages.install_checks import check_install
 from gazelle.doctor.packages.manifest_checks import check_manifest
@@ -42,5 +43,6 @@ def check_package(
     check_python_sources(source, workspace, diagnostics)
     check_messages(source, diagnostics)
     check_dependencies(source, workspace, diagnostics)
+    check_cpp(source, workspace, diagnostics)
     check_ros_versions(source, diagnostics)
     return (ros_versions_section(source),)
