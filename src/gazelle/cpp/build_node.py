@@ -2,18 +2,46 @@
 
 from __future__ import annotations
 
+import platform
+import sys
 from pathlib import Path
 
 from gazelle.cpp.build_cache import cache_top
 from gazelle.cpp.build_objects import Job, compiled
+from gazelle.cpp.build_tools import tool
 from gazelle.cpp.runtime_libraries import HERE
 from gazelle.cpp.toolchain import Toolchain
 
 __all__ = ["node_objects"]
 
+_ALONE = (
+    "-static-pie",
+    "-fPIE",
+    "-nostdlib",
+    "-nostartfiles",
+    "-ffreestanding",
+    "-fno-stack-protector",
+    "-fno-asynchronous-unwind-tables",
+)
+
 
 def node_objects(toolchain: Toolchain) -> list[Path]:
-    """Return the objects that make a program of a shared library."""
+    """Return the objects that make a program of a shared library.
+
+    Raises:
+        CppBuildError: they do not compile.
+    """
     source = HERE / "runtime" / "core" / "node_start.c"
-    job = Job(source, {"own": source.parent})
+    flags = ()
+    if sys.platform == "linux" and platform.machine() in ("x86_64", "aarch64"):
+        flags = (f'-DGAZELLE_INTERPRETER="{_interpreter(toolchain)}"',)
+    job = Job(source, {"own": source.parent}, flags)
     return [compiled(job, toolchain, cache_top() / "objects") / "object.o"]
+
+
+def _interpreter(toolchain: Toolchain) -> Path:
+    """Return the program that the system runs for a node's file that is run by itself."""
+    flags = [f'-DGAZELLE_PYTHON="{sys.executable}"', *_ALONE]
+    if HERE.parents[1].name != "site-packages":
+        flags.append(f'-DGAZELLE_PATH="{HERE.parents[1]}"')
+    return tool("start_node", toolchain, *flags)
