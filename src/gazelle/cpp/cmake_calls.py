@@ -47,14 +47,14 @@ def _config(settings: Path, memory: dict[str, Any], words: Sequence[str]) -> int
 def _parameters(settings: Path, memory: dict[str, Any], words: Sequence[str]) -> int:
     from gazelle.cpp.interfaces import parameter_header
 
-    folder, file, target = words
-    parameter_header(Path(file), target, Path(folder))
+    folder, file, target, *validators = words
+    parameter_header(Path(file), target, Path(folder), memory["package"], "".join(validators))
     return 0
 
 
 def _libraries(settings: Path, memory: dict[str, Any], words: Sequence[str]) -> int:
     from gazelle.cpp.build_runtime import ensure_runtime
-    from gazelle.cpp.build_settings import quoted, library_rows, write_if_changed
+    from gazelle.cpp.build_settings import library_rows, quoted, write_if_changed
 
     runtime = ensure_runtime([*memory["libraries"], *words], memory["generation"])
     memory["libraries"] = sorted({*memory["libraries"], *words})

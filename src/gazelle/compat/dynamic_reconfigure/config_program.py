@@ -1,7 +1,7 @@
 """``python -m gazelle.compat.dynamic_reconfigure.config_program FILE``: what a ``.cfg`` file says.
 
-Prints one JSON object: ``name``, ``group`` (parameters and groups below) and ``constants``. The file
-is a program of the user's package, so it runs in a process of its own.
+Prints one JSON object: ``name``, ``group`` (parameters and groups below) and ``constants``. The
+file is a program of the user's package, so it runs in a process of its own.
 """
 
 from __future__ import annotations

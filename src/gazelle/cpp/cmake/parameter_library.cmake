@@ -3,16 +3,18 @@
 function(generate_parameter_library target yaml)
   get_filename_component(yaml "${yaml}" ABSOLUTE)
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/${target}/include")
+  set(validators_name)
+  if(ARGN)
+    get_filename_component(validators_name "${ARGN}" NAME)
+  endif()
   execute_process(
     COMMAND ${GAZELLE_PYTHON_COMMAND} parameters "${GAZELLE_SETTINGS}" "${folder}" "${yaml}"
-      "${target}"
+      "${target}" ${validators_name}
     RESULT_VARIABLE code)
   if(code)
     message(FATAL_ERROR "no header can be made of ${yaml}")
   endif()
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${yaml}")
-  file(WRITE "${folder}/${PROJECT_NAME}/${target}.hpp"
-    "#pragma once\n#include <${target}.hpp>\n")
   set(folders "$<BUILD_INTERFACE:${folder}>" "$<INSTALL_INTERFACE:include/${PROJECT_NAME}>")
   if(ARGN)
     get_filename_component(validators "${ARGN}" ABSOLUTE)

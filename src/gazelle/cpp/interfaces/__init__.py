@@ -4,5 +4,6 @@ from __future__ import annotations
 
 from gazelle.cpp.interfaces.config_headers import config_header
 from gazelle.cpp.interfaces.header_trees import known_messages, package_messages
+from gazelle.cpp.interfaces.parameter_headers import parameter_header
 
-__all__ = ["config_header", "known_messages", "package_messages"]
+__all__ = ["config_header", "known_messages", "package_messages", "parameter_header"]

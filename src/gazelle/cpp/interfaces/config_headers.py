@@ -134,7 +134,11 @@ def _group_class(group: dict[str, Any], indent: str, member: str = "groups") -> 
 def _array(declaration: str, rows: list[str]) -> list[str]:
     if not rows:
         return []
-    return [f"    static const {declaration}[] = {{", *(f"        {row}," for row in rows), "    };"]
+    return [
+        f"    static const {declaration}[] = {{",
+        *(f"        {row}," for row in rows),
+        "    };",
+    ]
 
 
 def _row(config: str, parameter: dict[str, Any], number: int) -> str:
@@ -154,7 +158,9 @@ def _row(config: str, parameter: dict[str, Any], number: int) -> str:
 def _group_row(config: str, group: dict[str, Any], path: str) -> str:
     state = str(bool(group["state"])).lower()
     where = f"offsetof({config}, {path}.state)"
-    return f"{{{_text(group['name'])}, {_text(group['type'])}, {group['parent']}, {where}, {state}}}"
+    return (
+        f"{{{_text(group['name'])}, {_text(group['type'])}, {group['parent']}, {where}, {state}}}"
+    )
 
 
 def _constant(name: str, row: dict[str, Any]) -> str:

@@ -79,4 +79,20 @@ ENTRIES = (
         "remove the field that closes the circle",
         "recursive message definition",
     ),
+    Entry(
+        "interfaces.config-program",
+        "error",
+        "A .cfg file of dynamic_reconfigure fails",
+        "Such a file is a Python program that says which parameters there are; it ended early.",
+        "correct the file at the place shown",
+        "add_custom_command failed",
+    ),
+    Entry(
+        "interfaces.parameter-file",
+        "error",
+        "A parameter file of generate_parameter_library cannot be read",
+        "It has one outermost key and below it groups and parameters, each with its type.",
+        "correct the entry at the place shown",
+        "generate_parameter_library_cpp failed",
+    ),
 )

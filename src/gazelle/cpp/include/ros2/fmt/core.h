@@ -1,0 +1,8 @@
+// fmt where the system has it, else enough of it for texts with braces.
+#pragma once
+
+#if __has_include_next(<fmt/core.h>)
+#include_next <fmt/core.h>
+#else
+#include <gazelle/format.hpp>
+#endif

@@ -1,0 +1,3 @@
+#pragma once
+
+#include <parameter_traits/parameter_traits.hpp>

@@ -1,0 +1,3 @@
+#pragma once
+
+#include <tcb_span/span.hpp>

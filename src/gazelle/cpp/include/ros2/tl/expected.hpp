@@ -1,0 +1,3 @@
+#pragma once
+
+#include <tl_expected/expected.hpp>
