@@ -1,5 +1,6 @@
 // Levels, loggers, and what is said.
 
+#include <gazelle/cdr.hpp>
 #include <gazelle/core.hpp>
 #include <ros/console.h>
 #include <ros/names.h>

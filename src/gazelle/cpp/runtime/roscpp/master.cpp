@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <map>
 
 #include "node_state.hpp"
 
@@ -29,6 +30,22 @@ gazelle::Json ask(const char* verb, const gazelle::Json& request = gazelle::Json
     ROS_ERROR("The graph does not answer: %s", error.what());
     return gazelle::Json();
   }
+}
+
+// The master's getSystemState: [[topic, [publishers]]…], the same of subscribers and of services.
+gazelle::Json systemState() {
+  gazelle::Json state = gazelle::Json::array();
+  for (const char* kind : {"publisher", "subscription", "service"}) {
+    std::map<std::string, std::vector<std::string> > nodes;
+    const gazelle::Json ends = ask("graph/ends", gazelle::Json::object({{"kind", kind}}));
+    for (const gazelle::Json& end : ends.items())
+      nodes[end["name"].as_string()].push_back(end["node"].as_string());
+    gazelle::Json rows = gazelle::Json::array();
+    for (const auto& row : nodes)
+      rows.push(gazelle::Json::array({gazelle::Json(row.first), gazelle::Json(row.second)}));
+    state.push(rows);
+  }
+  return state;
 }
 
 }  // namespace
@@ -80,7 +97,7 @@ bool execute(const std::string& method, const XmlRpc::XmlRpcValue& request,
   if (method == "getPublishedTopics" || method == "getTopicTypes") {
     found = ask("graph/topics");
   } else if (method == "getSystemState") {
-    found = ask("graph/system_state");
+    found = systemState();
   } else if (method == "getUri") {
     found = getURI();
   } else if (method == "getPid") {
@@ -126,7 +143,8 @@ namespace {
 // Topics of this node by the system's state: publishers (0) or subscribers (1).
 void topicsOf(int side, V_string& topics) {
   topics.clear();
-  for (const gazelle::Json& topic : ask("graph/system_state")[side].items())
+  const gazelle::Json state = systemState();
+  for (const gazelle::Json& topic : state[side].items())
     for (const std::string& node : topic[1].as_strings())
       if (node == getName()) topics.push_back(topic[0].as_string());
 }

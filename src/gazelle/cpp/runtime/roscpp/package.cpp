@@ -46,9 +46,9 @@ std::string command(const std::string& command) {
   }
   if (verb == "depends" || verb == "depends1" || verb == "depends-on" || verb == "depends-on1") {
     std::string text;
-    for (const std::string& name :
-         ask("package/depends", Json::object({{"command", verb}, {"package", package}}))
-             .as_strings())
+    const Json found =
+        ask("rospack/depends", Json::object({{"command", verb}, {"package", package}}));
+    for (const std::string& name : found.as_strings())
       text += name + "\n";
     return text;
   }
@@ -64,9 +64,9 @@ void command(const std::string& command_text, V_string& output) {
 
 void getPlugins(const std::string& package, const std::string& attribute, M_string& plugins,
                 bool) {
-  for (const Json& found :
-       ask("package/exports", Json::object({{"package", package}, {"attribute", attribute}}))
-           .items())
+  const Json rows =
+      ask("rospack/exports", Json::object({{"package", package}, {"attribute", attribute}}));
+  for (const Json& found : rows.items())
     plugins[found[0].as_string()] = found[1].as_string();
 }
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "node_state.hpp"
 
@@ -38,6 +39,12 @@ XmlRpc::XmlRpcValue valueOf(const gazelle::Json& json) {
       break;
     }
     case Json::Kind::kObject:
+      if (json.size() == 1 && json["$bytes"].is_string()) {
+        const std::string xml = "<value><base64>" + json["$bytes"].as_string() + "</base64></value>";
+        int at = 0;
+        value.fromXml(xml, &at);
+        break;
+      }
       value.begin();  // a table, also where it is empty
       for (const Json::Member& member : json.members()) value[member.first] = valueOf(member.second);
       break;
@@ -72,8 +79,10 @@ gazelle::Json jsonOf(const XmlRpc::XmlRpcValue& value) {
       return Json();
     case XmlRpc::XmlRpcValue::TypeDateTime:
     case XmlRpc::XmlRpcValue::TypeBase64: {
-      std::string text = value.toXml();
-      return Json(text.substr(text.find('>', 8) + 1));
+      std::ostringstream text;
+      text << value;
+      const bool is_time = value.getType() == XmlRpc::XmlRpcValue::TypeDateTime;
+      return Json::object({{is_time ? "$datetime" : "$bytes", Json(text.str())}});
     }
   }
   return Json();

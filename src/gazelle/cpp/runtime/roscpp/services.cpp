@@ -113,8 +113,12 @@ namespace service {
 
 bool exists(const std::string& service_name, bool print_failure_reason) {
   const std::string name = names::resolve(service_name);
-  for (const std::string& known : gazelle::call("graph/services").as_strings())
-    if (known == name) return true;
+  try {
+    if (gazelle::call("service/exists", gazelle::Json::object({{"name", name}})).as_bool())
+      return true;
+  } catch (const gazelle::Error& error) {
+    ROS_DEBUG("Whether %s is there cannot be asked: %s", name.c_str(), error.what());
+  }
   if (print_failure_reason) ROS_INFO("waitForService: Service [%s] has not been advertised, waiting...", name.c_str());
   return false;
 }

@@ -1,6 +1,7 @@
 // A message from CDR to ROS 1's bytes and back, without a class of it: the host says in which order
 // a type's fields lie in either, and whole arrays of numbers are copied.
 
+#include <gazelle/cdr.hpp>
 #include <gazelle/core.hpp>
 #include <gazelle/message.hpp>
 #include <ros/foreign_message.h>
