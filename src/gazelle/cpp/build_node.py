@@ -32,7 +32,7 @@ def node_objects(toolchain: Toolchain) -> list[Path]:
         CppBuildError: they do not compile.
     """
     source = HERE / "runtime" / "core" / "node_start.c"
-    flags = ()
+    flags: tuple[str, ...] = ()
     if sys.platform == "linux" and platform.machine() in ("x86_64", "aarch64"):
         flags = (f'-DGAZELLE_INTERPRETER="{_interpreter(toolchain)}"',)
     job = Job(source, {"own": source.parent}, flags)
