@@ -1,0 +1,4 @@
+// The whole of KDL that is here.
+#pragma once
+
+#include "kdl/solvers.hpp"
