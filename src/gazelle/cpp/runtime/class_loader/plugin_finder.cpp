@@ -3,7 +3,7 @@
 
 #include "gazelle/core.hpp"
 #include "gazelle/json.hpp"
-#include "pluginlib/class_loader.hpp"
+#include "gazelle/plugins/plugin_loader.hpp"
 
 namespace pluginlib {
 namespace detail {
