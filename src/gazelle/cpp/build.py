@@ -176,7 +176,7 @@ def _built(
         report_failures(unit, run, diagnostics)
         return run.code
     _tell_left_out(unit, diagnostics)
-    run = run_ninja(unit, targets, environ, said, unit.jobs)
+    run = run_ninja(unit, toolchain, targets, environ, said, unit.jobs)
     output += run.lines
     if run.code:
         report_failures(unit, run, diagnostics)
@@ -471,7 +471,7 @@ class _Work:
         names = [] if whole else [target.name for target in chosen.values()]
         if not whole and not names:
             return
-        run = self._ninja(unit, names, found)
+        run = self._ninja(unit, toolchain, names, found)
         if whole and run.code == 0 and unit.install is not None:
             done = install(unit, self._environ)
             if done.code:
@@ -485,8 +485,10 @@ class _Work:
                 if run.code == 0 or _is_current(target.file, run):
                     self._found[request.package.name, request.name] = target.file
 
-    def _ninja(self, unit: Unit, names: Sequence[str], found: Diagnostics) -> CMakeRun:
-        run = run_ninja(unit, names, self._environ)
+    def _ninja(
+        self, unit: Unit, toolchain: Toolchain, names: Sequence[str], found: Diagnostics
+    ) -> CMakeRun:
+        run = run_ninja(unit, toolchain, names, self._environ)
         if run.code:
             report_failures(unit, run, found)
         return run

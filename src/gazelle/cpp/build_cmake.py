@@ -95,6 +95,7 @@ def configure(
 
 def run_ninja(
     unit: Unit,
+    toolchain: Toolchain,
     targets: Iterable[str],
     environ: Mapping[str, str],
     said: Said | None = None,
@@ -105,7 +106,7 @@ def run_ninja(
     command = [str(ninja), "-C", str(unit.build), "-k", "0", *targets]
     command += ["-j", str(jobs)] if jobs else []
     variables = dict(environ)
-    table = precompiled_table(unit)
+    table = precompiled_table(unit, toolchain)
     if table is not None:
         variables["GAZELLE_PRECOMPILED"] = str(table)
     return _run(command, variables, unit, said)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import shutil
 import subprocess
 import tempfile
 import time
@@ -18,12 +19,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.cpp.build_cache import digest_of_file, digest_of_text, make_whole, only_one
-from gazelle.cpp.build_errors import CppBuildError, compiler_failure
+from gazelle.cpp.build_errors import compiler_failure
 from gazelle.cpp.toolchain import Toolchain
 
-__all__ = ["Job", "Roots", "compiled", "link"]
+__all__ = ["Job", "Roots", "compiled", "is_kept", "link"]
 
 _KEPT_VERSIONS = 4
+_KEPT_HEADERS = 2
 _DEPENDENCIES = "dependencies.json"
 
 Roots = Mapping[str, Path]
@@ -67,9 +69,7 @@ def compiled(job: Job, toolchain: Toolchain, top: Path) -> Path:
     Raises:
         CppBuildError: the compiler refused it.
     """
-    words = (toolchain.key, job.source.name, *job.flags, *job.roots, str(job.is_header))
-    key = digest_of_text(*words, str(job.source.parent))
-    place = top / f"{job.source.stem}-{key}"
+    place = _place(job, toolchain, top)
     if found := _kept(place, job.roots):
         return found
     # Of the processes of a launch several want the same file: one compiles it.
@@ -79,6 +79,16 @@ def compiled(job: Job, toolchain: Toolchain, top: Path) -> Path:
                 return found
             if made := _made(job, toolchain, place):
                 return made
+
+
+def is_kept(job: Job, toolchain: Toolchain, top: Path) -> bool:
+    """Tell whether a job's product is there, made of what its files are now."""
+    return _kept(_place(job, toolchain, top), job.roots) is not None
+
+
+def _place(job: Job, toolchain: Toolchain, top: Path) -> Path:
+    words = (toolchain.key, job.source.name, *job.flags, *job.roots, str(job.is_header))
+    return top / f"{job.source.stem}-{digest_of_text(*words, str(job.source.parent))}"
 
 
 def _kept(place: Path, roots: Roots) -> Path | None:
@@ -133,8 +143,11 @@ def _made(job: Job, toolchain: Toolchain, place: Path) -> Path | None:
         target = place / digest_of_text(text)
         with make_whole(target) as folder:
             output.rename(folder / product)
+            if job.is_header:
+                # Whose flags do not fit reads the header itself.
+                shutil.copyfile(job.source, folder / job.source.name)
             (folder / _DEPENDENCIES).write_text(text, encoding="utf-8")
-    _forget_old(place)
+    _forget_old(place, _KEPT_HEADERS if job.is_header else _KEPT_VERSIONS)
     return target
 
 
@@ -152,12 +165,10 @@ def _own_dependencies(job: Job, listing: str) -> list[tuple[str, str, str]]:
     return sorted((label, path, digest) for (label, path), digest in found.items())
 
 
-def _forget_old(place: Path) -> None:
-    import shutil
-
+def _forget_old(place: Path, most: int) -> None:
     with contextlib.suppress(OSError):
         kept = [item for item in place.iterdir() if not item.name.startswith(".")]
-        for folder in sorted(kept, key=_age)[_KEPT_VERSIONS:]:
+        for folder in sorted(kept, key=_age)[most:]:
             shutil.rmtree(folder, ignore_errors=True)
 
 

@@ -67,7 +67,7 @@ int main(int argc, char **argv) {
   const char *table = getenv("GAZELLE_PRECOMPILED");
   const char *source = 0;
   char *header = 0;
-  char **words = calloc((size_t)argc + 4, sizeof *words);
+  char **words = calloc((size_t)argc + 5, sizeof *words);
   int from;
   int count = 0;
   if (argc < 2 || !words) {
@@ -82,6 +82,8 @@ int main(int argc, char **argv) {
   if (table && source && (header = precompiled(table, source))) {
     words[count++] = "-include";
     words[count++] = header;
+    /* What the compiled header was made of counts as read: it is looked at for changes. */
+    words[count++] = "-fpch-deps";
   }
   for (from = 2; from < argc; ++from) {
     if (is_old_standard(argv[from])) {
