@@ -4,6 +4,10 @@
 macro(gazelle_find_catkin)
   set(catkin_FOUND TRUE)
   set(CATKIN_FOUND TRUE)
+  # Libraries of ROS 1 are shared ones unless somebody says otherwise.
+  if(NOT DEFINED BUILD_SHARED_LIBS)
+    set(BUILD_SHARED_LIBS ON)
+  endif()
   set(catkin_VERSION "0.8.10")
   set(CATKIN_DEVEL_PREFIX "${GAZELLE_DEVEL}")
   set(CATKIN_INSTALL_PREFIX "${CMAKE_INSTALL_PREFIX}")
