@@ -20,7 +20,7 @@
 #include <ros/timer.h>
 #include <ros/wall_timer.h>
 
-#include <boost/bind/bind.hpp>
+#include <boost/bind.hpp>
 #include <map>
 #include <memory>
 #include <string>
