@@ -1,11 +1,12 @@
 // Sees and changes the parameters of another node that has a dynamic_reconfigure::Server.
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
 
 #include <boost/function.hpp>
-#include <boost/thread/condition_variable.hpp>
-#include <boost/thread/mutex.hpp>
 
 #include <dynamic_reconfigure/ConfigDescription.h>
 #include <dynamic_reconfigure/Reconfigure.h>
@@ -39,11 +40,11 @@ class Client {
   }
 
   void setConfigurationCallback(const ConfigurationCallback &callback) {
-    boost::mutex::scoped_lock lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
     config_callback_ = callback;
   }
   void setDescriptionCallback(const DescriptionCallback &callback) {
-    boost::mutex::scoped_lock lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
     description_callback_ = callback;
   }
 
@@ -64,7 +65,7 @@ class Client {
   bool getCurrentConfiguration(ConfigType &configuration,
                                const ros::Duration &timeout = ros::Duration(0)) {
     if (!wait(has_config_, timeout)) return false;
-    boost::mutex::scoped_lock lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
     configuration = config_;
     return true;
   }
@@ -87,23 +88,23 @@ class Client {
   template <class Part>
   bool described(ConfigType &configuration, Part part, const ros::Duration &timeout) {
     if (!wait(has_description_, timeout)) return false;
-    boost::mutex::scoped_lock lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
     configuration.__fromMessage__(description_.*part);
     return true;
   }
 
   bool wait(const bool &is_there, const ros::Duration &timeout) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(timeout.toSec());
-    boost::mutex::scoped_lock lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
     while (!is_there) {
       if (!ros::ok() || (!timeout.isZero() && ros::WallTime::now() > end)) return false;
-      condition_.timed_wait(lock, boost::posix_time::milliseconds(50));
+      condition_.wait_for(lock, std::chrono::milliseconds(50));
     }
     return true;
   }
 
   void configurationCallback(const Config &message) {
-    boost::mutex::scoped_lock lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
     has_config_ = true;
     config_.__fromMessage__(message);
     condition_.notify_all();
@@ -114,7 +115,7 @@ class Client {
   }
 
   void descriptionCallback(const ConfigDescription &message) {
-    boost::mutex::scoped_lock lock(mutex_);
+    std::unique_lock<std::mutex> lock(mutex_);
     has_description_ = true;
     description_ = message;
     condition_.notify_all();
@@ -130,8 +131,8 @@ class Client {
   ros::Subscriber description_subscriber_;
   ConfigurationCallback config_callback_;
   DescriptionCallback description_callback_;
-  boost::mutex mutex_;
-  boost::condition_variable condition_;
+  std::mutex mutex_;
+  std::condition_variable condition_;
   bool has_config_ = false;
   bool has_description_ = false;
   ConfigType config_{};
