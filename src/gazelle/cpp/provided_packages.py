@@ -144,7 +144,7 @@ _ROWS = (
     _ros1("tf_conversions", "tf", "kdl"),
     _ros1("kdl_conversions", "roscpp", "kdl"),
     _ros1("eigen_conversions", "roscpp", "kdl"),
-    _ros1("laser_geometry", "laser_geometry1"),
+    _ros1("laser_geometry", "tf"),
     _ros1("geometry", "tf", "kdl"),
     # ROS 2.
     *(
@@ -228,7 +228,7 @@ _ROWS = (
     ),
     _ros2("tf2_eigen_kdl", "tf2_ros2", "kdl"),
     _ros2("eigen_kdl", "kdl"),
-    _ros2("laser_geometry", "laser_geometry2"),
+    _ros2("laser_geometry", "tf2_ros2"),
     # Both.
     ProvidedPackage("angles", targets=("angles",)),
     ProvidedPackage("orocos_kdl", ("kdl",), targets=("orocos-kdl",), variables=("OROCOS_KDL",)),

@@ -60,8 +60,6 @@ LIBRARIES: dict[str, RuntimeLibrary] = {
         RuntimeLibrary("tf2_ros2", ("tf2", "rclcpp"), 2),
         RuntimeLibrary("tf", ("tf2_ros1",), 1),
         RuntimeLibrary("kdl", ("core",)),
-        RuntimeLibrary("laser_geometry1", ("tf",), 1),
-        RuntimeLibrary("laser_geometry2", ("tf2_ros2",), 2),
     )
 }
 

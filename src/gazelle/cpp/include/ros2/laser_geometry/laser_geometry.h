@@ -1,0 +1,2 @@
+#pragma once
+#include "laser_geometry/laser_geometry.hpp"
