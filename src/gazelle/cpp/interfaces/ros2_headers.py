@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from gazelle.cpp.interfaces.description_text import message_description, service_description
 from gazelle.cpp.interfaces.field_types import constant_lines, field_type, initial_value
@@ -98,10 +98,12 @@ def _messages(
     for definition in definitions:
         lines += _struct(definition)
     lines += [
+        *(line for definition in definitions for line in _builder(definition)),
         "using ::rosidl_generator_traits::to_block_style_yaml;",
         "using ::rosidl_generator_traits::to_flow_style_yaml;",
         "using ::rosidl_generator_traits::to_yaml;",
-        f"}}  // namespace {part}",
+        f"}}  // namespace {part}\n",
+        *_build_functions(package, definitions),
         f"}}  // namespace {package}\n",
         "namespace gazelle {",
         *(message_description(types, definition) for definition in definitions),
@@ -137,6 +139,33 @@ def _struct(definition: Definition) -> Iterator[str]:
     yield f"  bool operator!=(const {bare} &_other) const {{ return !(*this == _other); }}"
     yield "};"
     yield f"template <class ContainerAllocator>\nusing {bare}_ = {name};\n"
+
+
+def _builder(definition: Definition) -> Iterator[str]:
+    """Yield the class whose functions set a message's fields, the last one giving the message."""
+    bare = split_name(definition.name)[2]
+    if not definition.fields:
+        return
+    *fields, last = definition.fields
+    yield "namespace builder {"
+    yield f"struct Init_{bare} {{"
+    for item in fields:
+        argument = f"{bare}::_{item.name}_type _arg"
+        yield f"  Init_{bare} &&{item.name}({argument}) && {{"
+        yield f"    _made.{item.name} = std::move(_arg);\n    return std::move(*this);\n  }}"
+    yield f"  {bare} {last.name}({bare}::_{last.name}_type _arg) && {{"
+    yield f"    _made.{last.name} = std::move(_arg);\n    return std::move(_made);\n  }}"
+    yield f"  {bare} _made;\n}};"
+    yield "}  // namespace builder\n"
+
+
+def _build_functions(package: str, definitions: Sequence[Definition]) -> Iterator[str]:
+    yield "template <typename MessageType>\nauto build();\n"
+    for definition in definitions:
+        _, part, bare = split_name(definition.name)
+        made = f"{part}::builder::Init_{bare}" if definition.fields else f"{part}::{bare}"
+        name = class_name(definition.name, RosVersion.ROS2)
+        yield f"template <>\ninline auto build<{name}>() {{\n  return {made}();\n}}\n"
 
 
 def _service(types: TypeStore, full: str) -> str:

@@ -270,7 +270,7 @@ class Writer {
         return;
       }
       case Kind::boolean: {
-        const std::uint8_t value = *from != 0;
+        const std::uint8_t value = is_cdr ? *from != 0 : *from;
         sink_.put(&value, 1);
         return;
       }
