@@ -24,7 +24,7 @@ from gazelle.cpp.build_cache import (
 )
 from gazelle.cpp.build_errors import CppBuildError
 from gazelle.cpp.build_messages import known_messages
-from gazelle.cpp.build_objects import Job, compiled, link
+from gazelle.cpp.build_objects import Job, compiled, is_kept, link
 from gazelle.cpp.runtime_libraries import (
     HERE,
     LIBRARIES,
@@ -129,9 +129,14 @@ def _build(rows: Sequence[RuntimeLibrary], toolchain: Toolchain, top: Path) -> d
         roots = roots_of(row.generation)
         roots["own"] = HERE / "runtime" / (row.folder or row.name)
         jobs[row.name] = [Job(source, roots, _WARNINGS) for source in row.sources]
-    total = sum(map(len, jobs.values()))
+    everything = [job for row_jobs in jobs.values() for job in row_jobs]
+    fresh = sum(not is_kept(job, toolchain, top / "objects") for job in everything)
+    if fresh:
+        announce(
+            f"compiling Gazelle's C++ libraries for this machine, once ({fresh} files)",
+            key="compiling runtime",
+        )
     workers = max(1, os.cpu_count() or 1)
-    done = 0
     objects: dict[str, list[Path]] = {}
     with ThreadPoolExecutor(workers) as pool:
         futures = {
@@ -143,8 +148,6 @@ def _build(rows: Sequence[RuntimeLibrary], toolchain: Toolchain, top: Path) -> d
                 objects[name] = []
                 for future in waiting:
                     objects[name].append(future.result() / "object.o")
-                    done += 1
-                    _progress(done, total)
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
@@ -152,14 +155,6 @@ def _build(rows: Sequence[RuntimeLibrary], toolchain: Toolchain, top: Path) -> d
     for row in rows:
         built[row.name] = _linked(row, objects[row.name], built, toolchain, top)
     return built
-
-
-def _progress(done: int, total: int) -> None:
-    if total > 1 and done == 1:
-        announce(
-            f"compiling Gazelle's C++ libraries for this machine, once ({total} files)",
-            key="compiling runtime",
-        )
 
 
 def _linked(

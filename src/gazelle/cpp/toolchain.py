@@ -192,6 +192,8 @@ def _c_compiler(command: tuple[str, ...], cc: str, path: str) -> tuple[str, ...]
     if cc.strip():
         return tuple(shlex.split(cc))
     name = Path(command[0]).name
+    if Path(command[0]).stem == "zig":
+        return (command[0], "cc")
     partner = name.replace("clang++", "clang").replace("g++", "gcc").replace("c++", "cc")
     beside = Path(command[0]).with_name(partner)
     if os.access(beside, os.X_OK):
