@@ -34,7 +34,7 @@ def source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_install_answers_every_key_and_ends_well(source: Path, capsys: Captured) -> None:
     words = ["install", "--from-paths", "src", "--ignore-src", "-r", "-y", "--rosdistro", "noetic"]
     assert main(words) == 0
-    advice = "put its sources into src when it is Python or data; compiled nodes need real ROS"
+    advice = "put its sources into src: its nodes are compiled here"
     assert capsys.readouterr().out.splitlines() == [
         "comes with Gazelle: rospy sensor_msgs",
         "needed by compilers and build tools only: catkin",

@@ -72,9 +72,6 @@ def run(options: argparse.Namespace) -> int:
     _announce(package, options.destination_directory)
     folder = write_ros2_package(package, options.destination_directory, print)
     _write_license(package.license, folder)
-    if package.build_type != "ament_python" and (package.node or package.library):
-        text = "[NOTE] the node and library are C++, which a real build compiles and Gazelle does "
-        print(text + "not; --build-type ament_python makes a node that runs here", file=sys.stderr)
     return 0
 
 

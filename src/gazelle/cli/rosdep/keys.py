@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from typing import NamedTuple
 
 from gazelle.control.controllers.registry import known_types as controller_types
+from gazelle.cpp.provided_packages import PROVIDED
 from gazelle.diagnostics import nearest_names
 from gazelle.doctor.packages.dependency_checks import is_ros_package, is_slip, known_packages
 from gazelle.interfaces import known_types as message_types
@@ -94,11 +95,12 @@ def judge(key: str, workspace: Workspace, own: Iterable[str]) -> Answer:
         return Answer(key, Kind.BROUGHT)
     if key in _BUILD_ONLY or key.startswith(_BUILD_PREFIXES):
         return Answer(key, Kind.BUILD_ONLY)
+    if any(row.name == key for row in PROVIDED):
+        return Answer(key, Kind.BROUGHT)
     if key.startswith(_PYTHON_PREFIXES):
         return _python(key)
     if is_ros_package(key):
-        advice = "put its sources into src when it is Python or data; compiled nodes need real ROS"
-        return Answer(key, Kind.COMPILED, advice)
+        return Answer(key, Kind.COMPILED, "put its sources into src: its nodes are compiled here")
     near = nearest_names(key, [*own, *known_packages()], count=1)
     if near and is_slip(key, near[0]):
         return Answer(key, Kind.UNKNOWN, f"did you mean '{near[0]}'?")

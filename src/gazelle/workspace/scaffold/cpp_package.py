@@ -1,7 +1,4 @@
-"""``CMakeLists.txt`` and C++ sources of new packages of ROS 2 and of plain CMake.
-
-The sources are for a real build; Gazelle does not compile them.
-"""
+"""``CMakeLists.txt`` and C++ sources of new packages of ROS 2 and of plain CMake."""
 
 from __future__ import annotations
 

@@ -158,7 +158,7 @@ class Beside(unittest.TestCase):
         with launch_testing.tools.launch_process(
             launch_service, node, proc_info, proc_output
         ):
-            with self.assertRaisesRegex(AssertionError, "compiled code that is not here"):
+            with self.assertRaisesRegex(AssertionError, "there is no such program here"):
                 proc_info.assertWaitForShutdown(process=node, timeout=PATIENCE_S)
 """
 

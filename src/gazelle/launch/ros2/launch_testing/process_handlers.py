@@ -262,7 +262,7 @@ class ActiveProcInfoHandler(_Awaited):
 
         end_s = time.monotonic() + timeout
         with self._waiting() as told:
-            # That a node is compiled code is not an event: it is looked at now and then.
+            # That a node does not compile is not an event: it is looked at now and then.
             while not told.wait_for(holds, min(_LOOK_S, end_s - time.monotonic())):
                 if _is_absent(process) or time.monotonic() >= end_s:
                     return False
@@ -276,5 +276,5 @@ def _is_absent(process: Any) -> bool:
 
 def _reason(process: Any, wanted: str) -> str:
     if _is_absent(process):
-        return f"process '{process}' cannot {wanted}: it is compiled code that is not here"
+        return f"process '{process}' cannot {wanted}: there is no such program here"
     return f"Timed out waiting for process '{process}' to {wanted}"
