@@ -3,6 +3,7 @@
 #include "ends.hpp"
 
 #include <ros/console.h>
+#include <ros/init.h>
 #include <ros/publisher.h>
 #include <ros/single_subscriber_publisher.h>
 
@@ -36,8 +37,10 @@ bool Publisher::isValid() const { return impl_ && !impl_->is_closed; }
 
 bool Publisher::accepts(const gazelle::MessageType& type) const {
   if (!isValid()) {
-    ROS_ERROR("Call to publish() on an invalid Publisher%s%s", impl_ ? " of topic " : "",
-              impl_ ? impl_->topic.c_str() : "");
+    // At the end of a node its loops publish once more: nothing to tell.
+    if (ros::ok())
+      ROS_ERROR("Call to publish() on an invalid Publisher%s%s", impl_ ? " of topic " : "",
+                impl_ ? impl_->topic.c_str() : "");
     return false;
   }
   const gazelle::MessageType* const known = impl_->accepted.load(std::memory_order_acquire);
@@ -62,7 +65,7 @@ void Publisher::sendCopy(const void* message, const gazelle::MessageType& type,
 
 void Publisher::sendRos1(const uint8_t* bytes, std::size_t size) const {
   if (!isValid()) {
-    ROS_ERROR("Call to publish() on an invalid Publisher");
+    if (ros::ok()) ROS_ERROR("Call to publish() on an invalid Publisher");
     return;
   }
   if (!impl_->latch && !impl_->publisher->wanted()) return;

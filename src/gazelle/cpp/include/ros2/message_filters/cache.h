@@ -1,0 +1,2 @@
+#pragma once
+#include <gazelle/message_filters/filters.hpp>

@@ -1,0 +1,2 @@
+#pragma once
+#include <message_filters/message_event.hpp>

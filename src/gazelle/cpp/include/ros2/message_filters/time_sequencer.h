@@ -1,0 +1,2 @@
+#pragma once
+#include <message_filters/time_sequencer.hpp>
