@@ -77,7 +77,7 @@ def configure(
         f"-DCMAKE_TOOLCHAIN_FILE={CMAKE / 'toolchain.cmake'}",
         f"-DCMAKE_PROJECT_TOP_LEVEL_INCLUDES={CMAKE / 'provider.cmake'}",
         f"-DGAZELLE_SETTINGS={unit.settings}",
-        "-DCMAKE_POLICY_VERSION_MINIMUM=3.5", "-Wno-dev",
+        "-DCMAKE_POLICY_VERSION_MINIMUM=3.5", "-Wno-dev", "--no-warn-unused-cli",
         f"-DCMAKE_PREFIX_PATH={';'.join(map(str, unit.prefixes))}",
     ]  # fmt: skip
     if unit.install is not None:
@@ -86,7 +86,10 @@ def configure(
     stamp = unit.build / "gazelle_command.txt"
     text = "\n".join(command)
     if _same(stamp, text) and (unit.build / "build.ninja").is_file():
-        return CMakeRun(0)
+        # Ninja knows which files CMake has read, and asks it again where one has changed.
+        run = _run([str(ninja), "-C", str(unit.build), "build.ninja"], environ, unit, said)
+        run.failures.clear()
+        return run
     run = _run(command, environ, unit, said)
     if run.code == 0:
         write_if_changed(stamp, text)

@@ -23,6 +23,7 @@ _PACKAGE = re.compile(
 )
 _CMAKE_PLACE = re.compile(r"CMake Error at ([^:\n]+):(\d+)")
 _LINKER = re.compile(r"undefined reference to [`'\"](.+?)['\"]|undefined symbol: (\S.*)")
+_EXCERPT = re.compile(r"^\s*(\d+\s)?\s*\|")
 _NO_ROOM = re.compile(r"No space left on device|Disk quota exceeded")
 
 
@@ -76,7 +77,8 @@ def _report_one(unit: Unit, made: str, words: str, diagnostics: Diagnostics) -> 
         span = SourceSpan(str(full), int(place["line"]), int(place["column"] or 0))
     if header := _HEADER.search(words):
         text, fix = header_advice(header[1], unit.generation)
-        diagnostics.report("cpp.missing-header", f"{_trimmed(words)}\n{text}", span, fix=fix)
+        words = _after_place(words, place).replace("\ncompilation terminated.", "")
+        diagnostics.report("cpp.missing-header", f"{words}\n{text}", span, fix=fix)
         return
     name = made.split(".dir/")[0].rsplit("/", 1)[-1] if ".dir/" in made else Path(made).name
     missing = list(dict.fromkeys(_undefined(words)))
@@ -84,8 +86,20 @@ def _report_one(unit: Unit, made: str, words: str, diagnostics: Diagnostics) -> 
         text = f"'{name}' does not link:\n{_trimmed(words)}"
         diagnostics.report("cpp.link-error", text, SourceSpan(str(unit.path / "CMakeLists.txt")))
         return
-    text = f"'{name}' of '{unit.name}' does not compile:\n{_trimmed(words)}"
+    head, _, rest = _after_place(words, place).partition("\n")
+    text = f"{head} ('{name}' of '{unit.name}' does not compile)\n{rest}".rstrip()
     diagnostics.report("cpp.compile-error", text, span)
+
+
+def _after_place(words: str, place: re.Match[str] | None) -> str:
+    """Return a compiler's words with the first error in front, for its place is shown anyway."""
+    if place is None:
+        return _trimmed(words)
+    before, after = words[: place.start()], words[place.end() :].lstrip("\n").split("\n")
+    while after and _EXCERPT.match(after[0]):
+        after.pop(0)
+    context = [line for line in before.splitlines() if " from " in line or "required" in line]
+    return _trimmed("\n".join([place["text"], *context, *after]))
 
 
 def _undefined(words: str) -> Iterator[str]:

@@ -36,6 +36,9 @@ from gazelle.cpp.toolchain import Toolchain, find_toolchain
 
 __all__ = ["Runtime", "ensure_runtime", "libraries_for", "roots_of"]
 
+_FILE_S = 2.5
+"""What a core of an everyday machine takes for one file."""
+
 _WARNINGS = ("-Wall", "-Wextra")
 
 
@@ -133,7 +136,8 @@ def _build(rows: Sequence[RuntimeLibrary], toolchain: Toolchain, top: Path) -> d
     fresh = sum(not is_kept(job, toolchain, top / "objects") for job in everything)
     if fresh:
         announce(
-            f"compiling Gazelle's C++ libraries for this machine, once ({fresh} files)",
+            f"compiling Gazelle's C++ libraries for this machine, once ({fresh} files, about "
+            f"{_about(fresh / (os.cpu_count() or 1) * _FILE_S)})",
             key="compiling runtime",
         )
     workers = max(1, os.cpu_count() or 1)
@@ -155,6 +159,13 @@ def _build(rows: Sequence[RuntimeLibrary], toolchain: Toolchain, top: Path) -> d
     for row in rows:
         built[row.name] = _linked(row, objects[row.name], built, toolchain, top)
     return built
+
+
+def _about(seconds: float) -> str:
+    if seconds < 45:
+        return f"{max(5, round(seconds / 5) * 5)} seconds"
+    minutes = max(1, round(seconds / 60))
+    return "a minute" if minutes == 1 else f"{minutes} minutes"
 
 
 def _linked(
