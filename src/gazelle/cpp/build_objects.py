@@ -178,7 +178,7 @@ def link(objects: Sequence[Path], toolchain: Toolchain, output: Path, flags: Seq
     Raises:
         CppBuildError: the linker refused it.
     """
-    command = [*toolchain.command, "-shared", "-fPIC", *map(str, objects), "-o", str(output)]
+    command = [*toolchain.link_command, "-shared", "-fPIC", *map(str, objects), "-o", str(output)]
     done = subprocess.run([*command, *flags], capture_output=True, text=True, check=False)
     if done.returncode:
         raise compiler_failure(f"linking '{output.name}'", done.stderr + done.stdout)

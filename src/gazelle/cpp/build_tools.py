@@ -8,7 +8,7 @@ from pathlib import Path
 from gazelle.cpp.build_cache import cache_top, digest_of_file, digest_of_text, make_whole
 from gazelle.cpp.build_errors import compiler_failure
 from gazelle.cpp.runtime_libraries import HERE
-from gazelle.cpp.toolchain import Toolchain
+from gazelle.cpp.toolchain import ZIG_FLAGS, Toolchain
 
 __all__ = ["tool", "zig_programs"]
 
@@ -29,7 +29,15 @@ def tool(name: str, toolchain: Toolchain, *flags: str) -> Path:
     folder = cache_top() / "tools" / f"{name}-{key}"
     if not (folder / name).is_file():
         with make_whole(folder) as made:
-            command = [*toolchain.c_command, "-O1", *flags, str(source), "-o", str(made / name)]
+            command = [
+                *toolchain.c_command,
+                *toolchain.link_command[len(toolchain.command) :],
+                "-O1",
+                *flags,
+                str(source),
+                "-o",
+                str(made / name),
+            ]
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             if done.returncode:
                 raise compiler_failure(f"compiling '{source.name}'", done.stderr + done.stdout)
@@ -44,7 +52,8 @@ def zig_programs(toolchain: Toolchain) -> tuple[str, str, str, str]:
         with make_whole(folder) as made:
             for name in names:
                 file = made / f"zig-{name}"
-                text = f"#!/bin/sh\nexec '{toolchain.command[0]}' {name} \"$@\"\n"
+                flags = " ".join(ZIG_FLAGS) if name in ("c++", "cc") else ""
+                text = f"#!/bin/sh\nexec '{toolchain.command[0]}' {name} {flags} \"$@\"\n"
                 file.write_text(text, encoding="utf-8")
                 file.chmod(0o755)
     cxx, cc, archiver, ranlib = (str(folder / f"zig-{name}") for name in names)

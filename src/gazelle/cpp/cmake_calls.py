@@ -77,6 +77,7 @@ def _refused_header(settings: Path, memory: dict[str, Any], words: Sequence[str]
 
     _, top, *sources = words
     seen: set[Path] = set()
+    refused: list[str] = []
     waiting = [Path(source) for source in sources]
     while waiting:
         file = waiting.pop()
@@ -86,9 +87,11 @@ def _refused_header(settings: Path, memory: dict[str, Any], words: Sequence[str]
         for found in _INCLUDE.findall(file.read_bytes()):
             header = found.decode(errors="replace")
             if name := refused_header(header, memory["generation"]):
-                sys.stdout.write(f"{name}\n")
-                return 0
+                refused.append(name)
             waiting += [file.parent / header, Path(top) / "include" / header]
+    if refused:
+        # Gazebo's plug-ins include headers of its libraries before its own.
+        sys.stdout.write(f"{max(refused, key=lambda name: name.startswith('gazebo'))}\n")
     return 0
 
 

@@ -44,7 +44,7 @@ def main(arguments: list[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     toolchain = find_toolchain()
     if options.flags:
-        words = [*toolchain.command, *toolchain.flags, "-Wall", "-Wextra"]
+        words = [*toolchain.link_command, *toolchain.flags, "-Wall", "-Wextra"]
         for root in roots_of(options.ros).values():
             words += ["-isystem", str(root)]
         sys.stdout.write(" ".join([*words, *toolchain.include_flags]) + "\n")
@@ -55,7 +55,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.runtime is not None:
         sys.stdout.writelines(f"{path}\n" for path in runtime.libraries.values())
         return 0
-    words = [*toolchain.command, *toolchain.flags, "-Wall", "-Wextra"]
+    words = [*toolchain.link_command, *toolchain.flags, "-Wall", "-Wextra"]
     for root in roots_of(options.ros).values():
         words += ["-isystem", str(root)]
     words += [*toolchain.include_flags, *options.flag]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import itertools
 import sys
 import threading
@@ -98,8 +99,9 @@ class HostContext:
         self._closed = False
 
     def attach(self) -> None:
-        """Give the runtime the table; see `Core.attach`."""
+        """Give the runtime the table; see `Core.attach`. It is left before Python ends."""
         self.core.attach(self)
+        atexit.register(self.leave)
 
     @property
     def graph(self) -> Graph:

@@ -66,7 +66,7 @@ def header_advice(header: str, generation: int) -> tuple[str, str]:
     if name := refused_header(header, generation):
         return f"'{header}' is of '{name}': {refusal(name, generation)}", ""
     folder = header.partition("/")[0]
-    if folder in _SYSTEM and _SYSTEM[folder]:
+    if _SYSTEM.get(folder):
         library, _, how = _SYSTEM[folder].partition(" (")
         return f"'{header}' is of {library}, which is not installed here", how.removesuffix(")")
     near = did_you_mean(header, _own_headers(generation))

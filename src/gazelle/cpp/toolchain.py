@@ -49,6 +49,9 @@ _COMMON_FLAGS = (
     "-DBOOST_ALLOW_DEPRECATED_HEADERS",
 )
 
+ZIG_FLAGS = ("-mcpu=baseline", "-fno-sanitize=undefined")
+"""Of every call, for zig builds its C++ library anew for other ones."""
+
 Kind = Literal["gcc", "clang", "zig"]
 
 
@@ -108,6 +111,11 @@ class Toolchain:
         return found
 
     @property
+    def link_command(self) -> tuple[str, ...]:
+        """The words of the linker."""
+        return (*self.command, *ZIG_FLAGS) if self.kind == "zig" else self.command
+
+    @property
     def programs(self) -> tuple[str, str, str, str]:
         """C++ compiler, C compiler, archiver and ranlib, one word each; empty for CMake's choice."""
         if self.kind != "zig":
@@ -128,7 +136,7 @@ class Toolchain:
         own = {
             "gcc": ("-fno-gnu-unique",),
             "clang": (),
-            "zig": ("-fno-sanitize=undefined", "-mcpu=baseline"),
+            "zig": ZIG_FLAGS,
         }[self.kind]
         return (*_COMMON_FLAGS, *own)
 

@@ -26,6 +26,10 @@ function(ament_target_dependencies target)
     list(APPEND properties INTERFACE_)
   endif()
   foreach(name IN LISTS names)
+    if(NOT ${name}_FOUND AND "${name}" IN_LIST GAZELLE_PROVIDED)
+      # Originals find what they are built on along with themselves.
+      gazelle_provide("${name}")
+    endif()
     if(NOT ${name}_FOUND)
       message(FATAL_ERROR
         "ament_target_dependencies() the passed package name '${name}' was not found before")

@@ -56,22 +56,41 @@ void say(const char *text) {
   }
 }
 
-// addr2line of the compiler's own tools knows file and line where there is debug information.
-bool say_line(const char *file, std::uintptr_t offset) {
+// What addr2line of the compiler's own tools knows: a function's name, and file and line where
+// there is debug information.
+struct Place {
+  char name[512] = "";
+  char line[512] = "";
+};
+
+void take_line(const char *&at, char *into, std::size_t size) {
+  const std::size_t length = std::strcspn(at, "\n");
+  if (length < size && at[0] != '?') {
+    std::memcpy(into, at, length);
+    into[length] = '\0';
+    // "(discriminator 3)" is of interest to compilers only.
+    if (char *more = std::strstr(into, " (discriminator")) *more = '\0';
+  }
+  at += at[length] == '\n' ? length + 1 : length;
+}
+
+Place place_of(const char *file, std::uintptr_t offset) {
+  Place found;
   int ends[2];
-  if (pipe(ends) != 0) return false;
+  if (pipe(ends) != 0) return found;
   char address[32];
   std::snprintf(address, sizeof address, "0x%zx", static_cast<std::size_t>(offset));
   const pid_t child = fork();
   if (child == 0) {
     dup2(ends[1], STDOUT_FILENO);
+    close(STDERR_FILENO);
     close(ends[0]);
     close(ends[1]);
-    execlp("addr2line", "addr2line", "-e", file, address, nullptr);
+    execlp("addr2line", "addr2line", "-f", "-C", "-e", file, address, nullptr);
     _exit(127);
   }
   close(ends[1]);
-  char text[1024];
+  char text[1024] = "";
   std::size_t size = 0;
   while (child > 0 && size + 1 < sizeof text) {
     const ssize_t more = read(ends[0], text + size, sizeof text - 1 - size);
@@ -81,20 +100,30 @@ bool say_line(const char *file, std::uintptr_t offset) {
   close(ends[0]);
   if (child > 0) waitpid(child, nullptr, 0);
   text[size] = '\0';
-  if (size == 0 || text[0] == '?') return false;
-  text[std::strcspn(text, "\n")] = '\0';
-  say(" at ");
-  say(text);
-  return true;
+  const char *at = text;
+  take_line(at, found.name, sizeof found.name);
+  take_line(at, found.line, sizeof found.line);
+  return found;
 }
 
-bool is_of_user(const Dl_info &info) {
-  const char *file = info.dli_fname != nullptr ? std::strrchr(info.dli_fname, '/') : nullptr;
-  const char *base = file != nullptr ? file + 1 : "";
-  return std::strncmp(base, "lib", 3) != 0 || std::strstr(base, "libgazelle_") == nullptr;
+const char *base_of(const char *path) {
+  const char *slash = path != nullptr ? std::strrchr(path, '/') : nullptr;
+  return slash != nullptr ? slash + 1 : path != nullptr ? path : "";
 }
 
-void say_frame(int number, void *address) {
+bool begins(const char *text, const char *with) {
+  return std::strncmp(text, with, std::strlen(with)) == 0;
+}
+
+// Where libraries of the system and of the runtime go wrong, whoever called them is to look.
+bool is_of_system(const char *base) {
+  return begins(base, "libc.so") || begins(base, "libpthread") || begins(base, "libstdc++") ||
+         begins(base, "libgcc_s") || begins(base, "libc++");
+}
+
+bool is_of_user(const char *base) { return !is_of_system(base) && !begins(base, "libgazelle_"); }
+
+void say_frame(int number, void *address, bool is_return) {
   char text[64];
   Dl_info info = {};
   std::snprintf(text, sizeof text, "  #%-2d ", number);
@@ -104,7 +133,15 @@ void say_frame(int number, void *address) {
     say(text);
     return;
   }
-  if (info.dli_sname != nullptr) {
+  const auto offset = static_cast<char *>(address) - static_cast<char *>(info.dli_fbase);
+  // Where a call returns to, the call stands before.
+  Place place;
+  if (is_of_user(base_of(info.dli_fname))) {
+    place = place_of(info.dli_fname, static_cast<std::uintptr_t>(offset - (is_return ? 1 : 0)));
+  }
+  if (place.name[0] != '\0') {
+    say(place.name);
+  } else if (info.dli_sname != nullptr) {
     int status = 0;
     char *readable = abi::__cxa_demangle(info.dli_sname, nullptr, nullptr, &status);
     say(readable != nullptr ? readable : info.dli_sname);
@@ -112,10 +149,10 @@ void say_frame(int number, void *address) {
   } else {
     say("?");
   }
-  const auto offset = static_cast<char *>(address) - static_cast<char *>(info.dli_fbase);
-  // The address is where the call returns to: the call stands before it.
-  const bool has_line = is_of_user(info) && say_line(info.dli_fname, offset - 1);
-  if (!has_line) {
+  if (place.line[0] != '\0') {
+    say(" at ");
+    say(place.line);
+  } else {
     say(" in ");
     say(info.dli_fname);
     std::snprintf(text, sizeof text, " (+0x%zx)", static_cast<std::size_t>(offset));
@@ -124,13 +161,19 @@ void say_frame(int number, void *address) {
   say("\n");
 }
 
-bool is_of_python(void *address) {
+// What lies below the program's `main`.
+bool is_of_host(void *address) {
   Dl_info info = {};
   if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return false;
-  const char *file = std::strrchr(info.dli_fname, '/');
-  const char *base = file != nullptr ? file + 1 : info.dli_fname;
-  return std::strncmp(base, "libffi", 6) == 0 || std::strncmp(base, "_ctypes", 7) == 0 ||
-         std::strncmp(base, "python", 6) == 0 || std::strncmp(base, "libpython", 9) == 0;
+  const char *base = base_of(info.dli_fname);
+  const char *name = info.dli_sname != nullptr ? info.dli_sname : "";
+  return begins(base, "libffi") || begins(base, "_ctypes") || begins(base, "python") ||
+         begins(base, "libpython") || std::strcmp(name, "gazelle_run_main") == 0;
+}
+
+bool is_of_system(void *address) {
+  Dl_info info = {};
+  return dladdr(address, &info) != 0 && is_of_system(base_of(info.dli_fname));
 }
 
 void on_crash(int number, siginfo_t *info, void *) {
@@ -152,10 +195,12 @@ void on_crash(int number, siginfo_t *info, void *) {
   void *frames[kMostFrames];
   const int count = backtrace(frames, kMostFrames);
   // The first two are this handler and the kernel's way into it.
+  int first = 2;
+  // How a program gives up is of no interest.
+  while (number == SIGABRT && first + 1 < count && is_of_system(frames[first])) ++first;
   int shown = 0;
-  for (int i = 2; i < count; ++i) {
-    if (is_of_python(frames[i])) break;
-    say_frame(shown++, frames[i]);
+  for (int i = first; i < count && !is_of_host(frames[i]); ++i) {
+    say_frame(shown++, frames[i], i != 2);
   }
   alarm(0);
   // As it would have ended without us, so that whoever launched it sees the signal.

@@ -177,11 +177,6 @@ std::string demangled(const char *name) {
 
 }  // namespace gazelle
 
-// noexcept: what the program does not catch ends it here, as in ROS, with abort's code.
-static int run_main(int (*main)(int, char **, char **), int argc, char **argv) noexcept {
-  return main(argc, argv, environ);
-}
-
 extern "C" {
 
 GAZELLE_EXPORT void gazelle_prepare_process(void) {
@@ -190,7 +185,9 @@ GAZELLE_EXPORT void gazelle_prepare_process(void) {
 }
 
 GAZELLE_EXPORT int gazelle_run_main(int (*main)(int, char **, char **), int argc, char **argv) {
-  std::exit(run_main(main, argc, argv));
+  // What the program does not catch nobody below catches either: it ends in std::terminate where
+  // it was thrown, with nothing unwound, as in any other process.
+  std::exit(main(argc, argv, environ));
 }
 
 }  // extern "C"
