@@ -12,6 +12,7 @@ from pathlib import Path
 from gazelle.diagnostics import SourceSpan
 from gazelle.documents.files import is_file
 from gazelle.workspace import Package
+from gazelle.workspace.building.catkin_space import COMPILED_DEVEL_RECORD
 from gazelle.workspace.executables import compiled_names
 
 __all__ = [
@@ -102,16 +103,16 @@ def host_command(path: Path) -> tuple[str, ...]:
 def built_file(program: CppProgram) -> Path | None:
     """Return what ``catkin_make`` or ``catkin build`` made of a program; None when that is old.
 
-    It counts as old when a file of the package, or of one of the workspace that it needs, was
-    changed since.
+    It counts as old when a file of the workspace's sources was changed since the package was built.
     """
     package = program.package
     for folder in package.path.parents:
         if not any((folder / name).exists() for name in _WORKSPACE_MARKS):
             continue
         made = folder / "devel" / "lib" / package.name / program.executable
-        if is_file(made) and is_node_file(made):
-            made_ns = made.stat().st_mtime_ns
+        record = folder / "build" / package.name / COMPILED_DEVEL_RECORD
+        if is_file(made) and is_file(record) and is_node_file(made):
+            made_ns = _changed_ns(record)
             is_new = all(_changed_ns(file) <= made_ns for file in _sources(folder / "src"))
             return made if is_new else None
         return None

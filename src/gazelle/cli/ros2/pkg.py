@@ -8,6 +8,7 @@ import sys
 
 from gazelle.cli.ros2.verbs import Command, Verb, run_command
 from gazelle.cli.ros_tool import hint
+from gazelle.cpp.lookup import built_file, cpp_program, cpp_programs
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError
 from gazelle.node_specs.registry import builtin_executables, builtin_packages
@@ -99,6 +100,9 @@ def run_executables(options: argparse.Namespace) -> int:
             continue
         for path in _paths(package, files):
             print(path)
+        for executable in _not_compiled(package):
+            text = f"{name} {executable} is C++, which is compiled when it is started"
+            print(text, file=sys.stderr)
         for executable in sorted(set(builtin) - set(files)):
             print(f"{name} {executable} comes with Gazelle and is no file", file=sys.stderr)
     return 0
@@ -155,4 +159,15 @@ def _paths(package: Package | None, names: tuple[str, ...]) -> list[str]:
     if package is None:
         return []
     found = [package.find_executables(name)[:1] for name in names]
-    return sorted(str(path) for paths in found for path in paths)
+    programs = (cpp_program(package, name) for name in names)
+    made = [built_file(one) for one in programs if one is not None]
+    paths = [path for paths in found for path in paths]
+    return sorted(str(path) for path in (*paths, *made) if path is not None)
+
+
+def _not_compiled(package: Package | None) -> list[str]:
+    """Return the programs of a package's C++ that no build has made yet."""
+    if package is None:
+        return []
+    programs = (cpp_program(package, name) for name in cpp_programs(package))
+    return [one.executable for one in programs if one is not None and built_file(one) is None]

@@ -65,7 +65,8 @@ def _run(options: argparse.Namespace) -> int:
     if found is None:
         if package not in workspace.packages and not builtin_executables(package):
             return fail(f"Package '{package}' not found")
-        return fail("No executable found")
+        is_there = any(item.code.startswith("cpp.") for item in diagnostics.errors)
+        return fail(f"'{name}' does not compile" if is_there else "No executable found")
     prefix = shlex.split(options.prefix) if options.prefix else []
     # Programs that are there for both generations, such as turtlesim's, ask for it.
     environment = node_environment({**os.environ, "ROS_VERSION": "2"}, workspace)

@@ -33,7 +33,17 @@ from gazelle.workspace.building.setup_scripts import (
     underlays,
 )
 
-__all__ = ["CatkinSpaces", "build_catkin_package", "write_space_scripts"]
+__all__ = [
+    "COMPILED_DEVEL_RECORD",
+    "CatkinSpaces",
+    "build_catkin_package",
+    "write_space_scripts",
+]
+
+_OF_COMPILED = "gazelle_"
+_DEVEL_RECORD = "devel_manifest.txt"
+COMPILED_DEVEL_RECORD = f"{_OF_COMPILED}{_DEVEL_RECORD}"
+"""File in the build folder of a package with C++; as old as the sources that it was built from."""
 
 _PYTHON = "lib/python3/dist-packages"
 _PROFILE = "etc/catkin/profile.d"
@@ -73,10 +83,10 @@ def build_catkin_package(
         installs: also do what ``make install`` does.
         compile_step: what compiles; without it compiled code is left out and told.
     """
-    begin = time.monotonic()
+    begin, begin_ns = time.monotonic(), time.time_ns()
     compiles = compile_step is not None
     devel = Layout(spaces.devel, _PYTHON, symlinks=True)
-    plans = [(Plan(), devel, "devel_manifest.txt")]
+    plans = [(Plan(), devel, _DEVEL_RECORD)]
     _plan_devel(package, devel, definitions, plans[0][0], compiles=compiles)
     if installs and not plans[0][0].diagnostics.errors:
         layout = Layout(spaces.install, _PYTHON)
@@ -100,9 +110,12 @@ def build_catkin_package(
         code = compiled.code
     for plan, layout, record in plans if not code else []:
         # CMake has a file of the plain name.
-        name = record if compiled == Compiled() else f"gazelle_{record}"
+        name = record if compiled == Compiled() else f"{_OF_COMPILED}{record}"
         try:
-            done = install(plan.items.values(), layout, spaces.build / package.name / name)
+            file = spaces.build / package.name / name
+            done = install(plan.items.values(), layout, file)
+            # What is changed meanwhile is newer than what was built.
+            os.utime(file, ns=(begin_ns, begin_ns))
         except OSError as error:
             text = f"cannot write '{error.filename}': {error.strerror}"
             found.report("build.cannot-write", text)
