@@ -1,0 +1,4 @@
+#pragma once
+
+#include "rcl/types.h"
+#include "rcutils/logging.h"

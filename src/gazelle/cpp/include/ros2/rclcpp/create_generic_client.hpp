@@ -1,0 +1,3 @@
+#pragma once
+
+#include "rclcpp/generic_client.hpp"

@@ -1,0 +1,3 @@
+#pragma once
+
+#include "rclcpp/detail/endpoint_options.hpp"

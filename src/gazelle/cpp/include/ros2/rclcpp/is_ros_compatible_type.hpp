@@ -1,0 +1,3 @@
+#pragma once
+
+#include "rclcpp/type_adapter.hpp"

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <csignal>
+#include <memory>
+
+#include "rclcpp/copy_all_parameter_values.hpp"
+#include "rclcpp/create_generic_client.hpp"
+#include "rclcpp/executors.hpp"
+#include "rclcpp/executors/single_threaded_executor.hpp"
+#include "rclcpp/experimental/executors/events_executor/events_executor.hpp"
+#include "rclcpp/expand_topic_or_service_name.hpp"
+#include "rclcpp/guard_condition.hpp"
+#include "rclcpp/logging.hpp"
+#include "rclcpp/node.hpp"
+#include "rclcpp/node_interfaces/node_interfaces.hpp"
+#include "rclcpp/parameter.hpp"
+#include "rclcpp/parameter_client.hpp"
+#include "rclcpp/parameter_event_handler.hpp"
+#include "rclcpp/parameter_events_filter.hpp"
+#include "rclcpp/qos.hpp"
+#include "rclcpp/rate.hpp"
+#include "rclcpp/serialization.hpp"
+#include "rclcpp/serialized_message.hpp"
+#include "rclcpp/time.hpp"
+#include "rclcpp/time_source.hpp"
+#include "rclcpp/utilities.hpp"
+#include "rclcpp/visibility_control.hpp"
+#include "rclcpp/wait_for_message.hpp"
+#include "rclcpp/wait_set.hpp"
+#include "rclcpp/waitable.hpp"

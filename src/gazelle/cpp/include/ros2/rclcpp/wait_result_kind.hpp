@@ -1,0 +1,7 @@
+#pragma once
+
+namespace rclcpp {
+
+enum WaitResultKind { Ready, Timeout, Empty, Invalid };
+
+}  // namespace rclcpp
