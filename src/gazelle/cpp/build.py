@@ -16,7 +16,15 @@ from pathlib import Path
 
 from gazelle.announcements import announce
 from gazelle.cpp.build_cache import cache_top, digest_of_text, only_one, touch
-from gazelle.cpp.build_cmake import CMakeRun, Target, configure, install, run_ninja, targets_of
+from gazelle.cpp.build_cmake import (
+    CMakeRun,
+    Target,
+    configure,
+    install,
+    left_out_flags,
+    run_ninja,
+    targets_of,
+)
 from gazelle.cpp.build_errors import CppBuildError
 from gazelle.cpp.build_findings import report_failures
 from gazelle.cpp.build_settings import Unit
@@ -71,7 +79,7 @@ def build_package(request: CompileRequest, said: Callable[[str], None] | None = 
         diagnostics.report("cpp.no-compiler", str(error).partition("\n")[0])
         code = _CANNOT
     except CppBuildError as error:
-        diagnostics.report("cpp.compile-error", f"Gazelle's own C++ library: {error}")
+        _report_build_error(error, diagnostics)
         code = 1
     except OSError as error:
         _report_os_error(error, diagnostics)
@@ -176,6 +184,7 @@ def _built(
         report_failures(unit, run, diagnostics)
         return run.code
     _tell_left_out(unit, diagnostics)
+    _tell_flags(unit, diagnostics)
     run = run_ninja(unit, toolchain, targets, environ, said, unit.jobs)
     output += run.lines
     if run.code:
@@ -198,6 +207,15 @@ def _tell_left_out(unit: Unit, diagnostics: Diagnostics) -> None:
         )
 
 
+def _tell_flags(unit: Unit, diagnostics: Diagnostics) -> None:
+    """Say which of the user's flags the compiler does not get."""
+    flags = sorted(left_out_flags(unit))
+    if flags:
+        named = " and ".join(flags)
+        text = f"{unit.name}: {named} left out: what is compiled has to fit Gazelle's libraries"
+        diagnostics.report("cpp.flag-left-out", text, SourceSpan(str(unit.path / "CMakeLists.txt")))
+
+
 def _remove_left_out(unit: Unit) -> None:
     """Take the stand-ins of targets that were left out off the install space."""
     names = {target.file.name for target in targets_of(unit) if target.refused}
@@ -211,6 +229,13 @@ def _remove_left_out(unit: Unit) -> None:
     for line in listed:
         if Path(line).name in names:
             Path(line).unlink(missing_ok=True)
+
+
+def _report_build_error(error: CppBuildError, diagnostics: Diagnostics) -> None:
+    if error.is_no_room:
+        diagnostics.report("cpp.no-room", str(error))
+    else:
+        diagnostics.report("cpp.compile-error", f"Gazelle's own C++ library: {error}")
 
 
 def _report_os_error(error: OSError, diagnostics: Diagnostics) -> None:
@@ -443,7 +468,7 @@ class _Work:
             found.report("cpp.no-compiler", text, fix=fix)
             self.failed.add(unit.name)
         except CppBuildError as error:
-            found.report("cpp.compile-error", f"Gazelle's own C++ library: {error}")
+            _report_build_error(error, found)
             self.failed.add(unit.name)
         except OSError as error:
             _report_os_error(error, found)
@@ -453,21 +478,23 @@ class _Work:
     def _build_alone(self, unit: Unit, toolchain: Toolchain, found: Diagnostics) -> None:
         requests = [item for item in self._requests if item.package.name == unit.name]
         is_needed = any(unit.name in needs for needs in self._needs.values())
-        whole = is_needed or any(not item.name for item in requests)
         run = configure(unit, toolchain, self._environ)
         if run.code:
             report_failures(unit, run, found)
             self.failed.add(unit.name)
             return
         _tell_left_out(unit, found)
+        _tell_flags(unit, found)
         targets = targets_of(unit)
         chosen: dict[_Request, Target] = {}
         for request in requests:
             target = _target_for(request, targets)
             if target is not None and not target.refused:
                 chosen[request] = target
-            elif request.name and target is None:
+            elif request.name and target is None and not request.is_library:
                 self._report_no_target(request, targets, found)
+        whole = is_needed or any(not item.name for item in requests)
+        whole = whole or any(item.is_library and item not in chosen for item in requests)
         names = [] if whole else [target.name for target in chosen.values()]
         if not whole and not names:
             return
@@ -478,12 +505,24 @@ class _Work:
                 report_failures(unit, done, found)
         if run.code and whole:
             self.failed.add(unit.name)
-        broken = set(run.failures)
         for request, target in chosen.items():
-            relative = os.path.relpath(target.file, unit.build)
-            if target.file.is_file() and not {relative, str(target.file)} & broken:
-                if run.code == 0 or _is_current(target.file, run):
-                    self._found[request.package.name, request.name] = target.file
+            if target.file.is_file() and _is_current(target, unit, run):
+                self._found[request.package.name, request.name] = target.file
+        if whole:
+            self._find_libraries(unit, requests, found)
+
+    def _find_libraries(self, unit: Unit, requests: Sequence[_Request], found: Diagnostics) -> None:
+        """Find libraries that no target of their name makes among all that was made."""
+        for request in requests:
+            key = request.package.name, request.name
+            if not request.is_library or key in self._found:
+                continue
+            tops = (unit.devel, unit.build, *([unit.install] if unit.install else []))
+            files = (file for top in tops for file in top.rglob(f"lib{request.name}.so"))
+            if file := next(files, None):
+                self._found[key] = file
+            else:
+                self._report_no_target(request, targets_of(unit), found)
 
     def _ninja(
         self, unit: Unit, toolchain: Toolchain, names: Sequence[str], found: Diagnostics
@@ -506,10 +545,13 @@ class _Work:
         found.report("cpp.no-target", text, request.span, fix=did_you_mean(request.name, names))
 
 
-def _is_current(file: Path, run: CMakeRun) -> bool:
+def _is_current(target: Target, unit: Unit, run: CMakeRun) -> bool:
     """Tell whether a file was made, or found as new as its sources, though others failed."""
-    stem = file.name
-    return not any(f"/{stem}.dir/" in made or f"{stem}.dir/" in made for made in run.failures)
+    relative = os.path.relpath(target.file, unit.build)
+    return not any(
+        made in (relative, str(target.file)) or f"/{target.name}.dir/" in f"/{made}"
+        for made in run.failures
+    )
 
 
 def _target_for(request: _Request, targets: Sequence[Target]) -> Target | None:

@@ -7,6 +7,7 @@ leaves nothing half made under a name that somebody looks for.
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import functools
 import hashlib
@@ -20,7 +21,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from gazelle.announcements import announce
-from gazelle.cache_folders import own_cache
+from gazelle.cache_folders import own_cache, own_folder
 from gazelle.user_folders import lives
 
 __all__ = [
@@ -33,6 +34,7 @@ __all__ = [
     "touch",
 ]
 
+_VARIABLE = "GAZELLE_CPP_CACHE"
 _LOOK_EVERY_S = 0.05
 _PATIENCE_S = 1.0
 _DIGEST_LENGTH = 16
@@ -47,16 +49,23 @@ _guard = threading.Lock()
 def cache_top() -> Path:
     """Return the folder below which everything of C++ is kept.
 
-    Where no cache can be written, it is a folder that ends with this process's user session: below
-    the system's temporary folder, this user's alone.
+    ``GAZELLE_CPP_CACHE`` names another one. Where no cache can be written, it is a temporary folder
+    that ends with this process.
     """
+    if (named := os.environ.get(_VARIABLE)) and (given := own_folder(Path(named), _VARIABLE)):
+        return given
     folder = own_cache("cpp")
     if folder is None:
         folder = Path(tempfile.mkdtemp(prefix="gazelle-cpp-"))
-        import atexit
-
-        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        # The processes that this one starts use it as well.
+        os.environ[_VARIABLE] = str(folder)
+        atexit.register(_remove_own, folder, os.getpid())
     return folder
+
+
+def _remove_own(folder: Path, pid: int) -> None:
+    if os.getpid() == pid:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def digest_of_text(*texts: str) -> str:

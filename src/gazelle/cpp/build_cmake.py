@@ -15,10 +15,22 @@ from gazelle.cpp.provided_packages import provided
 from gazelle.cpp.runtime_libraries import HERE, LIBRARIES
 from gazelle.cpp.toolchain import INSTALL_HINT, NoToolchainError, Toolchain, find_program
 
-__all__ = ["CMakeRun", "Target", "configure", "install", "run_ninja"]
+__all__ = [
+    "CMakeRun",
+    "Target",
+    "configure",
+    "install",
+    "left_out_flags",
+    "run_ninja",
+    "targets_of",
+]
 
 _OLDEST = (3, 24)
 """CMake's dependency providers came with it."""
+
+_TRIES = 4
+_SOURCES = (".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp")
+_LEFT_OUT = re.compile(r"(?<=\s)-(?:m(?:arch|tune|cpu)=native|Werror(?:=[\w-]+)?)(?=[\s\"])")
 
 Said = Callable[[str], object]
 
@@ -104,7 +116,10 @@ def run_ninja(
     said: Said | None = None,
     jobs: int = 0,
 ) -> CMakeRun:
-    """Build targets, all where none is named; what does not compile stops nothing else."""
+    """Build targets, all where none is named; what does not compile stops nothing else.
+
+    What was written to while the compiler read it is compiled again.
+    """
     _, ninja = _programs(environ)
     command = [str(ninja), "-C", str(unit.build), "-k", "0", *targets]
     command += ["-j", str(jobs)] if jobs else []
@@ -112,7 +127,57 @@ def run_ninja(
     table = precompiled_table(unit, toolchain)
     if table is not None:
         variables["GAZELLE_PRECOMPILED"] = str(table)
-    return _run(command, variables, unit, said)
+    for _ in range(_TRIES):
+        before = _signatures(unit.path)
+        run = _run(command, variables, unit, said)
+        changed = [
+            path for path, state in _signatures(unit.path).items() if before.get(path) != state
+        ]
+        if not changed:
+            break
+        _forget_objects(unit, ninja, changed)
+    return run
+
+
+def _signatures(top: Path) -> dict[str, tuple[int, int]]:
+    found: dict[str, tuple[int, int]] = {}
+    for root, folders, names in os.walk(top):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        for name in names:
+            if name.endswith(_SOURCES):
+                path = os.path.join(root, name)  # noqa: PTH118 - thousands of them
+                try:
+                    state = os.stat(path)  # noqa: PTH116
+                except OSError:
+                    continue
+                found[path] = (state.st_mtime_ns, state.st_size)
+    return found
+
+
+def _forget_objects(unit: Unit, ninja: Path, changed: Sequence[str]) -> None:
+    """Remove the objects that were made of files which changed meanwhile."""
+    listed = subprocess.run(
+        [str(ninja), "-C", str(unit.build), "-t", "deps"],
+        capture_output=True,
+        text=True,
+        errors="replace",
+        check=False,
+    ).stdout
+    made, names = "", set(changed)
+    for line in listed.splitlines():
+        if line and not line.startswith(" "):
+            made = line.partition(": #deps")[0]
+        elif line.strip() in names:
+            (unit.build / made).unlink(missing_ok=True)
+
+
+def left_out_flags(unit: Unit) -> set[str]:
+    """Return the flags of a package that ``runtime/tools/compiler_words.c`` takes out."""
+    try:
+        text = (unit.build / "compile_commands.json").read_text(encoding="utf-8")
+    except OSError:
+        return set()
+    return set(_LEFT_OUT.findall(text))
 
 
 def install(unit: Unit, environ: Mapping[str, str], said: Said | None = None) -> CMakeRun:

@@ -12,11 +12,13 @@ class CppBuildError(GazelleError):
 
     Attributes:
         output: the words of the compiler, the linker or CMake.
+        is_no_room: a disk is full.
     """
 
-    def __init__(self, text: str, output: str = "") -> None:
+    def __init__(self, text: str, output: str = "", *, is_no_room: bool = False) -> None:
         super().__init__(text)
         self.output = output
+        self.is_no_room = is_no_room
 
 
 _NO_ROOM = ("No space left on device", "Disk quota exceeded")
@@ -25,5 +27,7 @@ _NO_ROOM = ("No space left on device", "Disk quota exceeded")
 def compiler_failure(doing: str, output: str) -> CppBuildError:
     """Return the error for a compiler that ended with a code, by what it printed."""
     if any(words in output for words in _NO_ROOM):
-        return CppBuildError(f"{doing}: the disk is full; make some room there", output)
+        return CppBuildError(
+            f"{doing}: the disk is full; make some room there", output, is_no_room=True
+        )
     return CppBuildError(f"{doing} failed:\n{output.strip()}", output)

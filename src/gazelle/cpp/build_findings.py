@@ -80,7 +80,11 @@ def _report_one(unit: Unit, made: str, words: str, diagnostics: Diagnostics) -> 
         words = _after_place(words, place).replace("\ncompilation terminated.", "")
         diagnostics.report("cpp.missing-header", f"{words}\n{text}", span, fix=fix)
         return
-    name = made.split(".dir/")[0].rsplit("/", 1)[-1] if ".dir/" in made else Path(made).name
+    name = (
+        made.split(".dir/", maxsplit=1)[0].rsplit("/", 1)[-1]
+        if ".dir/" in made
+        else Path(made).name
+    )
     missing = list(dict.fromkeys(_undefined(words)))
     if missing and span is None:
         text = f"'{name}' does not link:\n{_trimmed(words)}"

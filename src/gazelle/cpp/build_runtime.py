@@ -1,4 +1,4 @@
-"""The runtime libraries and generated headers, compiled once for a machine, a version and a compiler.
+"""Runtime libraries, compiled once for a machine, a version and a compiler.
 
 Each library lies in a folder named by what it is made of, so a running process keeps the one that
 it has, whatever is installed or edited meanwhile.
@@ -6,10 +6,11 @@ it has, whatever is installed or edited meanwhile.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +18,7 @@ from pathlib import Path
 from gazelle.announcements import announce
 from gazelle.cpp.build_cache import (
     cache_top,
+    digest_of_file,
     digest_of_text,
     make_whole,
     stat_signature,
@@ -34,11 +36,12 @@ from gazelle.cpp.runtime_libraries import (
 )
 from gazelle.cpp.toolchain import Toolchain, find_toolchain
 
-__all__ = ["Runtime", "ensure_runtime", "libraries_for", "roots_of"]
+__all__ = ["Runtime", "ensure_runtime", "headers_key", "libraries_for", "roots_of"]
 
 _FILE_S = 2.5
 """What a core of an everyday machine takes for one file."""
 
+_RECORD = "made_of.json"
 _WARNINGS = ("-Wall", "-Wextra")
 
 
@@ -98,28 +101,92 @@ def ensure_runtime(
 def libraries_for(file: Path) -> list[Path]:
     """Return the runtime libraries that a node's file or a library of the user is linked with.
 
-    They are in the order in which they are to be loaded.
+    They are in the order in which they are to be loaded. A process has one of each: later files get
+    what earlier ones have got. A file that was compiled with other headers than today's gets those
+    libraries that it was linked with, as long as they are there.
 
     Raises:
         CppBuildError: one cannot be compiled.
+        NoToolchainError: one would have to be, and there is no compiler.
     """
     from gazelle.cpp.elf_file import needed_libraries
 
-    names: dict[str, None] = {"core": None}
+    linked: dict[str, Path | None] = {"core": None}
     waiting, seen = [file], {file}
     while waiting:
-        current = waiting.pop()
-        for name, place in needed_libraries(current):
+        for name, place in needed_libraries(waiting.pop()):
             short = name.removeprefix("libgazelle_").removesuffix(".so")
             if name.startswith("libgazelle_") and short in LIBRARIES:
-                names[short] = None
+                linked[short] = linked.get(short) or place
             elif place is not None and place not in seen:
                 seen.add(place)
                 waiting.append(place)
-    generation = max((LIBRARIES[name].generation for name in names), default=0)
-    rows = with_needs(tuple(names))
+    rows = with_needs(tuple(linked))
     generation = max(row.generation for row in rows)
-    return list(ensure_runtime(tuple(names), generation).libraries.values())
+    chosen = _linked_before(rows, linked, generation)
+    if chosen is None:
+        chosen = ensure_runtime(tuple(linked), generation).libraries
+    return [_in_process.setdefault(row.name, chosen[row.name]) for row in rows]
+
+
+_in_process: dict[str, Path] = {}
+
+
+def _linked_before(
+    rows: Sequence[RuntimeLibrary], linked: Mapping[str, Path | None], generation: int
+) -> dict[str, Path] | None:
+    """Return the libraries that a file was linked with, where today's have other headers."""
+    places = [place for place in linked.values() if place is not None]
+    if not places:
+        return None
+    recorded = _recorded(places[0].parent)
+    if recorded is None or recorded == headers_key(generation):
+        return None
+    found: dict[str, Path] = {}
+    for place in places:
+        found |= {path.name: path for path in _needed_by(place)}
+    wanted = {row.name: found.get(row.file_name) for row in rows}
+    return {name: path for name, path in wanted.items() if path} if all(wanted.values()) else None
+
+
+def _needed_by(library: Path) -> list[Path]:
+    """Return a library of ours and those that it was linked with."""
+    try:
+        listed = json.loads((library.parent / _RECORD).read_text(encoding="utf-8"))
+        return [library, *(path for item in listed["needs"] if (path := Path(item)).is_file())]
+    except (OSError, ValueError, LookupError, TypeError):
+        # A library of before records were kept.
+        return [library]
+
+
+def _recorded(folder: Path) -> str | None:
+    try:
+        listed = json.loads((folder / _RECORD).read_text(encoding="utf-8"))
+        return str(listed["headers"])
+    except (OSError, ValueError, LookupError, TypeError):
+        return None
+
+
+def headers_key(generation: int) -> str:
+    """Return a digest of the content of all headers of a ROS that are ours."""
+    roots = (HERE / "include" / "common", HERE / "include" / f"ros{generation}")
+    signature = stat_signature(roots) + str(known_messages(generation) if generation else "")
+    file = cache_top() / "state" / f"headers-{generation}-{digest_of_text(str(HERE))}.json"
+    try:
+        kept = json.loads(file.read_text(encoding="utf-8"))
+        if kept["signature"] == signature:
+            return str(kept["key"])
+    except (OSError, ValueError, LookupError, TypeError):
+        kept = {}
+    parts = [
+        f"{path.relative_to(root)}:{digest_of_file(path)}"
+        for root in roots
+        for path in sorted(root.rglob("*"))
+        if path.is_file()
+    ]
+    key = digest_of_text(*parts, str(known_messages(generation) if generation else ""))
+    _write_json(file, {"signature": signature, "key": key})
+    return key
 
 
 def _build(rows: Sequence[RuntimeLibrary], toolchain: Toolchain, top: Path) -> dict[str, Path]:
@@ -176,7 +243,8 @@ def _linked(
     top: Path,
 ) -> Path:
     needs = [built[need.name] for need in with_needs((row.name,)) if need.name != row.name]
-    key = digest_of_text(toolchain.key, row.name, *map(str, objects), *map(str, needs))
+    words = (toolchain.key, row.name, headers_key(row.generation))
+    key = digest_of_text(*words, *map(str, objects), *map(str, needs))
     folder = top / "lib" / f"{row.name}-{key}"
     if not (folder / row.file_name).is_file():
         flags = [*map(str, needs), *(f"-l{name}" for name in row.system)]
@@ -184,6 +252,11 @@ def _linked(
         flags += ["-Wl,-z,defs"] if sys.platform == "linux" else []
         with make_whole(folder) as made:
             link(objects, toolchain, made / row.file_name, flags)
+            record = {
+                "headers": headers_key(row.generation),
+                "needs": [str(path) for path in needs],
+            }
+            (made / _RECORD).write_text(json.dumps(record), encoding="utf-8")
     return folder / row.file_name
 
 
@@ -199,14 +272,15 @@ def _read_state(file: Path, signature: str) -> dict[str, Path] | None:
     return None
 
 
-def _write_state(file: Path, signature: str, libraries: dict[str, Path]) -> None:
-    import contextlib
+def _write_state(file: Path, signature: str, libraries: Mapping[str, Path]) -> None:
+    texts = {name: str(path) for name, path in libraries.items()}
+    _write_json(file, {"signature": signature, "libraries": texts})
 
-    text = json.dumps(
-        {"signature": signature, "libraries": {name: str(path) for name, path in libraries.items()}}
-    )
+
+def _write_json(file: Path, value: Mapping[str, object]) -> None:
+    # Where it cannot be kept it is found out again.
     with contextlib.suppress(OSError):
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         spare = file.with_name(f"{file.name}.{os.getpid()}")
-        spare.write_text(text, encoding="utf-8")
+        spare.write_text(json.dumps(value), encoding="utf-8")
         spare.replace(file)
