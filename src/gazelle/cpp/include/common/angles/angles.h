@@ -33,9 +33,9 @@ inline double two_pi_complement(double angle) {
 // How far it is down and up from an angle to the limits; false where it lies outside.
 inline bool find_min_max_delta(double from, double left_limit, double right_limit,
                                double &result_min_delta, double &result_max_delta) {
-  double down = shortest_angular_distance(from, left_limit);
-  double up = shortest_angular_distance(from, right_limit);
-  double down_other = two_pi_complement(down), up_other = two_pi_complement(up);
+  const double down = shortest_angular_distance(from, left_limit);
+  const double up = shortest_angular_distance(from, right_limit);
+  const double down_other = two_pi_complement(down), up_other = two_pi_complement(up);
   if (down == 0.0) {
     result_min_delta = down;
     result_max_delta = std::max(up, up_other);
@@ -46,15 +46,16 @@ inline bool find_min_max_delta(double from, double left_limit, double right_limi
     result_min_delta = std::min(down, down_other);
     return true;
   }
-  const double least = std::min(down, down_other), most_left = std::max(down, down_other);
-  const double smallest = std::min(up, up_other), greatest = std::max(up, up_other);
-  if (least <= smallest || most_left >= greatest) {
-    result_min_delta = most_left;
-    result_max_delta = smallest;
+  // Each limit lies down and up the circle; inside, the left one is met first on the way down.
+  const double left_down = std::min(down, down_other), left_up = std::max(down, down_other);
+  const double right_down = std::min(up, up_other), right_up = std::max(up, up_other);
+  if (left_down <= right_down || right_up >= left_up) {
+    result_min_delta = right_down;
+    result_max_delta = left_up;
     return left_limit == -M_PI && right_limit == M_PI;
   }
-  result_min_delta = least;
-  result_max_delta = greatest;
+  result_min_delta = left_down;
+  result_max_delta = right_up;
   return true;
 }
 
