@@ -1,0 +1,2 @@
+#pragma once
+#include <actionlib/server/action_server.h>
