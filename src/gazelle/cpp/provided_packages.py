@@ -107,7 +107,6 @@ _ROWS = (
             "cpp_common",
             "image_transport",
             "message_filters",
-            "nodelet",
             "rosbag",
             "rosbag_storage",
             "rosconsole",
@@ -137,6 +136,7 @@ _ROWS = (
         )
     ),
     ProvidedPackage("dynamic_reconfigure", ("roscpp",), (1,), scripts=("dynamic_reconfigure",)),
+    _ros1("nodelet", "nodelet"),
     _ros1("tf2_ros", "tf2_ros1"),
     *(_ros1(name, "tf2_ros1") for name in ("tf2_geometry_msgs", "tf2_eigen", "tf2_sensor_msgs")),
     _ros1("tf2_kdl", "tf2_ros1", "kdl"),

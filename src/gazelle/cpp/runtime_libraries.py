@@ -53,6 +53,8 @@ LIBRARIES: dict[str, RuntimeLibrary] = {
         RuntimeLibrary("roscpp", ("core",), 1),
         RuntimeLibrary("rclcpp", ("core",), 2),
         RuntimeLibrary("class_loader", ("core",)),
+        RuntimeLibrary("nodelet", ("roscpp", "class_loader"), 1),
+        RuntimeLibrary("nodelet_program", ("nodelet",), 1),
         RuntimeLibrary("urdf", ("core",)),
         RuntimeLibrary("control", ("roscpp", "class_loader", "urdf"), 1),
         RuntimeLibrary("tf2", ("core",)),
