@@ -121,8 +121,8 @@ def read_parameter_file(file: Path) -> ParameterFile:
     """
     document = read_yaml_file(file)
     reader = _Reader(document, str(file))
-    if document.problem is not None:
-        reader.report(document.problem.message, document.problem.span)
+    if (problem := document.problem) is not None:
+        reader.report(problem.what, problem.span, problem.fix)
     root = document.root
     if not isinstance(root, YamlMapping) or len(root.pairs) != 1:
         reader.report("it has one outermost key, the namespace in C++", SourceSpan(str(file), 1))
@@ -142,7 +142,7 @@ class _Reader:
         self._file = file
 
     def report(self, text: str, span: SourceSpan, fix: str = "") -> None:
-        """Collect an error."""
+        """Collect an error; raise where nothing can be read any more."""
         self.diagnostics.report(_CODE, text, span, fix=fix)
         if not isinstance(self._document.root, YamlMapping):
             self.diagnostics.raise_if_errors()
