@@ -206,8 +206,10 @@ def _c_compiler(command: tuple[str, ...], cc: str, path: str) -> tuple[str, ...]
     beside = Path(command[0]).with_name(partner)
     if os.access(beside, os.X_OK):
         return (str(beside), *command[1:])
-    found = shutil.which(partner, path=path)
-    return (found, *command[1:]) if found else (*command, "-xc")
+    for other in (partner, "cc", "gcc", "clang"):
+        if found := shutil.which(other, path=path):
+            return (found, *command[1:])
+    return (*command, "-xc")
 
 
 def _described(command: tuple[str, ...], c_command: tuple[str, ...]) -> Toolchain:

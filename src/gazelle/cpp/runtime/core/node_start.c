@@ -8,12 +8,22 @@
 #error "this file is C"
 #endif
 
+/* What nothing refers to is kept by linkers that leave such things out. */
+#if defined(__has_attribute)
+#if __has_attribute(retain)
+#define KEPT used, retain
+#endif
+#endif
+#ifndef KEPT
+#define KEPT used
+#endif
+
 extern int main(int argc, char **argv) __attribute__((visibility("hidden")));
 
-__attribute__((visibility("default"))) int (*gazelle_node_main)(int, char **) = main;
+__attribute__((visibility("default"), KEPT)) int (*gazelle_node_main)(int, char **) = main;
 
-__attribute__((visibility("default"), used)) const char gazelle_node_mark[] = "gazelle-node-abi-1";
+__attribute__((visibility("default"), KEPT)) const char gazelle_node_mark[] = "gazelle-node-abi-1";
 
 #ifdef GAZELLE_INTERPRETER
-__attribute__((section(".interp"), used)) static const char interpreter[] = GAZELLE_INTERPRETER;
+__attribute__((section(".interp"), KEPT)) static const char interpreter[] = GAZELLE_INTERPRETER;
 #endif
