@@ -53,6 +53,7 @@ def _ros2(name: str, *libraries: str, targets: tuple[str, ...] = ()) -> Provided
 _ROWS = (
     # Build systems and generators.
     ProvidedPackage("catkin", (), (1,), scripts=("catkin",)),
+    ProvidedPackage("catkin_simple", (), (1,), scripts=("catkin", "messages", "catkin_simple")),
     ProvidedPackage("rosbuild", (), (1,), scripts=("rosbuild",)),
     ProvidedPackage("genmsg", (), (1,), scripts=("messages",)),
     ProvidedPackage("message_generation", (), (1,), scripts=("messages",)),
@@ -100,6 +101,7 @@ _ROWS = (
     ),
     ProvidedPackage("backward_ros", (), (2,)),
     ProvidedPackage("eigen3_cmake_module", (), (2,)),
+    ProvidedPackage("ros2_control_cmake", (), (2,), scripts=("ros2_control_cmake",)),
     # ROS 1.
     *(
         _ros1(name)
