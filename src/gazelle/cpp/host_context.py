@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import atexit
+import ctypes
 import itertools
+import os
+import signal
 import sys
 import threading
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -266,17 +270,19 @@ class HostContext:
         one = self._nodes.get(node)
         clock = self._graph.clock if self._graph is not None else None
         sim_ns = clock.now_ns() if clock is not None and clock.use_sim_time else None
-        import time
-
         name = "" if one is None else getattr(one.node, "name", "")
         record = LogRecord(
             severity, text, name, time.time_ns(), sim_ns, logger, file, function, line
         )
         tell = None if one is None else getattr(one.node, "tell", None)
-        if one is None or tell is None:
-            print_record(record)
-        else:
-            tell(record, padded=one.padded, console=one.console)
+        try:
+            if one is None or tell is None:
+                print_record(record)
+            else:
+                tell(record, padded=one.padded, console=one.console)
+        except BrokenPipeError:
+            # Nobody reads any more what it says, as in ``rosrun … | head``.
+            _end_by_pipe()
 
     def _opened(self) -> Graph:
         if self._open_graph is not None:
@@ -302,3 +308,10 @@ class HostContext:
             self.core.on_graph_change()
         except GazelleError as error:
             sys.stderr.write(f"{error}\n")
+
+
+def _end_by_pipe() -> None:
+    """End as a program does that has not said otherwise; Python has."""
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGPIPE})
+    ctypes.CDLL(None).signal(int(signal.SIGPIPE), None)
+    os.kill(os.getpid(), signal.SIGPIPE)

@@ -92,4 +92,13 @@ ENTRIES = (
         "make some room there, or name another folder by XDG_CACHE_HOME",
         "No space left on device",
     ),
+    Entry(
+        "cpp.not-loaded",
+        "error",
+        "A compiled node cannot be loaded",
+        "The system's loader says why above: a library that it was linked with is not there any "
+        "more, or a function that it uses is in none of its libraries.",
+        "build the package again, and link what has the function with target_link_libraries()",
+        "error while loading shared libraries",
+    ),
 )
