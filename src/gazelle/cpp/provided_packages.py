@@ -64,7 +64,7 @@ _ROWS = (
     ProvidedPackage("roslint", (), (1,), scripts=("roslint",)),
     ProvidedPackage("ament_cmake", (), (2,), scripts=("ament",)),
     ProvidedPackage("ament_cmake_auto", (), (2,), scripts=("ament", "ament_auto")),
-    ProvidedPackage("ament_cmake_ros", (), (2,), scripts=("ament",)),
+    ProvidedPackage("ament_cmake_ros", (), (2,), scripts=("ament", "ament_ros")),
     *(
         ProvidedPackage(name, (), (2,), scripts=("ament",))
         for name in (
@@ -158,8 +158,6 @@ _ROWS = (
             "rcl_yaml_param_parser",
             "rcl_logging_interface",
             "rclcpp",
-            "rclcpp_action",
-            "rclcpp_lifecycle",
             "rcpputils",
             "rcutils",
             "rmw",
@@ -198,9 +196,11 @@ _ROWS = (
             "rosidl_adapter",
         )
     ),
+    _ros2("rclcpp_action", "rclcpp_action"),
+    _ros2("rclcpp_lifecycle", "rclcpp_lifecycle"),
     ProvidedPackage(
         "rclcpp_components",
-        ("rclcpp",),
+        ("rclcpp_components",),
         (2,),
         ("rclcpp_components::component", "rclcpp_components::component_manager"),
         ("components",),

@@ -49,7 +49,16 @@ _COMMON_FLAGS = (
     "-DBOOST_ALLOW_DEPRECATED_HEADERS",
 )
 
-ZIG_FLAGS = ("-mcpu=baseline", "-fno-sanitize=undefined")
+
+def _zig_target() -> tuple[str, ...]:
+    """Name this machine to zig: for a machine that has a name it takes no headers of the system."""
+    if sys.platform != "linux":
+        return ()
+    kind = "gnu" if platform.libc_ver()[0] == "glibc" else "musl"
+    return ("-target", f"{platform.machine()}-linux-{kind}")
+
+
+ZIG_FLAGS = (*_zig_target(), "-mcpu=baseline", "-fno-sanitize=undefined")
 """Of every call, for zig builds its C++ library anew for other ones."""
 
 Kind = Literal["gcc", "clang", "zig"]
@@ -223,7 +232,7 @@ def _described(command: tuple[str, ...], c_command: tuple[str, ...]) -> Toolchai
     system_boost = None if boost is not None or kind == "zig" else _system_boost()
     eigen = _eigen(of_system=kind != "zig")
     words = (kind, command, c_command, version, str(boost), str(eigen), _stamp(command[0]))
-    text = repr((*words, platform.machine(), _COMMON_FLAGS))
+    text = repr((*words, platform.machine(), _COMMON_FLAGS, ZIG_FLAGS if kind == "zig" else ()))
     key = hashlib.sha256(text.encode(errors="surrogateescape")).hexdigest()[:12]
     return Toolchain(kind, command, c_command, version, boost, eigen, system_boost, key)
 

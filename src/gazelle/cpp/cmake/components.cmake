@@ -54,7 +54,7 @@ function(rclcpp_components_register_node target)
     set(source "${CMAKE_BINARY_DIR}/rclcpp_components/node_main_${arguments_EXECUTABLE}.cpp")
     configure_file("${GAZELLE_CMAKE_FOLDER}/component_main.cpp.in" "${source}" @ONLY)
     add_executable("${arguments_EXECUTABLE}" "${source}")
-    gazelle_library_files(files rclcpp)
+    gazelle_library_files(files rclcpp_components)
     # The library registers its classes when it is loaded: nothing in it is named here.
     set_property(TARGET "${arguments_EXECUTABLE}" APPEND PROPERTY LINK_LIBRARIES
       "-Wl,--no-as-needed" "${target}" "-Wl,--as-needed" ${files})

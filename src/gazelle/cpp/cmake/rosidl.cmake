@@ -1,6 +1,8 @@
 # Messages, services and actions of packages of ROS 2: their headers are generated while CMake reads
 # the package.
 
+gazelle_load(ament)
+
 function(rosidl_generate_interfaces target)
   cmake_parse_arguments(arguments "ADD_LINTER_TESTS;SKIP_INSTALL;SKIP_GROUP_MEMBERSHIP_CHECK"
     "LIBRARY_NAME" "DEPENDENCIES" ${ARGN})
@@ -39,9 +41,9 @@ function(rosidl_generate_interfaces target)
         add_library("${name}" INTERFACE)
         add_library("${PROJECT_NAME}::${name}" ALIAS "${name}")
         set_property(TARGET "${name}" PROPERTY INTERFACE_INCLUDE_DIRECTORIES
-          "$<BUILD_INTERFACE:${folder}>")
-        set_property(TARGET "${name}" PROPERTY INTERFACE_LINK_LIBRARIES
-          "$<BUILD_INTERFACE:${links}>")
+          "$<BUILD_INTERFACE:${folder}>" "$<INSTALL_INTERFACE:include/${PROJECT_NAME}>")
+        set_property(TARGET "${name}" PROPERTY INTERFACE_LINK_LIBRARIES "${links}")
+        list(APPEND made "${name}")
       endif()
     endforeach()
   endforeach()
@@ -54,12 +56,10 @@ function(rosidl_generate_interfaces target)
       get_filename_component(kind "${parent}" NAME)
       install(FILES "${path}" DESTINATION "share/${PROJECT_NAME}/${kind}")
     endforeach()
-    set_property(GLOBAL APPEND PROPERTY gazelle_export_folders "include/${PROJECT_NAME}")
-    set_property(GLOBAL APPEND PROPERTY gazelle_export_depends ${arguments_DEPENDENCIES})
-    set_property(GLOBAL APPEND PROPERTY gazelle_export_targets
-      "${PROJECT_NAME}::${target}__rosidl_typesupport_cpp"
-      "${PROJECT_NAME}::${target}__rosidl_generator_cpp" "${PROJECT_NAME}::${target}__rosidl_generator_c"
-      "${PROJECT_NAME}::${target}__rosidl_typesupport_c")
+    install(TARGETS ${made} EXPORT "gazelle_interfaces_${target}")
+    ament_export_targets("gazelle_interfaces_${target}")
+    ament_export_include_directories("include/${PROJECT_NAME}")
+    ament_export_dependencies(${arguments_DEPENDENCIES})
     ament_index_register_resource(rosidl_interfaces)
   endif()
   set(${target}_FOUND TRUE PARENT_SCOPE)
