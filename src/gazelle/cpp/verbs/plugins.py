@@ -67,22 +67,25 @@ def library(host: HostContext, request: dict[str, Any]) -> dict[str, str]:
     """
     from gazelle.cpp.build_runtime import libraries_for
     from gazelle.cpp.plugins import library_file
+    from gazelle.cpp.signal_mask import signals_for_children
     from gazelle.diagnostics import Diagnostics, SourceSpan, render_text
 
     workspace, diagnostics = workspace_of(host), Diagnostics()
     package = workspace.package(request["package"])
-    found = library_file(
-        package,
-        request["library"],
-        workspace=workspace,
-        diagnostics=diagnostics,
-        span=SourceSpan(request["manifest"]),
-    )
+    with signals_for_children():
+        found = library_file(
+            package,
+            request["library"],
+            workspace=workspace,
+            diagnostics=diagnostics,
+            span=SourceSpan(request["manifest"]),
+        )
+        needed = [] if found is None else libraries_for(found)
     told = "\n".join(render_text(item) for item in diagnostics)
     if found is None:
         raise GazelleError(told or "the library is not there")
     if told:
         host.log(0, 30, told, "", ("", 0, ""))
-    for path in libraries_for(found):
+    for path in needed:
         ctypes.CDLL(str(path), mode=ctypes.RTLD_GLOBAL)
     return {"path": str(found)}
