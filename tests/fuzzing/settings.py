@@ -11,7 +11,6 @@ import yaml
 from tests.fuzzing.kind import Kind
 
 from gazelle.cli.catkin import load_profile
-from gazelle.graph.ros2_arguments import parse_ros_arguments
 from gazelle.description.loader import load_models
 from gazelle.description.model import Model
 from gazelle.description.moveit.config import typed_config
@@ -23,6 +22,7 @@ from gazelle.doctor.launch_ros2.launch_tree import follow
 from gazelle.doctor.parameters.all_checks import check_parameter_file
 from gazelle.documents.yaml import load_yaml
 from gazelle.errors import GazelleError, LaunchError
+from gazelle.graph.ros2_arguments import parse_ros_arguments
 from gazelle.launch.ros2.error_diagnostics import diagnose
 from gazelle.launch.ros2.frontend import Parser
 from gazelle.launch.ros2.invalid_launch_file_error import InvalidLaunchFileError

@@ -126,7 +126,7 @@ class Toolchain:
 
     @property
     def programs(self) -> tuple[str, str, str, str]:
-        """C++ compiler, C compiler, archiver and ranlib, one word each; empty for CMake's choice."""
+        """C++ and C compiler, archiver, ranlib, one word each; empty for CMake's choice."""
         if self.kind != "zig":
             return " ".join(self.command[:1]), " ".join(self.c_command[:1]), "", ""
         from gazelle.cpp.build_tools import zig_programs

@@ -70,7 +70,8 @@ def manifest(name: str, tool: str = "catkin", *depends: str) -> str:
     rows = "".join(f"<depend>{item}</depend>" for item in depends)
     export = f"<export><build_type>{tool}</build_type></export>"
     return (
-        f'<package format="3"><name>{name}</name><version>1.2.3</version><description>d</description>'
+        f'<package format="3"><name>{name}</name><version>1.2.3</version>'
+        "<description>d</description>"
         f'<maintainer email="a@b.c">a</maintainer><license>MIT</license>'
         f"<buildtool_depend>{tool}</buildtool_depend>{rows}{export}</package>"
     )

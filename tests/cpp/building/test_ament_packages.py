@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from tests.cpp.building.conftest import Packages, manifest, needs_compiler
 
 from gazelle.cpp.build import build_package, ensure_built, ensure_installed
 from gazelle.cpp.elf_file import is_node_file
@@ -12,7 +13,6 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.workspace import Workspace
 from gazelle.workspace.building.compile_step import CompileRequest
 from gazelle.workspace.building.packages import find_packages, in_order
-from tests.cpp.building.conftest import Packages, manifest, needs_compiler
 
 pytestmark = [needs_compiler, pytest.mark.usefixtures("stub_runtime"), pytest.mark.slow(20)]
 

@@ -9,10 +9,10 @@ import threading
 from pathlib import Path
 
 import pytest
+from tests.patience import eventually
 
 from gazelle.cpp import build_cache
 from gazelle.cpp.build_cache import cache_top, digest_of_file, make_whole, only_one, stat_signature
-from tests.patience import eventually
 
 
 def test_a_folder_gets_its_name_when_it_is_whole(tmp_path: Path) -> None:

@@ -7,11 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from tests.cpp.building.conftest import needs_compiler
 
 from gazelle.cpp.build_errors import CppBuildError
 from gazelle.cpp.build_objects import Job, compiled
 from gazelle.cpp.toolchain import Toolchain, find_toolchain
-from tests.cpp.building.conftest import needs_compiler
 
 pytestmark = needs_compiler
 

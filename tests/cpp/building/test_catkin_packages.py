@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 import pytest
+from tests.cpp.building.conftest import Packages, manifest, needs_compiler
 
 from gazelle.cpp.build import build_package, ensure_all_built, ensure_built, ensure_library_built
 from gazelle.cpp.elf_file import is_node_file, needed_libraries
@@ -13,7 +14,6 @@ from gazelle.diagnostics import Diagnostics
 from gazelle.workspace import Workspace
 from gazelle.workspace.building.compile_step import CompileRequest
 from gazelle.workspace.building.packages import find_packages
-from tests.cpp.building.conftest import Packages, manifest, needs_compiler
 
 pytestmark = [needs_compiler, pytest.mark.usefixtures("stub_runtime"), pytest.mark.slow(20)]
 

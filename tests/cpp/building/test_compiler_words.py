@@ -7,9 +7,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from tests.cpp.building.conftest import needs_compiler
 
 from gazelle.cpp.toolchain import find_toolchain
-from tests.cpp.building.conftest import needs_compiler
 
 pytestmark = needs_compiler
 
@@ -37,7 +37,9 @@ def test_what_fits_is_kept(launcher: Path, kept: str) -> None:
     assert passed(launcher, kept) == [kept]
 
 
-@pytest.mark.parametrize("flag", ["-march=native", "-mtune=native", "-Werror", "-Werror=return-type"])
+@pytest.mark.parametrize(
+    "flag", ["-march=native", "-mtune=native", "-Werror", "-Werror=return-type"]
+)
 def test_what_does_not_fit_is_left_out(launcher: Path, flag: str) -> None:
     assert passed(launcher, "-O1", flag, "-g") == ["-O1", "-g"]
 

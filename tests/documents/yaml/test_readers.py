@@ -22,7 +22,6 @@ from gazelle.cli.rostopic.pub import _file_documents as read_message_file
 from gazelle.cli.text.fill_message import yaml_values, yaml_words
 from gazelle.compat.command_modules.rosparam import RosParamException, load_str
 from gazelle.compat.moveit_configs.parameter_files import load_yaml as load_moveit_yaml
-from gazelle.graph.ros2_arguments import parse_ros_arguments
 from gazelle.compat.rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
 from gazelle.control.parameter_sources.ros2_controller_parameters import read_ros_arguments
 from gazelle.control.parameter_sources.ros2_parameter_file import read_parameter_file
@@ -35,6 +34,7 @@ from gazelle.doctor.parameters.all_checks import check_parameter_file
 from gazelle.documents.yaml import YamlError
 from gazelle.errors import GazelleError, LaunchError
 from gazelle.graph.names import parse_command_line
+from gazelle.graph.ros2_arguments import parse_ros_arguments
 from gazelle.launch.launch_config import LaunchConfig
 from gazelle.launch.ros1.loader import load_launch_text
 from gazelle.launch.ros2.actions.for_loop import ForEach

@@ -11,8 +11,8 @@ ENTRIES = (
         "cpp.no-compiler",
         "error",
         "There is nothing here that compiles C++",
-        "C++ of packages is compiled on your machine by its C++ compiler, CMake and ninja; the extra "
-        "brings all of them as wheels where the system has none.",
+        "C++ of packages is compiled on your machine by its C++ compiler, CMake and ninja; the "
+        "extra brings all of them as wheels where the system has none.",
         "pip install 'gazelle-sim[cpp]'",
     ),
     Entry(
@@ -37,8 +37,8 @@ ENTRIES = (
         "cpp.missing-package",
         "error",
         "CMakeLists.txt asks for a package that is nowhere",
-        "It is neither in the workspace nor among those that Gazelle brings, and the system's CMake "
-        "finds none of its name.",
+        "It is neither in the workspace nor among those that Gazelle brings, and the system's "
+        "CMake finds none of its name.",
         "put the package into the workspace, or install it on this system",
         "Could not find a package configuration file provided by",
     ),

@@ -369,8 +369,8 @@ _PACKAGES = (
         "package.cpp-header",
         "warning",
         "C++ of a package includes a header that is not here",
-        "Gazelle has headers of its own under the names of ROS's; this one is neither among them nor"
-        " in the workspace, nor is it the system's. The node is left out, the rest is built.",
+        "Gazelle has headers of its own under the names of ROS's; this one is neither among them "
+        "nor in the workspace, nor is it the system's. The node is left out, the rest is built.",
         "put the package that has it into the workspace, install its library, or see"
         " docs/cpp_headers.md for what there is",
         "fatal error: No such file or directory",

@@ -185,8 +185,8 @@ _ROS1 = (
         "launch.compiled-node",
         "error",
         "A node is compiled code that nothing builds",
-        "Gazelle compiles the C++ that CMakeLists.txt makes programs of; this file it does not name,"
-        " or it is of another language.",
+        "Gazelle compiles the C++ that CMakeLists.txt makes programs of; this file it does not "
+        "name, or it is of another language.",
         "add_executable() and target_link_libraries() in CMakeLists.txt",
         "Cannot locate node of type in package",
     ),
