@@ -236,14 +236,20 @@ std::vector<Slot> slotsFrom(const Json& rows, const Json& described) {
 void match(std::vector<Slot>& slots, const std::vector<Slot>& others) {
   for (Slot& slot : slots)
     for (std::size_t i = 0; i < others.size(); ++i)
-      if (others[i].name == slot.name) slot.other = static_cast<int>(i);
+      if (!slot.name.empty() && others[i].name == slot.name) slot.other = static_cast<int>(i);
 }
 
 const Type& typeLocked(const std::string& name, const Json& described) {
-  std::unique_ptr<Type>& kept = types().known[name];
-  if (kept) return *kept;
-  auto made = std::make_unique<Type>();
   const Json& own = described[name];
+  std::unique_ptr<Type>& kept = types().known[name];
+  if (kept) {  // others hold pointers to it
+    if (kept->md5.empty()) {
+      kept->definition = own["definition"].as_string();
+      kept->md5 = own["md5"].as_string();
+    }
+    return *kept;
+  }
+  auto made = std::make_unique<Type>();
   made->cdr = slotsFrom(own["cdr"], described);
   made->ros1 = slotsFrom(own["ros1"], described);
   match(made->cdr, made->ros1);
@@ -263,7 +269,6 @@ const Type& typeOf(const std::string& given, const std::string& definition) {
     return *found->second;
   const Json described = gazelle::call(
       "wire/type", Json::object({{"type", name}, {"definition", definition}}));
-  types().known.erase(name);
   return typeLocked(name, described);
 }
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace image_transport {
+
+class Exception : public std::runtime_error {
+ public:
+  Exception(const std::string& message) : std::runtime_error(message) {}
+};
+
+/// The plugin of a transport is not there, or cannot be loaded.
+class TransportLoadException : public Exception {
+ public:
+  TransportLoadException(const std::string& transport, const std::string& message)
+      : Exception("Unable to load plugin for transport '" + transport + "', error string:\n" +
+                  message),
+        transport_(transport) {}
+  std::string getTransport() const { return transport_; }
+
+ protected:
+  std::string transport_;
+};
+
+}  // namespace image_transport

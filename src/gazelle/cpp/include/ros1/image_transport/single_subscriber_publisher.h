@@ -1,0 +1,38 @@
+#pragma once
+
+#include <image_transport/exports.h>
+#include <ros/ros.h>
+#include <sensor_msgs/Image.h>
+
+#include <boost/function.hpp>
+#include <string>
+
+namespace image_transport {
+
+/// What a connect callback gets.
+class SingleSubscriberPublisher {
+ public:
+  typedef boost::function<uint32_t()> GetNumSubscribersFn;
+  typedef boost::function<void(const sensor_msgs::Image&)> PublishFn;
+
+  SingleSubscriberPublisher(const std::string& caller_id, const std::string& topic,
+                            const GetNumSubscribersFn& num_subscribers_fn,
+                            const PublishFn& publish_fn)
+      : caller_id_(caller_id),
+        topic_(topic),
+        num_subscribers_fn_(num_subscribers_fn),
+        publish_fn_(publish_fn) {}
+  std::string getSubscriberName() const { return caller_id_; }
+  std::string getTopic() const { return topic_; }
+  uint32_t getNumSubscribers() const { return num_subscribers_fn_(); }
+  void publish(const sensor_msgs::Image& message) const { publish_fn_(message); }
+  void publish(const sensor_msgs::ImageConstPtr& message) const { publish_fn_(*message); }
+
+ private:
+  std::string caller_id_, topic_;
+  GetNumSubscribersFn num_subscribers_fn_;
+  PublishFn publish_fn_;
+};
+typedef boost::function<void(const SingleSubscriberPublisher&)> SubscriberStatusCallback;
+
+}  // namespace image_transport

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <image_transport/exports.h>
+#include <image_transport/transport_hints.h>
+#include <sensor_msgs/Image.h>
+
+#include <boost/function.hpp>
+#include <boost/shared_ptr.hpp>
+#include <string>
+
+namespace image_transport {
+
+class ImageTransport;
+
+/// Images of one transport.
+class IMAGE_TRANSPORT_DECL Subscriber {
+ public:
+  Subscriber() {}
+
+  std::string getTopic() const;
+  uint32_t getNumPublishers() const;
+  std::string getTransport() const;
+  void shutdown();
+
+  operator void*() const { return isValid() ? reinterpret_cast<void*>(1) : 0; }
+  bool operator<(const Subscriber& other) const { return impl_ < other.impl_; }
+  bool operator!=(const Subscriber& other) const { return impl_ != other.impl_; }
+  bool operator==(const Subscriber& other) const { return impl_ == other.impl_; }
+
+ private:
+  friend class ImageTransport;
+  bool isValid() const;
+
+  struct Impl;
+  boost::shared_ptr<Impl> impl_;
+};
+
+}  // namespace image_transport
