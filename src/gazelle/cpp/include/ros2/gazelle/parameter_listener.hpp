@@ -10,7 +10,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -145,17 +144,12 @@ class Listener {
     take(parameters);
   }
 
-  // After the keys of a map have changed: parameters of new keys are declared, of old ones not.
+  // After the keys of a map have changed: parameters of new keys are declared. Those of old keys
+  // leave the structure and stay declared, for rclcpp undeclares nothing that has a fixed type.
   void refresh_dynamic_parameters() {
     Parameters parameters = get_params();
     Visit::prune(parameters);
-    const std::set<std::string> before = std::exchange(declared_, {});
     declare_all(parameters);
-    for (const std::string &name : before) {
-      if (declared_.count(name) == 0 && interface_->has_parameter(name)) {
-        interface_->undeclare_parameter(name);
-      }
-    }
     take(parameters);
   }
 
@@ -185,7 +179,6 @@ class Listener {
   template <class T>
   void declare(const Spec &spec, T &member) {
     const std::string name = prefix_ + spec.name;
-    declared_.insert(name);
     if (!interface_->has_parameter(name)) {
       Descriptor descriptor;
       descriptor.description = spec.description;
@@ -226,7 +219,6 @@ class Listener {
   std::string prefix_;
   Parameters parameters_;
   rclcpp::Clock clock_;
-  std::set<std::string> declared_;
   Interface interface_;
   std::shared_ptr<rclcpp::node_interfaces::OnSetParametersCallbackHandle> handle_;
   userParameterUpdateCB callback_;
