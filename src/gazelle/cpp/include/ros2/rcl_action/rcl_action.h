@@ -1,0 +1,3 @@
+#pragma once
+
+#include "rcl_action/types.h"

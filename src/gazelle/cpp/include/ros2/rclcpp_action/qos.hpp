@@ -1,0 +1,13 @@
+#pragma once
+
+#include "rclcpp/qos.hpp"
+#include "rcl_action/types.h"
+
+namespace rclcpp_action {
+
+class DefaultActionStatusQoS : public rclcpp::QoS {
+ public:
+  DefaultActionStatusQoS() : rclcpp::QoS(1) { reliable().transient_local(); }
+};
+
+}  // namespace rclcpp_action

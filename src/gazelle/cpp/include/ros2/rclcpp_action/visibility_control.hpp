@@ -1,0 +1,5 @@
+#pragma once
+
+#define RCLCPP_ACTION_EXPORT __attribute__((visibility("default")))
+#define RCLCPP_ACTION_PUBLIC __attribute__((visibility("default")))
+#define RCLCPP_ACTION_LOCAL __attribute__((visibility("hidden")))

@@ -1,0 +1,5 @@
+#pragma once
+
+#define RCLCPP_LIFECYCLE_EXPORT __attribute__((visibility("default")))
+#define RCLCPP_LIFECYCLE_PUBLIC __attribute__((visibility("default")))
+#define RCLCPP_LIFECYCLE_LOCAL __attribute__((visibility("hidden")))
