@@ -25,6 +25,7 @@ _PICTURES = [str(_ROOT / ".ci" / "pictures.py")]
 PAGES = {
     "builtin_nodes.md": "gazelle.node_specs.docs",
     "controllers.md": "gazelle.control.controllers",
+    "cpp_headers.md": "gazelle.cpp.documentation",
     "diagnostics.md": "gazelle.diagnostics.documentation",
     "launch.md": "gazelle.launch.ros2.documentation",
     "navigation.md": "gazelle.nodes.navigation.docs",

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the pictures of docs/architecture.md: the layers, a scan's way, a command's way.
+"""Draws the pictures of the ways things go: the layers, a scan's way, a command's, a source's.
 
     python .ci/pictures.py [FOLDER]
 
@@ -16,7 +16,7 @@ from html import escape
 from pathlib import Path
 from typing import NamedTuple
 
-__all__ = ["COMMAND", "SCAN", "Lane", "Step", "layers", "pictures"]
+__all__ = ["COMMAND", "CPP", "SCAN", "Lane", "Step", "layers", "pictures"]
 
 _ROOT = Path(__file__).resolve().parents[1]
 _WIDTH = 860
@@ -117,6 +117,28 @@ COMMAND = (
     ),
 )
 
+CPP = (
+    Lane(
+        "launch, rosrun, catkin_make, colcon build",
+        (
+            Step("gazelle.launch.cpp_nodes", "finds all programs of C++ that are about to start"),
+            Step("gazelle.cpp.interfaces", "makes headers of messages, services, actions, .cfg"),
+            Step("gazelle.cpp.build_cmake", "lets CMake read CMakeLists.txt; ROS is Gazelle's"),
+            Step("gazelle.cpp.build_runtime", "compiles the libraries behind the headers, once"),
+            Step("gazelle.cpp.build", "lets ninja compile on all cores what has changed"),
+        ),
+    ),
+    Lane(
+        "node",
+        (
+            Step("gazelle.cpp.host", "loads the program and runs its main() in this process"),
+            Step("gazelle.cpp.host_table", "functions of C by which C++ asks for what is outside"),
+            Step("gazelle.cpp.host_topics", "publishes and subscribes as nodes in Python do"),
+            Step("gazelle.graph.publisher", "puts it on the graph, over Zenoh's local link"),
+        ),
+    ),
+)
+
 
 def main(arguments: list[str]) -> int:
     """Write the pictures into a folder."""
@@ -133,6 +155,7 @@ def pictures() -> dict[str, str]:
         "layers.svg": _stack(layers()),
         "scan.svg": _way("A scan on its way from the world to a node and to the page", SCAN),
         "command.svg": _way("A command on its way from a key to the wheels", COMMAND),
+        "cpp.svg": _way("A source file on its way to a node of the graph", CPP),
     }
 
 

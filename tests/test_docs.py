@@ -17,6 +17,7 @@ from tests.ci_scripts import ci_script
 from tests.patience import stretched
 
 from gazelle.compat.unsupported.docs import unsupported_markdown
+from gazelle.cpp.documentation import headers_markdown
 from gazelle.diagnostics.catalogue import all_entries
 from gazelle.diagnostics.documentation import catalogue_markdown
 from gazelle.node_specs.docs import nodes_markdown
@@ -39,6 +40,12 @@ def test_page_of_refused_names_is_generated_from_their_tables() -> None:
     assert page == unsupported_markdown(), f"run: {command}"
 
 
+def test_page_of_cpp_headers_is_generated_from_the_headers() -> None:
+    page = (ROOT / "docs" / "cpp_headers.md").read_text(encoding="utf-8")
+    command = "python -m gazelle.cpp.documentation > docs/cpp_headers.md"
+    assert page == headers_markdown(), f"run: {command}"
+
+
 def test_page_of_nodes_is_generated_from_their_rows() -> None:
     page = (ROOT / "docs" / "builtin_nodes.md").read_text(encoding="utf-8")
     command = "python -m gazelle.node_specs.docs > docs/builtin_nodes.md"
@@ -59,7 +66,8 @@ def test_pictures_of_the_architecture_are_those_of_its_table_and_modules() -> No
     for name, text in drawn.pictures().items():
         path = ROOT / "docs" / "pictures" / name
         assert path.read_text(encoding="utf-8") == text, "run: python .ci/pages.py"
-    steps = [step for way in (drawn.SCAN, drawn.COMMAND) for lane in way for step in lane.steps]
+    ways = (drawn.SCAN, drawn.COMMAND, drawn.CPP)
+    steps = [step for way in ways for lane in way for step in lane.steps]
     for step in steps:
         assert importlib.util.find_spec(step.module) is not None, step.module
 

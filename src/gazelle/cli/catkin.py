@@ -150,7 +150,12 @@ def build(argv: list[str]) -> int:
     left = run_jobs(
         chosen,
         lambda item: build_catkin_package(
-            item, profile.spaces, definitions, installs=profile.installs, compile_step=step
+            item,
+            profile.spaces,
+            definitions,
+            installs=profile.installs,
+            compile_step=step,
+            workspace=everything,
         ),
         everything=everything,
         workers=options.jobs or os.cpu_count() or 1,

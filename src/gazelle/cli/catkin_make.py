@@ -45,11 +45,15 @@ def main(argv: list[str]) -> int:
     for tokens, folder in zip(("Source", "Build", "Devel", "Install"), spaces, strict=True):
         print(f"{tokens} space: {folder}" if tokens != "Source" else
               f"Base path: {base}\nSource space: {folder}")  # fmt: skip
-    packages = _packages(spaces, options, definitions)
+    everything, packages = _packages(spaces, options, definitions)
     outcomes = _build(
-        packages, spaces, definitions, installs="install" in targets, jobs=options.jobs
+        packages, everything, spaces, definitions, installs="install" in targets, jobs=options.jobs
     )
-    failed = [outcome.name for outcome in outcomes if outcome.code]
+    failed = [outcome for outcome in outcomes if outcome.code]
+    if any(outcome.output for outcome in failed):
+        # It came as far as the compiler.
+        print('Invoking "make" failed', file=sys.stderr)
+        return 1
     if failed:
         print("-- Configuring incomplete, errors occurred!")
         print('Invoking "cmake" failed', file=sys.stderr)
@@ -103,7 +107,8 @@ def _check(base: Path, spaces: CatkinSpaces) -> None:
 
 def _packages(
     spaces: CatkinSpaces, options: argparse.Namespace, definitions: dict[str, str]
-) -> tuple[SourcePackage, ...]:
+) -> tuple[tuple[SourcePackage, ...], tuple[SourcePackage, ...]]:
+    """Return all packages of the workspace, and those to build, in order."""
     diagnostics = Diagnostics()
     found = in_order(find_packages([spaces.source], diagnostics))
     if len(diagnostics):
@@ -124,7 +129,7 @@ def _packages(
     names = set(options.pkg) | needed_by(options.only_pkg_with_deps, found) if wanted else known
     white = set(filter(None, definitions.get("CATKIN_WHITELIST_PACKAGES", "").split(";")))
     black = set(definitions.get("CATKIN_BLACKLIST_PACKAGES", "").split(";"))
-    return tuple(
+    return found, tuple(
         item for item in found
         if item.name in names and item.name not in black and (not white or item.name in white)
     )  # fmt: skip
@@ -132,6 +137,7 @@ def _packages(
 
 def _build(
     packages: Sequence[SourcePackage],
+    everything: Sequence[SourcePackage],
     spaces: CatkinSpaces,
     definitions: dict[str, str],
     *,
@@ -148,7 +154,12 @@ def _build(
             print(f"-- ==> add_subdirectory({item.path.relative_to(spaces.source)})", flush=True)
             outcomes.append(
                 build_catkin_package(
-                    item, spaces, definitions, installs=installs, compile_step=step
+                    item,
+                    spaces,
+                    definitions,
+                    installs=installs,
+                    compile_step=step,
+                    workspace=everything,
                 )
             )
             if outcomes[-1].errors:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 import os
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -32,6 +32,7 @@ from gazelle.cpp.runtime_libraries import HERE
 from gazelle.cpp.toolchain import NoToolchainError, Toolchain, find_toolchain
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, render_text
 from gazelle.workspace import Package, Workspace
+from gazelle.workspace.building.build import takes_part_in_cpp
 from gazelle.workspace.building.compile_step import Compiled, CompileRequest
 
 __all__ = [
@@ -265,8 +266,8 @@ def _unit_of_request(request: CompileRequest) -> Unit:
         install=request.install,
         definitions=dict(request.definitions),
         prefixes=request.prefixes,
-        empty_packages=_empty_packages(request.prefixes),
-        sources=_sources_of(request.prefixes),
+        empty_packages=(*_empty_packages(request.prefixes), *_without_cpp(request)),
+        sources=(*_sources_of(request.prefixes), *(other.path for other in request.others)),
         build_depends=depends["build"],
         buildtool_depends=depends["tool"],
         run_depends=depends["run"],
@@ -314,6 +315,13 @@ def _empty_packages(prefixes: Iterable[Path]) -> tuple[str, ...]:
             ):
                 names.setdefault(folder.name)
     return tuple(names)
+
+
+def _without_cpp(request: CompileRequest) -> Iterator[str]:
+    """Yield the names of packages of the workspace that give nothing to a compiler but messages."""
+    for other in request.others:
+        if not takes_part_in_cpp(other, request.definitions):
+            yield other.name
 
 
 def _sources_of(prefixes: Iterable[Path]) -> tuple[Path, ...]:

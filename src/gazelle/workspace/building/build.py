@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan, render_text
 from gazelle.workspace.building.cmake_lists import read_cmake_lists
-from gazelle.workspace.building.cmake_plan import has_compiled_targets, plan_cmake
+from gazelle.workspace.building.cmake_plan import gives_to_cpp, has_compiled_targets, plan_cmake
 from gazelle.workspace.building.compile_step import Compiled, CompileRequest, CompileStep
 from gazelle.workspace.building.install import install
 from gazelle.workspace.building.packages import SourcePackage, needed_by
@@ -26,6 +26,7 @@ __all__ = [
     "build_package",
     "needs_compiler",
     "run_jobs",
+    "takes_part_in_cpp",
 ]
 
 BUILD_TYPES = ("ament_cmake", "ament_python", "catkin", "cmake")
@@ -101,7 +102,7 @@ def build_package(
     compiled = Compiled()
     if plan.diagnostics.errors:
         code = _PYTHON_CODE if package.build_type == "ament_python" else _CMAKE_CODE
-    elif compile_step is not None and needs_compiler(package, options.definitions):
+    elif compile_step is not None and takes_part_in_cpp(package, options.definitions):
         # Before the rest: what it installs too is linked afterwards where links are wanted.
         compiled = compile_step(
             CompileRequest(
@@ -132,6 +133,12 @@ def needs_compiler(package: SourcePackage, definitions: Mapping[str, str]) -> bo
     """Tell whether a package has C++ to compile, or libraries of headers alone."""
     lists = read_cmake_lists(package.path, package.name, definitions)
     return lists is not None and has_compiled_targets(lists)
+
+
+def takes_part_in_cpp(package: SourcePackage, definitions: Mapping[str, str]) -> bool:
+    """Tell whether a package has C++, or messages and the like of which C++ needs headers."""
+    lists = read_cmake_lists(package.path, package.name, definitions)
+    return lists is not None and gives_to_cpp(lists)
 
 
 def run_jobs(

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import shlex
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import SourceSpan, render_text
-from gazelle.workspace.building.build import Outcome, needs_compiler
+from gazelle.workspace.building.build import Outcome, takes_part_in_cpp
 from gazelle.workspace.building.cmake_plan import (
     add_catkin,
     add_interfaces,
@@ -73,6 +73,7 @@ def build_catkin_package(
     *,
     installs: bool,
     compile_step: CompileStep | None = None,
+    workspace: Sequence[SourcePackage] = (),
 ) -> Outcome:
     """Put a package's scripts, modules and hooks into the devel space; install it when asked to.
 
@@ -82,6 +83,7 @@ def build_catkin_package(
         definitions: variables for ``CMakeLists.txt``.
         installs: also do what ``make install`` does.
         compile_step: what compiles; without it compiled code is left out and told.
+        workspace: all of its packages.
     """
     begin, begin_ns = time.monotonic(), time.time_ns()
     compiles = compile_step is not None
@@ -96,7 +98,7 @@ def build_catkin_package(
     found = plans[-1][0].diagnostics
     code, lines = (1 if found.errors else 0), []
     compiled = Compiled()
-    if compile_step is not None and not code and needs_compiler(package, definitions):
+    if compile_step is not None and not code and takes_part_in_cpp(package, definitions):
         compiled = compile_step(
             CompileRequest(
                 package,
@@ -105,6 +107,7 @@ def build_catkin_package(
                 install=spaces.install if installs else None,
                 definitions=definitions,
                 prefixes=(spaces.devel,),
+                others=tuple(item for item in workspace if item.name != package.name),
             )
         )
         code = compiled.code

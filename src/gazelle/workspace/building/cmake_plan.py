@@ -22,6 +22,7 @@ __all__ = [
     "add_catkin",
     "add_interfaces",
     "compiled_targets",
+    "gives_to_cpp",
     "has_compiled_targets",
     "plan_cmake",
     "read_lists",
@@ -46,6 +47,15 @@ _LIBRARIES = frozenset(
         "pybind11_add_module",
         "rosbuild_add_library",
     }
+)
+_MAKES_HEADERS = (
+    "catkin_simple",
+    "generate_dynamic_reconfigure_options",
+    "generate_messages",
+    "generate_parameter_library",
+    "rosbuild_genmsg",
+    "rosbuild_gensrv",
+    "rosidl_generate_interfaces",
 )
 _NOT_COMPILED = frozenset({"ALIAS", "IMPORTED", "INTERFACE"})
 _INTERFACE_WORDS = frozenset(
@@ -161,6 +171,11 @@ def has_compiled_targets(lists: CMakeLists) -> bool:
         len(step.arguments) > 1 and not {"ALIAS", "IMPORTED"} & set(step.arguments)
         for step in lists.called(*_EXECUTABLES, *_LIBRARIES)
     )
+
+
+def gives_to_cpp(lists: CMakeLists) -> bool:
+    """Tell whether C++ of other packages may need what building this one makes."""
+    return has_compiled_targets(lists) or bool(lists.called(*_MAKES_HEADERS))
 
 
 def compiled_targets(package: SourcePackage, lists: CMakeLists, plan: Plan) -> None:

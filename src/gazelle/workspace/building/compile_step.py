@@ -27,6 +27,7 @@ class CompileRequest:
         definitions: variables for ``CMakeLists.txt``.
         prefixes: spaces that packages built before have been put into.
         jobs: compilers at a time, 0 for as many as there are cores.
+        others: packages of the workspace, whose messages are read from their sources.
     """
 
     package: SourcePackage
@@ -36,6 +37,7 @@ class CompileRequest:
     definitions: Mapping[str, str] = field(default_factory=dict)
     prefixes: tuple[Path, ...] = ()
     jobs: int = 0
+    others: tuple[SourcePackage, ...] = ()
 
 
 class Compiled(NamedTuple):
