@@ -17,6 +17,7 @@ from pathlib import Path
 from gazelle.cpp.build_messages import known_messages
 from gazelle.cpp.build_node import node_objects
 from gazelle.cpp.build_runtime import Runtime, ensure_runtime, roots_of
+from gazelle.cpp.build_tools import launcher, programs
 from gazelle.cpp.provided_packages import (
     REFUSED,
     REFUSED_BEGINNINGS,
@@ -140,11 +141,14 @@ def library_rows(runtime: Runtime) -> dict[str, Iterable[str] | str]:
 def _of_compiler(
     unit: Unit, toolchain: Toolchain, runtime: Runtime
 ) -> dict[str, Iterable[str] | str]:
-    cxx, cc, archiver, ranlib = toolchain.programs
+    cxx, cc, archiver, ranlib = programs(toolchain)
     roots = [str(root) for root in roots_of(unit.generation).values()] if unit.generation else []
     folders = [str(folder) for folder in (toolchain.boost, toolchain.eigen) if folder]
     first = [flag for flag in toolchain.flags if flag in ("-O2", "-g1") or flag.startswith("-std=")]
     last = [flag for flag in toolchain.flags if flag not in first]
+    if toolchain.kind != "zig":
+        # Words that CXX has after the compiler's name.
+        first = [*toolchain.command[1:], *first]
     c_first = [flag for flag in first if not flag.startswith("-std=")]
     c_last = [flag for flag in last if not flag.startswith(("-D", "-fno-gnu"))]
     main = runtime.libraries[_MAIN_LIBRARY[unit.generation]]
@@ -154,7 +158,7 @@ def _of_compiler(
         "GAZELLE_CC": cc,
         "GAZELLE_AR": archiver,
         "GAZELLE_RANLIB": ranlib,
-        "GAZELLE_LAUNCHER": str(toolchain.launcher()),
+        "GAZELLE_LAUNCHER": str(launcher(toolchain)),
         "GAZELLE_INCLUDE_DIRS": [*roots, *folders],
         "GAZELLE_HEADERS": roots[0] if roots else "",
         "GAZELLE_FIRST_FLAGS": " ".join(first),

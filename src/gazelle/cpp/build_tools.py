@@ -10,7 +10,7 @@ from gazelle.cpp.build_errors import compiler_failure
 from gazelle.cpp.runtime_libraries import HERE
 from gazelle.cpp.toolchain import ZIG_FLAGS, Toolchain
 
-__all__ = ["tool", "zig_programs"]
+__all__ = ["launcher", "programs", "tool"]
 
 
 def tool(name: str, toolchain: Toolchain, *flags: str) -> Path:
@@ -44,7 +44,19 @@ def tool(name: str, toolchain: Toolchain, *flags: str) -> Path:
     return folder / name
 
 
-def zig_programs(toolchain: Toolchain) -> tuple[str, str, str, str]:
+def launcher(toolchain: Toolchain) -> Path:
+    """Return the program that goes before the compiler, ``runtime/tools/compiler_words.c``."""
+    return tool("compiler_words", toolchain)
+
+
+def programs(toolchain: Toolchain) -> tuple[str, str, str, str]:
+    """Return C++ compiler, C compiler, archiver and ranlib; the latter empty for CMake's choice."""
+    if toolchain.kind == "zig":
+        return _zig_programs(toolchain)
+    return toolchain.command[0], toolchain.c_command[0], "", ""
+
+
+def _zig_programs(toolchain: Toolchain) -> tuple[str, str, str, str]:
     """Return programs of one word each for zig's subcommands, which CMake wants."""
     folder = cache_top() / "tools" / f"zig-{toolchain.key}"
     names = ("c++", "cc", "ar", "ranlib")

@@ -124,21 +124,6 @@ class Toolchain:
         """The words of the linker."""
         return (*self.command, *ZIG_FLAGS) if self.kind == "zig" else self.command
 
-    @property
-    def programs(self) -> tuple[str, str, str, str]:
-        """C++ and C compiler, archiver, ranlib, one word each; empty for CMake's choice."""
-        if self.kind != "zig":
-            return " ".join(self.command[:1]), " ".join(self.c_command[:1]), "", ""
-        from gazelle.cpp.build_tools import zig_programs
-
-        return zig_programs(self)
-
-    def launcher(self) -> Path:
-        """Return the program that goes before the compiler, see ``runtime/tools``."""
-        from gazelle.cpp.build_tools import tool
-
-        return tool("compiler_words", self)
-
     @cached_property
     def flags(self) -> tuple[str, ...]:
         """Flags of every object, the user's and ours."""

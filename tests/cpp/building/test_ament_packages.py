@@ -51,7 +51,9 @@ SHAPES = {
     "shapes/src/area.cpp": "#include <shapes/area.hpp>\nint shapes::area() { return 3; }\n",
 }
 DRAWER = {
-    "drawer/package.xml": manifest("drawer", "ament_cmake", "shapes", "rclcpp", "rclcpp_components"),
+    "drawer/package.xml": manifest(
+        "drawer", "ament_cmake", "shapes", "rclcpp", "rclcpp_components"
+    ),
     "drawer/CMakeLists.txt": """
         cmake_minimum_required(VERSION 3.8)
         project(drawer)

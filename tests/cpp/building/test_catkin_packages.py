@@ -269,7 +269,7 @@ def test_sources_that_change_while_they_are_compiled_are_compiled_again(
     source, mark = top / "one" / "src" / "node.cpp", tmp_path / "edited"
     compiler = tmp_path / "slow-c++"
     compiler.write_text(
-        "#!/bin/sh\nc++ \"$@\" || exit 1\n"
+        '#!/bin/sh\nc++ "$@" || exit 1\n'
         f"case \"$*\" in *'-c {source}'*) [ -e {mark} ] || "
         f"{{ touch {mark}; echo 'int main() {{ return 2; }} const char *now = \"the-later-one\";' "
         f"> {source}; }};; esac\n",
