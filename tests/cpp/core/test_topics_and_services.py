@@ -50,7 +50,7 @@ def test_a_node_is_shut_down_by_one_of_its_name(graph: Graph, probe: Probe) -> N
     running = probe("echo")
     running.wait_for_line("ready")
     graph.create_node("probe")
-    running.wait_for_line("shutdown request: [/probe]")
+    running.wait_for_line(r"shutdown request: \[/probe\]")
 
 
 def test_a_latched_message_comes_to_late_subscriptions_here_and_there(

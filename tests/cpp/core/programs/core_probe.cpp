@@ -138,7 +138,7 @@ int ask() {
   static const gazelle::ServiceType trigger{"std_srvs/srv/Trigger", "std_srvs/Trigger", "", "",
                                             &half, &half};
   auto client = node->client("trigger", trigger);
-  const auto none = client->call(std::vector<std::uint8_t>{0, 1, 0, 0, 0}, 0.1);
+  const auto none = client->call(std::vector<std::uint8_t>{0, 1, 0, 0, 0});
   say("before " + std::to_string(none.status == gazelle::CallStatus::kUnavailable));
   client->wait_for();
   const auto found = client->call(std::vector<std::uint8_t>{0, 1, 0, 0, 0});
