@@ -1,9 +1,12 @@
 """Verbs of how messages lie in bytes, for C++ that has no class of them.
 
 ``wire/type`` gives a message and all it contains by their names, each with the order of its
-fields in CDR and in ROS 1's bytes: ``{"cdr": [slot…], "ros1": [slot…], "definition": …, "md5": …}``.
-A slot has ``name`` (empty where the other bytes lack it), ``size`` of a number (0 of text and messages),
-``repeat`` (one, fixed, sequence), ``count`` and, of a message, ``type``.
+fields in CDR and in ROS 1's bytes::
+
+    {"cdr": [slot…], "ros1": [slot…], "definition": …, "md5": …}
+
+A slot has ``name`` (empty where the other bytes lack it), ``size`` of a number (0 of text and
+messages), ``repeat`` (one, fixed, sequence), ``count`` and, of a message, ``type``.
 """
 
 from __future__ import annotations

@@ -1,0 +1,3 @@
+#pragma once
+#include <ros/macros.h>
+#define TOPIC_TOOLS_DECL ROS_HELPER_EXPORT
