@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/node_handle.h>
 #include <ros/spinner.h>
 
 #include <csignal>
@@ -148,6 +149,7 @@ class AsyncSpinnerImpl {
  private:
   std::mutex mutex_;
   const uint32_t thread_count_;
+  const NodeHandle node_;  // brings the node up, and keeps it so
   CallbackQueue* const queue_;
   std::vector<std::thread> threads_;
   std::shared_ptr<std::atomic<bool> > continue_;
