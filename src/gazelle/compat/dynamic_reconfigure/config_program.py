@@ -1,7 +1,7 @@
 """``python -m gazelle.compat.dynamic_reconfigure.config_program FILE``: what a ``.cfg`` file says.
 
-Prints one JSON object: ``name``, ``group`` (parameters and groups below) and ``constants``. The
-file is a program of the user's package, so it runs in a process of its own.
+Prints one JSON object: ``package``, ``name``, ``group`` (parameters and groups below) and
+``constants``. The file is a program of the user's package, so it runs in a process of its own.
 """
 
 from __future__ import annotations
@@ -33,7 +33,12 @@ def main(argv: list[str]) -> int:
         sys.stderr.write(f"'{argv[0]}' does not call generate() of its ParameterGenerator\n")
         return 1
     generator, name = parameter_generator.FINISHED[-1]
-    said = {"name": name, "group": generator.group.to_dict(), "constants": generator.constants}
+    said = {
+        "package": generator.package,
+        "name": name,
+        "group": generator.group.to_dict(),
+        "constants": generator.constants,
+    }
     output.write(json.dumps(said) + "\n")
     return 0
 

@@ -102,9 +102,11 @@ class ParameterGenerator:
     Attributes:
         group: the default group.
         constants: of `const`.
+        package: what `generate` was told, the namespace of the class in C++.
     """
 
     def __init__(self) -> None:
+        self.package = ""
         self._ids = 0
         self.group = _Group(self, "Default", "", True, 0)
         self.constants: list[dict[str, Any]] = []
@@ -156,10 +158,12 @@ class ParameterGenerator:
         """End the file; what was collected becomes the module ``<name>Config``.
 
         Args:
-            pkgname: without effect: the module is found in the package that the file is in.
+            pkgname: the namespace of the class in C++; the module is found in the package that
+                the file is in.
             nodename: without effect: the original writes it into documentation.
             name: of the module, without ``Config``.
         """
+        self.package = pkgname
         FINISHED.append((self, name))
         return 0
 

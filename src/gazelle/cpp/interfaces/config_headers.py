@@ -44,7 +44,7 @@ def config_header(cfg: Path, package: str, folder: Path) -> Path:
     """
     said = _said(cfg)
     name = f"{cfg.stem}Config"
-    text = _header(package, cfg.stem, said)
+    text = _header(said["package"] or package, cfg.stem, said)
     return write_headers(folder, [(f"{package}/{name}.h", text)])[0]
 
 
@@ -66,7 +66,7 @@ def _said(cfg: Path) -> dict[str, Any]:
     raise UserFileError(tuple(diagnostics))
 
 
-def _header(package: str, name: str, said: dict[str, Any]) -> str:
+def _header(namespace: str, name: str, said: dict[str, Any]) -> str:
     config = f"{name}Config"
     root = said["group"]
     groups = list(_numbered(root, ()))
@@ -86,7 +86,7 @@ def _header(package: str, name: str, said: dict[str, Any]) -> str:
         "#include <cstddef>",
         "#include <string>\n",
         "#include <gazelle/reconfigure.hpp>\n",
-        f"namespace {package} {{\n",
+        f"namespace {namespace} {{\n",
         f"class {config} {{",
         " public:",
         *_group_class(root, "  "),
@@ -103,7 +103,7 @@ def _header(package: str, name: str, said: dict[str, Any]) -> str:
         "  }",
         "};\n",
         *(_constant(name, row) for row in said["constants"]),
-        f"\n}}  // namespace {package}",
+        f"\n}}  // namespace {namespace}",
     ]
     return "\n".join(lines) + "\n"
 

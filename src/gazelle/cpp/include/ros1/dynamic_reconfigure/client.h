@@ -50,9 +50,17 @@ class Client {
 
   // Replaces the values by those that the server took over.
   bool setConfiguration(ConfigType &configuration) {
+    {
+      // Who asks for the values afterwards gets those that the change leads to.
+      std::unique_lock<std::mutex> lock(mutex_);
+      has_config_ = false;
+    }
     Reconfigure service;
     configuration.__toMessage__(service.request.config);
-    if (!set_service_.call(service)) return false;
+    if (!set_service_.call(service)) {
+      ROS_WARN("Could not set configuration");
+      return false;
+    }
     configuration.__fromMessage__(service.response.config);
     return true;
   }
