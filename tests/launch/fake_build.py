@@ -11,7 +11,7 @@ from typing import Any, Self
 import pytest
 
 from gazelle.diagnostics import Diagnostics, SourceSpan
-from gazelle.launch import node_commands
+from gazelle.launch import cpp_nodes, node_commands
 from gazelle.workspace import Package
 
 __all__ = ["FakeBuild"]
@@ -39,7 +39,8 @@ class FakeBuild:
         module = ModuleType("gazelle.cpp.build")
         module.ensure_all_built = fake.ensure_all_built  # type: ignore[attr-defined]
         monkeypatch.setitem(sys.modules, "gazelle.cpp.build", module)
-        monkeypatch.setattr(node_commands, "host_command", lambda path: (str(path),))
+        for user in (node_commands, cpp_nodes):
+            monkeypatch.setattr(user, "host_command", lambda path: (str(path),))
         return fake
 
     def ensure_all_built(
@@ -50,6 +51,8 @@ class FakeBuild:
         self.log += [f"compile {name}" for name in names]
         made = {}
         for package, name, span in wanted:
+            if not name:
+                continue
             if name.startswith("bad"):
                 text = f"'{name}' of package '{package.name}' does not compile"
                 diagnostics.report("launch.compiled-node", text, span)

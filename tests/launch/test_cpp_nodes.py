@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from tests.launch.fake_build import FakeBuild
 
+from gazelle.cpp import provided_programs
 from gazelle.diagnostics import Diagnostics
 from gazelle.launch.cpp_nodes import find_and_compile
 from gazelle.launch.launch_config import LaunchConfig, NodeTag
@@ -68,6 +69,23 @@ def test_launch_without_cpp_asks_for_no_compiler(
     nodes, missing, _ = find("does")
     assert [*nodes] == ["n0"] and missing == 0
     assert build.batches == []
+
+
+def test_libraries_of_nodelets_are_compiled_with_the_rest(
+    build: FakeBuild, package: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(provided_programs, "ensure_program", lambda _program: tmp_path / "nodelet")
+    config, diagnostics = LaunchConfig(), Diagnostics()
+    for name, args in (("one", "load tests_pkg/Filter manager"), ("manager", "manager")):
+        config.nodes.append(NodeTag("nodelet", "nodelet", name, args=args))
+    config.nodes.append(NodeTag("tests_pkg", "one", "two"))
+    workspace = Workspace.discover(environ={}, cwd=package)
+    nodes, missing = find_executables(config, workspace, diagnostics, LaunchOptions())
+    assert missing == 0 and not list(diagnostics)
+    assert build.batches == [["one", ""]], "an empty name is all of a package"
+    assert [executable.command for _, executable in nodes] == [
+        (str(tmp_path / "nodelet"),), (str(tmp_path / "nodelet"),), (str(tmp_path / "one"),),
+    ]  # fmt: skip
 
 
 def test_one_node_is_compiled_for_rosrun(build: FakeBuild, package: Path, tmp_path: Path) -> None:

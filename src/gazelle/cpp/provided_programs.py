@@ -5,9 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from gazelle.cpp.build_runtime import ensure_runtime
-from gazelle.cpp.toolchain import find_toolchain
-
 __all__ = ["PROVIDED_PROGRAMS", "ProvidedProgram", "ensure_program", "provided_program"]
 
 
@@ -45,5 +42,9 @@ def ensure_program(program: ProvidedProgram) -> Path:
     Raises:
         GazelleError: it cannot be compiled, there is no compiler, or no place for it.
     """
+    # Only here: whoever looks for a name builds nothing.
+    from gazelle.cpp.build_runtime import ensure_runtime
+    from gazelle.cpp.toolchain import find_toolchain
+
     runtime = ensure_runtime([program.library], program.generation, find_toolchain())
     return runtime.libraries[program.library]

@@ -4,12 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-from gazelle.diagnostics import Diagnostics
+from gazelle.cpp.lookup import CppProgram, host_command
+from gazelle.diagnostics import Diagnostics, SourceSpan
+from gazelle.errors import GazelleError
 from gazelle.launch.node_commands import Executable, compiled_executable, find_executable
-from gazelle.workspace import Workspace
+from gazelle.workspace import Package, Workspace
 
-__all__ = ["compiled_ahead", "find_and_compile"]
+if TYPE_CHECKING:
+    from gazelle.cpp.provided_programs import ProvidedProgram
+
+__all__ = ["all_of_package", "compiled_ahead", "find_and_compile"]
+
+
+def all_of_package(package: Package, span: SourceSpan | None = None) -> Executable:
+    """Return what stands for all C++ of a package: its libraries, which others load."""
+    return Executable((), folder=package.path, is_of_cpp=True, cpp=CppProgram(package, "", span))
 
 
 def compiled_ahead(
@@ -30,6 +42,7 @@ def compiled_ahead(
     Returns:
         As many as were given; None for what was None and for what does not compile.
     """
+    found = _with_provided(found, diagnostics)
     programs = [one.cpp for one in found if one is not None and one.cpp is not None]
     if not programs:
         return list(found)
@@ -47,6 +60,38 @@ def compiled_ahead(
         made = None if file is None else compiled_executable(file)
         ready.append(made and replace(made, takes_ros_args=one.takes_ros_args))
     return ready
+
+
+def _with_provided(
+    found: Sequence[Executable | None], diagnostics: Diagnostics
+) -> list[Executable | None]:
+    """Return the same with Gazelle's own programs in C++ compiled; None for what is not."""
+    files: dict[ProvidedProgram, Path | None] = {}
+    for one in found:
+        if one is not None and one.provided is not None and one.provided not in files:
+            files[one.provided] = _compiled_program(one.provided, diagnostics)
+    ready: list[Executable | None] = []
+    for one in found:
+        if one is None or one.provided is None:
+            ready.append(one)
+            continue
+        file = files[one.provided]
+        ready.append(None if file is None else replace(one, command=host_command(file)))
+    return ready
+
+
+def _compiled_program(program: ProvidedProgram, diagnostics: Diagnostics) -> Path | None:
+    from gazelle.cpp.provided_programs import ensure_program
+    from gazelle.cpp.toolchain import NoToolchainError
+
+    try:
+        return ensure_program(program)
+    except NoToolchainError as error:
+        diagnostics.report("cpp.no-compiler", str(error).partition("\n")[0])
+    except GazelleError as error:
+        text = f"{program.package}/{program.executable}: {error}"
+        diagnostics.report("cpp.compile-error", text)
+    return None
 
 
 def find_and_compile(

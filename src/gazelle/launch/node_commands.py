@@ -19,6 +19,11 @@ from gazelle.cpp.lookup import (
     is_node_file,
     prefers_cpp,
 )
+from gazelle.cpp.provided_programs import (
+    PROVIDED_PROGRAMS,
+    ProvidedProgram,
+    provided_program,
+)
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean
 from gazelle.errors import NotFoundError
 from gazelle.extensions import ExtensionError
@@ -51,6 +56,7 @@ class Executable:
         is_of_cpp: it is C++ of the user.
         cpp: the C++ that has to be compiled first, None for what can run at once; the command does
             that when it starts, and `gazelle.launch.cpp_nodes` does it for many before.
+        provided: C++ of Gazelle that is compiled on the user's machine, as `cpp` is.
     """
 
     command: tuple[str, ...]
@@ -60,6 +66,7 @@ class Executable:
     takes_ros_args: bool = True
     is_of_cpp: bool = False
     cpp: CppProgram | None = None
+    provided: ProvidedProgram | None = None
 
 
 def find_executable(
@@ -106,6 +113,7 @@ def find_executable(
 def executables_of(package: str, workspace: Workspace) -> tuple[str, ...]:
     """Return the names of what a package has to run, sorted: its own and those of Gazelle's."""
     existing = set(builtin_executables(package))
+    existing |= {name for owner, name in PROVIDED_PROGRAMS if owner == package}
     try:
         found = workspace.package(package)
     except NotFoundError:
@@ -179,9 +187,14 @@ def _builtin(package: str, type_name: str) -> Executable | None:
     if command:
         return Executable((sys.executable, "-m", "gazelle.cli", *command))
     builtin = node_spec(package, type_name)
-    if builtin is None:
+    if builtin is not None:
+        words = (sys.executable, "-m", "gazelle.nodes", f"{package}/{type_name}")
+        return Executable(words, builtin)
+    provided = provided_program(package, type_name)
+    if provided is None:
         return None
-    return Executable((sys.executable, "-m", "gazelle.nodes", f"{package}/{type_name}"), builtin)
+    words = (sys.executable, "-m", "gazelle.cpp.compile_and_run", f"{package}/{type_name}")
+    return Executable(words, provided=provided)
 
 
 def _tell_of_precedence(
@@ -233,7 +246,7 @@ def _report_missing(
     try:
         found = workspace.package(package)
     except NotFoundError as error:
-        if not builtin_executables(package):
+        if not executables_of(package, workspace):
             message, fix = missing_package(error, ros_version)
             diagnostics.report("launch.package-missing", message, span, fix=fix)
             return

@@ -24,7 +24,7 @@ from gazelle.graph import Graph, NoGraphError
 from gazelle.graph.gazebo_names import offered_name
 from gazelle.interfaces import service_type
 from gazelle.launch.console import Console, RunLog, begin_log, run_log, summary
-from gazelle.launch.cpp_nodes import compiled_ahead
+from gazelle.launch.cpp_nodes import all_of_package, compiled_ahead
 from gazelle.launch.environment import node_environment
 from gazelle.launch.launch_config import LaunchConfig, NodeTag
 from gazelle.launch.node_commands import Executable, find_executable
@@ -38,11 +38,12 @@ from gazelle.launch.spawner_sequence import (
 )
 from gazelle.launch.supervisor import StopTimes, Supervisor
 from gazelle.user_folders import ros_home
-from gazelle.workspace import Workspace
+from gazelle.workspace import Package, Workspace
 
 __all__ = ["LaunchOptions", "find_executables", "launch"]
 
 _ROSOUT = NodeTag("rosout", "rosout", "rosout")
+_LOADS = (["load"], ["standalone"])
 _UNPAUSE = "/gazebo/unpause_physics"
 _UNPAUSE_S = 60.0
 _LOOK_AGAIN_S = 0.2
@@ -243,13 +244,29 @@ def find_executables(
         if spec.machine and spec.machine != "localhost":
             message = f"node '{spec.name}' asks for machine '{spec.machine}'; it runs here"
             diagnostics.report("launch.remote-machine", message, spec.span)
-    commands = compiled_ahead(commands, workspace=workspace, diagnostics=diagnostics)
+    libraries = [
+        all_of_package(package, spec.span)
+        for spec in config.nodes
+        if (package := _package_of_nodelet(spec, workspace)) is not None
+    ]
+    ready = compiled_ahead([*commands, *libraries], workspace=workspace, diagnostics=diagnostics)
+    commands = ready[: len(commands)]
     found = [
         (_with_options(spec, executable, options), executable)
         for spec, executable in zip(config.nodes, commands, strict=True)
         if executable is not None
     ]
     return found, len(config.nodes) - len(found)
+
+
+def _package_of_nodelet(spec: NodeTag, workspace: Workspace) -> Package | None:
+    """Return the package whose library a nodelet's process loads; None for others."""
+    words = spec.args.split()
+    if (spec.package, spec.type) != ("nodelet", "nodelet") or words[:1] not in _LOADS:
+        return None
+    package = workspace.packages.get("".join(words[1:2]).partition("/")[0])
+    is_source = package is not None and package.prefix is None and not package.is_builtin
+    return package if is_source else None
 
 
 def _with_options(spec: NodeTag, executable: Executable, options: LaunchOptions) -> NodeTag:

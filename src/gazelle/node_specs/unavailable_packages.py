@@ -38,7 +38,6 @@ _MARKER = "a marker in RViz that drives; Studio's teleop and `teleop_twist_keybo
 _INDUSTRIAL = "the link to a real arm's controller; `move_group` and ros_control's are here"
 _DEPTH = "compiled filters of a depth camera's pictures; the simulated camera has clouds itself"
 _SCANS = "compiled code that joins or makes scans; a <sensor> with a wider angle gives one"
-_NODELETS = "compiled parts that share a process; what they do is done by nodes where it is here"
 _VELOCITIES = "compiled code that smooths or chooses velocities; `twist_mux` chooses by priority"
 _MAPPING = "mapping in 3D is not here; slam_toolbox makes maps of laser scans"
 _VISION = "compiled code that works on images; a node with cv_bridge in Python can do it"
@@ -309,7 +308,6 @@ PACKAGES = (
         "rtabmap_launch rtabmap_slam",
     ),
     *_rows(_MARKER, "interactive_marker_twist_server", Sends.NOTHING),
-    *_rows(_NODELETS, "nodelet"),
     *_rows(_DEPTH, "freenect_launch openni2_launch rgbd_launch"),
     *_rows(_SCANS, "dual_laser_merger ira_laser_tools laser_assembler"),
     *_rows(

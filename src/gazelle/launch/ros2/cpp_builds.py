@@ -18,7 +18,14 @@ from gazelle.workspace.ament_index import known_workspace
 if TYPE_CHECKING:
     from gazelle.launch.ros2.launch_context import LaunchContext
 
-__all__ = ["CppBuilds"]
+__all__ = ["CppBuilds", "builds_of"]
+
+
+def builds_of(context: LaunchContext) -> CppBuilds:
+    """Return what compiles for a launch."""
+    if context.cpp_builds is None:
+        context.cpp_builds = CppBuilds(context)
+    return context.cpp_builds
 
 
 class CppBuilds:

@@ -10,7 +10,12 @@ import pytest
 from tests.launch.fake_build import FakeBuild
 
 from gazelle.launch.ros2 import launch_ros
-from gazelle.launch.ros2.actions import RegisterEventHandler, TimerAction
+from gazelle.launch.ros2.actions import (
+    OpaqueFunction,
+    RegisterEventHandler,
+    Shutdown,
+    TimerAction,
+)
 from gazelle.launch.ros2.event_handlers import OnProcessStart
 
 Run = Callable[..., Any]
@@ -26,6 +31,10 @@ def build(package: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Fak
 
 def _node(executable: str, **more: Any) -> Any:
     return launch_ros.actions.Node(package="demo", executable=executable, output="screen", **more)
+
+
+def _note(build: FakeBuild) -> OpaqueFunction:
+    return OpaqueFunction(function=lambda _context: build.log.append("start"))
 
 
 def _said(ran: Any) -> list[str]:
@@ -50,7 +59,7 @@ def test_nothing_starts_before_all_is_compiled(run: Run, build: FakeBuild) -> No
     script = _node("show")
     started = OnProcessStart(
         target_action=script,
-        on_start=lambda _event, _context: build.log.append("start"),  # type: ignore[func-returns-value]
+        on_start=lambda _event, _context: [_note(build)],
     )
     ran = run(RegisterEventHandler(started), script, _node("one"))
     assert ran.code == 0
@@ -72,6 +81,30 @@ def test_launch_goes_on_without_a_node_that_does_not_compile(run: Run, build: Fa
     assert error.message == "'bad' of package 'demo' does not compile"
     assert "it does not compile; the others go on" in ran.text
     assert _said(ran) == ["one runs: --ros-args"]
+
+
+def test_components_are_compiled_before_their_container_starts(
+    run: Run, build: FakeBuild, package: Path
+) -> None:
+    lists = package / "CMakeLists.txt"
+    text = lists.read_text(encoding="utf-8")
+    lists.write_text(text + 'rclcpp_components_register_nodes(one "demo::One")\n', encoding="utf-8")
+    container = launch_ros.actions.ComposableNodeContainer(
+        package="demo",
+        executable="show",
+        name="box",
+        namespace="",
+        composable_node_descriptions=[
+            launch_ros.descriptions.ComposableNode(package="demo", plugin="demo::One")
+        ],
+    )
+    started = OnProcessStart(
+        target_action=container,
+        on_start=lambda _event, _context: [_note(build), Shutdown()],
+    )
+    run(RegisterEventHandler(started), container)
+    assert build.batches == [[""]], "an empty name is all of a package"
+    assert build.log == ["compile ", "start"]
 
 
 def test_prefix_stays_before_the_command(run: Run, build: FakeBuild) -> None:

@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, List  # noqa: UP035
 
+from gazelle.cpp.component_libraries import may_register
+from gazelle.cpp.lookup import prefers_cpp
 from gazelle.errors import GraphError
 from gazelle.graph.ros2_parameter_values import value_message
 from gazelle.interfaces import message_type, service_type
+from gazelle.launch.cpp_nodes import all_of_package
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.action import Action
+from gazelle.launch.ros2.cpp_builds import builds_of
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
 from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.launch_ros.actions.node import Node
@@ -34,6 +38,8 @@ from gazelle.launch.ros2.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
+from gazelle.node_specs.registry import executable_of_component
+from gazelle.workspace.ament_index import known_workspace
 
 if TYPE_CHECKING:
     from gazelle.launch.ros2.launch_context import LaunchContext
@@ -120,6 +126,8 @@ class LoadComposableNodes(Action):
         wanted = [one for one in requests if one is not None]
         if not wanted:
             return
+        for request in wanted:
+            _want_cpp(context, request)
         container = self.__container(context)
         launch_node(context)
         loop = context.asyncio_loop
@@ -189,6 +197,17 @@ def get_composable_node_load_request(
     request.parameters = _messages(context, request, full, given)
     request.extra_arguments = _messages(context, request, full, node.extra_arguments or ())
     return request
+
+
+def _want_cpp(context: LaunchContext, request: Any) -> None:
+    """Let the C++ of a component be compiled before its container starts."""
+    package = known_workspace().packages.get(request.package_name)
+    if package is None or package.prefix is not None or not may_register(package):
+        return
+    plugin = request.plugin_name
+    if executable_of_component(package.name, plugin) and not prefers_cpp(context.environment):
+        return
+    builds_of(context).want(all_of_package(package))
 
 
 def _is_wanted(node: ComposableNode, context: LaunchContext) -> bool:
