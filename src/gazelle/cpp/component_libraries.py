@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from gazelle.diagnostics import Diagnostics
-from gazelle.documents.files import read_text
+from gazelle.documents.files import read_text_limited
 from gazelle.errors import GazelleError
 from gazelle.workspace import Package, Workspace
 
@@ -39,7 +39,7 @@ def may_register(package: Package) -> bool:
     if any(_index_files(_prefixes(package), package.name, INDEX)):
         return True
     try:
-        text = read_text(package.path / _CMAKE)
+        text = read_text_limited(package.path / _CMAKE)
     except (GazelleError, OSError):
         return False
     return any(call in text for call in _CALLS)

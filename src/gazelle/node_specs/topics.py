@@ -40,7 +40,7 @@ TOPICS = (
         executable="component_container",
         ros=ROS_2,
         entry="gazelle.nodes.component_container:run",
-        does="runs built-in nodes under the names of components",
+        does="runs components of C++, and built-in nodes under the names of components",
         is_light=False,
         aliases=(
             NodeName("rclcpp_components", "component_container_mt", ROS_2),

@@ -152,6 +152,7 @@ class NodeArguments:
         log_level: least level that is logged (``--log-level``), empty for the default.
         has_ros_args: the command line was ROS 2's, with ``--ros-args``.
         parameter_files: of ``--params-file``; they may have parameters of other nodes too.
+        executable: the name that the node was started by, empty where nobody says.
     """
 
     name: str
@@ -165,6 +166,7 @@ class NodeArguments:
     log_level: str = ""
     has_ros_args: bool = False
     parameter_files: tuple[Path, ...] = ()
+    executable: str = ""
 
     @property
     def ros_version(self) -> Literal[1, 2]:

@@ -1,8 +1,9 @@
-"""``rclcpp_components/component_container``: built-in nodes under the names of components.
+"""``rclcpp_components/component_container``: components of C++ and built-in nodes in one process.
 
-Components are libraries of C++; the container loads none. What it loads is the built-in node that
-does a component's work, such as ``robot_state_publisher`` for
-``robot_state_publisher::RobotStatePublisher``, in a thread of its own.
+A component is a class in a library of C++, which is compiled first where it is source. Where
+Gazelle has a node of its own that does a component's work, such as ``robot_state_publisher`` for
+``robot_state_publisher::RobotStatePublisher``, that runs instead, in a thread of its own, unless
+``GAZELLE_CPP`` asks for the C++.
 """
 
 from __future__ import annotations
@@ -15,8 +16,11 @@ import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from gazelle.cpp.component_libraries import ComponentLibrary, may_register, registered_components
+from gazelle.cpp.lookup import prefers_cpp
+from gazelle.diagnostics import Diagnostics, render_text
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph, Node
 from gazelle.graph.ros2_parameter_values import value_from_message
@@ -25,6 +29,10 @@ from gazelle.node_specs.registry import builtin_executables, executable_of_compo
 from gazelle.node_specs.spec import NodeSpec
 from gazelle.nodes.arguments import ABSENT_NODES, NodeArguments
 from gazelle.nodes.parameters import start_node
+from gazelle.workspace import Workspace
+
+if TYPE_CHECKING:
+    from gazelle.cpp.component_host import ComponentHost
 
 __all__ = ["builtin_of_component", "run"]
 
@@ -40,7 +48,7 @@ def builtin_of_component(package: str, plugin: str) -> NodeSpec | None:
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
     """Offer the services of a container until told to stop."""
     node = start_node(arguments, graph)
-    container = _Container(node, graph, arguments.parameter_files)
+    container = _Container(node, graph, arguments.parameter_files, _kind_of(arguments))
     with node.announced_together():
         for name in ("load_node", "unload_node", "list_nodes"):
             argv = "".join(word.capitalize() for word in name.split("_"))
@@ -73,10 +81,16 @@ class _Component:
 
 
 class _Container:
-    def __init__(self, node: Node, graph: Graph, parameter_files: Sequence[Path]) -> None:
+    def __init__(
+        self, node: Node, graph: Graph, parameter_files: Sequence[Path], kind: str
+    ) -> None:
         self._node = node
         self._graph = graph
         self._files = parameter_files
+        self._kind = kind
+        self._lock = threading.Lock()
+        self._host: ComponentHost | None = None
+        self._compiled: dict[int, str] = {}
         self._numbers = itertools.count(1)
         self._loaded: dict[int, _Component] = {}
 
@@ -84,12 +98,10 @@ class _Container:
         """Start the built-in node of a component."""
         package, plugin = request.package_name, request.plugin_name
         builtin = builtin_of_component(package, plugin)
-        if builtin is None:
-            response.success = False
-            response.error_message = _refusal(package, plugin)
-            self._node.log("error", response.error_message)
-            _be_missed(request)
-            return
+        if builtin is None or prefers_cpp(os.environ):
+            self._load_compiled(request, response, builtin)
+            if response.success or builtin is None:
+                return
         space = request.node_namespace or "/"
         name = request.node_name or builtin.default_name()
         stop = threading.Event()
@@ -106,8 +118,50 @@ class _Container:
         self._node.log("info", f"Load Library: none; {target['node']} does the work of {plugin}")
         response.success, response.unique_id, response.full_node_name = True, number, full
 
+    def _load_compiled(self, request: Any, response: Any, builtin: NodeSpec | None) -> None:
+        """Make a component of C++; the response says why where there is none."""
+        package, plugin = request.package_name, request.plugin_name
+        number = next(self._numbers)
+        try:
+            # One at a time: what compiles uses all cores.
+            with self._lock:
+                found = self._component(package, plugin)
+                if found is None:
+                    raise GazelleError(_refusal(package, plugin))
+                self._node.log("info", f"Load Library: {found.library}")
+                name = self._cpp().load(number, found.library, plugin, request)
+                self._compiled[number] = name
+        except GazelleError as error:
+            response.success, response.error_message = False, str(error)
+            if builtin is None:
+                self._node.log("error", response.error_message)
+                _be_missed(request)
+            return
+        response.success, response.unique_id, response.full_node_name = True, number, name
+
+    def _component(self, package: str, plugin: str) -> ComponentLibrary | None:
+        workspace = Workspace.discover()
+        source = workspace.packages.get(package)
+        if source is None or not may_register(source):
+            return None
+        diagnostics = Diagnostics()
+        rows = registered_components(source, workspace=workspace, diagnostics=diagnostics)
+        if not rows:
+            raise GazelleError("\n".join(render_text(one) for one in diagnostics.items))
+        return next((one for one in rows if one.plugin == plugin), None)
+
+    def _cpp(self) -> ComponentHost:
+        if self._host is None:
+            from gazelle.cpp.component_host import ComponentHost
+
+            self._host = ComponentHost(self._graph, self._kind)
+        return self._host
+
     def unload_node(self, request: Any, response: Any) -> None:
         """End a node."""
+        if self._compiled.pop(request.unique_id, None) is not None:
+            response.success = self._cpp().unload(request.unique_id)
+            return
         found = self._loaded.pop(request.unique_id, None)
         response.success = found is not None
         if found is None:
@@ -118,12 +172,15 @@ class _Container:
 
     def list_nodes(self, _request: Any, response: Any) -> None:
         """Name the nodes that run."""
-        running = {key: one for key, one in self._loaded.items() if one.thread.is_alive()}
+        running = {key: one.full_name for key, one in self._loaded.items() if one.thread.is_alive()}
+        running = dict(sorted({**running, **self._compiled}.items()))
         response.unique_ids = list(running)
-        response.full_node_names = [one.full_name for one in running.values()]
+        response.full_node_names = list(running.values())
 
     def end(self) -> None:
         """End all nodes."""
+        if self._host is not None:
+            self._host.close()
         for one in self._loaded.values():
             one.stop.set()
         for one in self._loaded.values():
@@ -143,6 +200,12 @@ class _Container:
             self._node.log("error", f"[{target['node']}] {error}")
         except Exception:  # noqa: BLE001 - one node's bug must not take the others along
             self._node.log("error", traceback.format_exc())
+
+
+def _kind_of(arguments: NodeArguments) -> str:
+    """Return which executors the container's name asks for: ``mt``, ``isolated`` or none."""
+    kind = arguments.executable.rpartition("_")[2]
+    return kind if kind in ("mt", "isolated") else ""
 
 
 def _be_missed(request: Any) -> None:
@@ -168,4 +231,4 @@ def _refusal(package: str, plugin: str) -> str:
     text = f"Failed to find class with the requested plugin name '{plugin}' in the loaded library"
     types = builtin_executables(package)
     known = f"; built-in nodes of package '{package}': {', '.join(types)}" if types else ""
-    return f"{text}: components are compiled code, which is not loaded here{known}"
+    return f"{text}: no package of the name registers it{known}"

@@ -9,6 +9,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, TextIO
 
 from gazelle.errors import GazelleError
@@ -123,4 +124,4 @@ def run_node(
         output=request.get("output", "screen"),
         ready=ready,
     )
-    return int(node.load()(arguments, graph, stop))
+    return int(node.load()(replace(arguments, executable=type_name), graph, stop))

@@ -29,15 +29,17 @@ def resources(host: HostContext, request: dict[str, Any]) -> list[list[str]]:
         GazelleError: there is no such package, or it cannot be compiled.
     """
     from gazelle.cpp.component_libraries import registered_components
+    from gazelle.cpp.signal_mask import signals_for_children
     from gazelle.diagnostics import Diagnostics, render_text
 
     name, workspace, diagnostics = request["package"], workspace_of(host), Diagnostics()
-    found = registered_components(
-        workspace.package(name),
-        workspace=workspace,
-        diagnostics=diagnostics,
-        index=request["index"],
-    )
+    with signals_for_children():
+        found = registered_components(
+            workspace.package(name),
+            workspace=workspace,
+            diagnostics=diagnostics,
+            index=request["index"],
+        )
     if not found:
         told = "\n".join(render_text(one) for one in diagnostics.items)
         raise GazelleError(told or f"Could not find requested resource in ament index for '{name}'")
@@ -48,7 +50,10 @@ def resources(host: HostContext, request: dict[str, Any]) -> list[list[str]]:
 def prepare(host: HostContext, request: dict[str, Any]) -> None:
     """Load what a library needs of Gazelle's own, which nothing else would find."""
     from gazelle.cpp.build_runtime import libraries_for
+    from gazelle.cpp.signal_mask import signals_for_children
 
     del host
-    for library in libraries_for(Path(request["library"])):
+    with signals_for_children():
+        libraries = libraries_for(Path(request["library"]))
+    for library in libraries:
         ctypes.CDLL(str(library), mode=ctypes.RTLD_GLOBAL | os.RTLD_NOW)
