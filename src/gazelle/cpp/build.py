@@ -29,6 +29,7 @@ from gazelle.cpp.build_errors import CppBuildError
 from gazelle.cpp.build_findings import report_failures
 from gazelle.cpp.build_settings import Unit
 from gazelle.cpp.runtime_libraries import HERE
+from gazelle.cpp.signal_mask import signals_for_children
 from gazelle.cpp.toolchain import NoToolchainError, Toolchain, find_toolchain
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, render_text
 from gazelle.workspace import Package, Workspace
@@ -377,7 +378,8 @@ class _Work:
             self._add(request.package)
         self._make_units(toolchain)
         self._announce()
-        self._run(toolchain)
+        with signals_for_children():
+            self._run(toolchain)
         return self._found
 
     def _add(self, package: Package) -> None:

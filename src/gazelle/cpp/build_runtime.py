@@ -34,7 +34,7 @@ from gazelle.cpp.runtime_libraries import (
     include_roots,
     with_needs,
 )
-from gazelle.cpp.toolchain import Toolchain, find_toolchain
+from gazelle.cpp.toolchain import NoToolchainError, Toolchain, find_toolchain
 
 __all__ = ["Runtime", "ensure_runtime", "headers_key", "libraries_for", "roots_of"]
 
@@ -102,7 +102,7 @@ def libraries_for(file: Path) -> list[Path]:
     """Return the runtime libraries that a node's file or a library of the user is linked with.
 
     They are in the order in which they are to be loaded. A process has one of each: later files get
-    what earlier ones have got. A file that was compiled with other headers than today's gets those
+    what earlier ones have got. A file that was compiled by another compiler, or with other headers than today's, gets those
     libraries that it was linked with, as long as they are there.
 
     Raises:
@@ -135,12 +135,12 @@ _in_process: dict[str, Path] = {}
 def _linked_before(
     rows: Sequence[RuntimeLibrary], linked: Mapping[str, Path | None], generation: int
 ) -> dict[str, Path] | None:
-    """Return the libraries that a file was linked with, where today's have other headers."""
+    """Return the libraries that a file was linked with, where today's do not fit it."""
     places = [place for place in linked.values() if place is not None]
     if not places:
         return None
     recorded = _recorded(places[0].parent)
-    if recorded is None or recorded == headers_key(generation):
+    if recorded is None or recorded == (_today(), headers_key(generation)):
         return None
     found: dict[str, Path] = {}
     for place in places:
@@ -159,10 +159,18 @@ def _needed_by(library: Path) -> list[Path]:
         return [library]
 
 
-def _recorded(folder: Path) -> str | None:
+def _today() -> str:
+    """Return the key of this machine's toolchain, empty where there is none any more."""
+    try:
+        return find_toolchain().key
+    except NoToolchainError:
+        return ""
+
+
+def _recorded(folder: Path) -> tuple[str, str] | None:
     try:
         listed = json.loads((folder / _RECORD).read_text(encoding="utf-8"))
-        return str(listed["headers"])
+        return str(listed["toolchain"]), str(listed["headers"])
     except (OSError, ValueError, LookupError, TypeError):
         return None
 
@@ -253,6 +261,7 @@ def _linked(
         with make_whole(folder) as made:
             link(objects, toolchain, made / row.file_name, flags)
             record = {
+                "toolchain": toolchain.key,
                 "headers": headers_key(row.generation),
                 "needs": [str(path) for path in needs],
             }

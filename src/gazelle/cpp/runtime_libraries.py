@@ -50,6 +50,7 @@ LIBRARIES: dict[str, RuntimeLibrary] = {
     row.name: row
     for row in (
         RuntimeLibrary("core", system=("dl", "pthread")),
+        RuntimeLibrary("boost_thread", system=("pthread",)),
         RuntimeLibrary("roscpp", ("core",), 1),
         RuntimeLibrary("rclcpp", ("core",), 2),
         RuntimeLibrary("rclcpp_action", ("rclcpp",), 2),
@@ -63,6 +64,9 @@ LIBRARIES: dict[str, RuntimeLibrary] = {
         RuntimeLibrary("rosbag", ("roscpp",), 1),
         RuntimeLibrary("urdf", ("core",)),
         RuntimeLibrary("control", ("roscpp", "class_loader", "urdf"), 1),
+        RuntimeLibrary("moveit_core", ("core",)),
+        RuntimeLibrary("moveit1", ("moveit_core", "roscpp"), 1),
+        RuntimeLibrary("moveit2", ("moveit_core", "rclcpp", "rclcpp_action"), 2),
         RuntimeLibrary("tf2", ("core",)),
         RuntimeLibrary("tf2_ros1", ("tf2", "roscpp"), 1),
         RuntimeLibrary("tf2_ros2", ("tf2", "rclcpp"), 2),
