@@ -1,0 +1,3 @@
+#pragma once
+
+#include "moveit/move_group_interface/move_group_interface.hpp"

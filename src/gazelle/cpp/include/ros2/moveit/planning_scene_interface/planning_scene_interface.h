@@ -1,0 +1,3 @@
+#pragma once
+
+#include "moveit/planning_scene_interface/planning_scene_interface.hpp"

@@ -1,0 +1,3 @@
+#pragma once
+
+#include "gazelle/moveit/robot_model.hpp"

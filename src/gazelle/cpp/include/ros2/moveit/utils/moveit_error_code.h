@@ -1,0 +1,3 @@
+#pragma once
+
+#include "moveit/utils/moveit_error_code.hpp"
