@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+// Not <cmath>: programs that say isnan(…) without std:: had it from here.
+#include <math.h>
+
 #include <cmath>
 #include <limits>
 #include <ostream>
