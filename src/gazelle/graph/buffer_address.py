@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Buffer
 
 __all__ = ["address_of"]
 
@@ -26,7 +25,7 @@ class _View(ctypes.Structure):
     )
 
 
-def address_of(buffer: Buffer) -> int:
+def address_of(buffer: object) -> int:
     """Return the address of a buffer's first byte; whoever uses it keeps the buffer."""
     view = _View()
     api = ctypes.pythonapi

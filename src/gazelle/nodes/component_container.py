@@ -147,7 +147,7 @@ class _Container:
         diagnostics = Diagnostics()
         rows = registered_components(source, workspace=workspace, diagnostics=diagnostics)
         if not rows:
-            raise GazelleError("\n".join(render_text(one) for one in diagnostics.items))
+            raise GazelleError("\n".join(render_text(one) for one in diagnostics))
         return next((one for one in rows if one.plugin == plugin), None)
 
     def _cpp(self) -> ComponentHost:

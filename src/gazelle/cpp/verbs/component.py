@@ -41,7 +41,7 @@ def resources(host: HostContext, request: dict[str, Any]) -> list[list[str]]:
             index=request["index"],
         )
     if not found:
-        told = "\n".join(render_text(one) for one in diagnostics.items)
+        told = "\n".join(render_text(one) for one in diagnostics)
         raise GazelleError(told or f"Could not find requested resource in ament index for '{name}'")
     return [[one.plugin, str(one.library)] for one in found]
 
