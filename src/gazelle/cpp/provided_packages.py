@@ -224,15 +224,21 @@ _ROWS = (
     *(
         _ros1(name, "moveit1")
         for name in (
-            "moveit_core", "moveit_ros_planning", "moveit_ros_planning_interface",
-            "moveit_visual_tools", "rviz_visual_tools",
+            "moveit_core",
+            "moveit_ros_planning",
+            "moveit_ros_planning_interface",
+            "moveit_visual_tools",
+            "rviz_visual_tools",
         )
     ),
     *(
         _ros2(name, "moveit2")
         for name in (
-            "moveit_core", "moveit_ros_planning", "moveit_ros_planning_interface",
-            "moveit_visual_tools", "rviz_visual_tools",
+            "moveit_core",
+            "moveit_ros_planning",
+            "moveit_ros_planning_interface",
+            "moveit_visual_tools",
+            "rviz_visual_tools",
         )
     ),
     _ros1("interactive_markers"),
