@@ -28,6 +28,7 @@ __all__ = [
     "cache_top",
     "digest_of_file",
     "digest_of_text",
+    "forget_unused",
     "make_whole",
     "only_one",
     "stat_signature",
@@ -36,6 +37,7 @@ __all__ = [
 
 _VARIABLE = "GAZELLE_CPP_CACHE"
 _LOOK_EVERY_S = 0.05
+_UNUSED_DAYS = 60
 _PATIENCE_S = 1.0
 _DIGEST_LENGTH = 16
 
@@ -137,6 +139,20 @@ def touch(folder: Path) -> None:
     """Note that something kept was used just now."""
     with contextlib.suppress(OSError):
         os.utime(folder)
+
+
+def forget_unused(top: Path) -> None:
+    """Remove what nobody has used for long.
+
+    What nodes' files name is kept: the programs that they are started by.
+    """
+    oldest = time.time() - _UNUSED_DAYS * 24 * 3600
+    for kind in ("headers", "lib", "messages", "objects", "packages"):
+        depth = "*/*" if kind in ("headers", "objects") else "*"
+        for folder in (top / kind).glob(depth):
+            with contextlib.suppress(OSError):
+                if folder.is_dir() and folder.stat().st_mtime < oldest:
+                    shutil.rmtree(folder, ignore_errors=True)
 
 
 def _sweep_partial(folder: Path) -> None:

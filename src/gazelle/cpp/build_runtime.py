@@ -20,6 +20,7 @@ from gazelle.cpp.build_cache import (
     cache_top,
     digest_of_file,
     digest_of_text,
+    forget_unused,
     make_whole,
     stat_signature,
     touch,
@@ -92,6 +93,7 @@ def ensure_runtime(
     known = _read_state(state, signature)
     if known is None:
         known = _build(rows, chosen, top)
+        forget_unused(top)
         _write_state(state, signature, known)
     for path in known.values():
         touch(path.parent)
@@ -102,8 +104,8 @@ def libraries_for(file: Path) -> list[Path]:
     """Return the runtime libraries that a node's file or a library of the user is linked with.
 
     They are in the order in which they are to be loaded. A process has one of each: later files get
-    what earlier ones have got. A file that was compiled by another compiler, or with other headers than today's, gets those
-    libraries that it was linked with, as long as they are there.
+    what earlier ones have got. A file that was compiled by another compiler, or with other headers
+    than today's, gets those libraries that it was linked with, as long as they are there.
 
     Raises:
         CppBuildError: one cannot be compiled.
@@ -126,6 +128,8 @@ def libraries_for(file: Path) -> list[Path]:
     chosen = _linked_before(rows, linked, generation)
     if chosen is None:
         chosen = ensure_runtime(tuple(linked), generation).libraries
+    for path in chosen.values():
+        touch(path.parent)
     return [_in_process.setdefault(row.name, chosen[row.name]) for row in rows]
 
 

@@ -118,12 +118,6 @@ macro(gazelle_refuse name why)
   endforeach()
 endmacro()
 
-# A package of ROS that is nowhere: said in one line of ours as well as CMake's.
-macro(gazelle_absent name)
-  file(APPEND "${CMAKE_BINARY_DIR}/gazelle_absent.txt"
-    "${name}\t${CMAKE_CURRENT_LIST_FILE}\n")
-endmacro()
-
 macro(gazelle_find_eigen name)
   foreach(gazelle_prefix Eigen Eigen3 EIGEN EIGEN3)
     set(${gazelle_prefix}_FOUND TRUE)
