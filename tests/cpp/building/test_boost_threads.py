@@ -6,10 +6,10 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from tests.cpp.building.conftest import needs_compiler
 
 from gazelle.cpp.build_runtime import ensure_runtime
 from gazelle.cpp.toolchain import find_toolchain
-from tests.cpp.building.conftest import needs_compiler
 
 pytestmark = [needs_compiler, pytest.mark.slow(40)]
 

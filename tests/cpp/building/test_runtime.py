@@ -8,12 +8,12 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from tests.cpp.building.conftest import needs_compiler
 
 from gazelle.cpp import build_runtime
 from gazelle.cpp.build_cache import forget_unused
 from gazelle.cpp.build_runtime import Runtime, libraries_for
 from gazelle.cpp.toolchain import find_toolchain
-from tests.cpp.building.conftest import needs_compiler
 
 pytestmark = needs_compiler
 
