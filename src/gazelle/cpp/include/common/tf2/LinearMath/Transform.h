@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-// Not <cmath>: programs that say isnan(…) without std:: had it from here.
+// For programs that say isnan(…) without std::, which have it from here.
 #include <math.h>
 
 #include <cmath>
