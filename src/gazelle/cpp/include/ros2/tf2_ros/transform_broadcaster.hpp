@@ -1,6 +1,7 @@
 // Sends frames that move.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "geometry_msgs/msg/transform_stamped.hpp"
