@@ -1,0 +1,3 @@
+#pragma once
+
+#include "moveit_visual_tools/moveit_visual_tools.h"
