@@ -53,6 +53,7 @@ _MAKES_SOMETHING = re.compile(
     r"cuda_add_\w+|nodelet_\w+|pybind11_add_module|genmsg|gensrv)\b",
     re.IGNORECASE | re.MULTILINE,
 )
+_BUILDING = re.compile(r"Building C\w* object")
 _CANNOT = 126
 
 
@@ -357,6 +358,7 @@ class _Work:
         self._needs: dict[str, set[str]] = {}
         self._found: dict[tuple[str, str], Path] = {}
         self._users: dict[str, Package] | None = None
+        self._fresh: list[str] = []
 
     def want(
         self, package: Package, name: str, span: SourceSpan | None, *, is_library: bool = False
@@ -441,11 +443,11 @@ class _Work:
         return found - {name}
 
     def _announce(self) -> None:
-        fresh = [
+        self._fresh = [
             name for name, unit in self.units.items() if not (unit.build / "build.ninja").is_file()
         ]
-        if fresh:
-            announce(f"compiling C++ of {', '.join(fresh)}", key=f"compiling {fresh}")
+        if self._fresh:
+            announce(f"compiling C++ of {', '.join(self._fresh)}")
 
     def _run(self, toolchain: Toolchain) -> None:
         waiting = dict(self.units)
@@ -525,7 +527,8 @@ class _Work:
         """Find libraries that no target of their name makes among all that was made."""
         for request in requests:
             key = request.package.name, request.name
-            if not request.is_library or key in self._found:
+            target = _target_for(request, targets_of(unit))
+            if not request.is_library or key in self._found or (target and target.refused):
                 continue
             tops = (unit.devel, unit.build, *([unit.install] if unit.install else []))
             files = (file for top in tops for file in top.rglob(f"lib{request.name}.so"))
@@ -537,7 +540,11 @@ class _Work:
     def _ninja(
         self, unit: Unit, toolchain: Toolchain, names: Sequence[str], found: Diagnostics
     ) -> CMakeRun:
-        run = run_ninja(unit, toolchain, names, self._environ)
+        def said(line: str) -> None:
+            if unit.name not in self._fresh and _BUILDING.search(line):
+                announce(f"compiling C++ of {unit.name} again: something of it has changed")
+
+        run = run_ninja(unit, toolchain, names, self._environ, said)
         if run.code:
             report_failures(unit, run, found)
         return run

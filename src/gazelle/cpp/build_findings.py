@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gazelle.cpp.build_cmake import CMakeRun
 from gazelle.cpp.build_settings import Unit
-from gazelle.cpp.requirements import header_advice, package_advice
+from gazelle.cpp.requirements import header_advice, library_advice, package_advice
 from gazelle.diagnostics import Diagnostics, SourceSpan
 
 __all__ = ["report_failures"]
@@ -88,7 +88,10 @@ def _report_one(unit: Unit, made: str, words: str, diagnostics: Diagnostics) -> 
     missing = list(dict.fromkeys(_undefined(words)))
     if missing and span is None:
         text = f"'{name}' does not link:\n{_trimmed(words)}"
-        diagnostics.report("cpp.link-error", text, SourceSpan(str(unit.path / "CMakeLists.txt")))
+        advice, fix = library_advice(missing)
+        text = f"{text}\n{advice}" if advice else text
+        span = SourceSpan(str(unit.path / "CMakeLists.txt"))
+        diagnostics.report("cpp.link-error", text, span, fix=fix)
         return
     head, _, rest = _after_place(words, place).partition("\n")
     text = f"{head} ('{name}' of '{unit.name}' does not compile)\n{rest}".rstrip()

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterable
 
 from gazelle.cpp.provided_packages import provided, refusal
 from gazelle.cpp.runtime_libraries import include_roots
 from gazelle.diagnostics import did_you_mean
 
-__all__ = ["header_advice", "package_advice", "refused_header"]
+__all__ = ["header_advice", "library_advice", "package_advice", "refused_header"]
 
 _REFUSED_FOLDERS = {
     "gazebo": "gazebo", "gazebo_plugins": "gazebo_plugins", "gazebo_ros": "gazebo_ros",
@@ -45,6 +46,13 @@ _SYSTEM = {
 """The library of the system that a folder of headers belongs to, and how it is installed."""
 
 
+_COMPILED_BOOST = (
+    "filesystem", "iostreams", "locale", "log", "program_options", "regex", "serialization",
+    "timer",
+)  # fmt: skip
+"""Libraries of Boost that are more than headers, and that Gazelle does not bring."""
+
+
 def refused_header(header: str, generation: int) -> str:
     """Return the refused package that a header belongs to, empty for others."""
     folder = header.partition("/")[0]
@@ -78,6 +86,20 @@ def header_advice(header: str, generation: int) -> tuple[str, str]:
         text = f"'{header}' is of no package of the workspace, of Gazelle or of this system"
         return text, near or f"put the package '{folder}' into the workspace, or install it"
     return f"'{header}' is nowhere", near
+
+
+def library_advice(symbols: Iterable[str]) -> tuple[str, str]:
+    """Return what to say of functions that are in no library, and what to do; empty for nothing.
+
+    Args:
+        symbols: as the linker names them.
+    """
+    for symbol in symbols:
+        part = next((part for part in _COMPILED_BOOST if f"boost::{part}::" in symbol), "")
+        if part:
+            text = f"Boost's library '{part}' is not installed here; its headers alone do not do"
+            return text, f"apt install libboost-{part.replace('_', '-')}-dev"
+    return "", ""
 
 
 def package_advice(name: str, generation: int) -> tuple[str, str]:
