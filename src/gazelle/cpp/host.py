@@ -9,6 +9,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -43,17 +44,21 @@ def main(argv: list[str]) -> int:
         return _NOT_LOADED
 
 
-def run_node_file(path: Path, argv: list[str]) -> NoReturn:
+def run_node_file(path: Path, argv: list[str], runtime: Sequence[Path] = ()) -> NoReturn:
     """Load a node file and run its `main` in this thread; the process ends with it.
+
+    Args:
+        path: the file.
+        argv: the arguments of its `main`, with the program's name.
+        runtime: the runtime libraries, the core first; those that it was linked with by default.
 
     Raises:
         GazelleError: it, or a library that it needs, cannot be loaded.
     """
-    from gazelle.cpp.build_runtime import libraries_for
     from gazelle.cpp.host_context import HostContext
     from gazelle.cpp.host_table import Core
 
-    core_path, *libraries = libraries_for(path)
+    core_path, *libraries = runtime or _linked_with(path)
     core = Core(_checked(core_path))
     core.library.gazelle_prepare_process()
     context = HostContext(core)
@@ -72,6 +77,12 @@ def run_node_file(path: Path, argv: list[str]) -> NoReturn:
     run.argtypes = (ctypes.c_void_p, ctypes.c_int, ctypes.c_void_p)
     run(_main_of(program), len(argv), words)
     raise AssertionError("the program has ended")
+
+
+def _linked_with(path: Path) -> Sequence[Path]:
+    from gazelle.cpp.build_runtime import libraries_for
+
+    return libraries_for(path)
 
 
 def _checked(path: Path) -> Path:
