@@ -1,7 +1,16 @@
 #pragma once
 
+// Programs count on these being there.
+#include <chrono>
 #include <csignal>
+#include <functional>
+#include <iostream>
 #include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "rclcpp/copy_all_parameter_values.hpp"
 #include "rclcpp/create_generic_client.hpp"

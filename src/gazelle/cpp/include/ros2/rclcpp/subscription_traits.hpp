@@ -1,0 +1,4 @@
+#pragma once
+
+#include "rclcpp/any_subscription_callback.hpp"
+#include "rclcpp/function_traits.hpp"
