@@ -13,7 +13,7 @@ namespace message_operations {
 template <typename M>
 struct Printer {
   template <typename Stream>
-  static void stream(Stream &stream, const std::string &indent, const M &value) {
+  static void stream(Stream& stream, const std::string& indent, const M& value) {
     if constexpr (::gazelle::is_message_v<M>) {
       ::gazelle::print_ros1(stream, ::gazelle::Description<M>::layout(), &value, indent);
     } else if constexpr (std::is_same<M, signed char>::value ||

@@ -17,25 +17,25 @@ ROS_DECLARE_MESSAGE(Header)
 }
 
 // Lets the classes of an allocator-less message answer by static members, as rosbuild's did.
-#define ROS_IMPLEMENT_SIMPLE_TOPIC_TRAITS(msg, md5sum, datatype, definition)            \
-  namespace ros {                                                                       \
-  namespace message_traits {                                                            \
-  template <>                                                                           \
-  struct MD5Sum<msg> {                                                                  \
-    static const char *value() { return md5sum; }                                       \
-    static const char *value(const msg &) { return value(); }                           \
-  };                                                                                    \
-  template <>                                                                           \
-  struct DataType<msg> {                                                                \
-    static const char *value() { return datatype; }                                     \
-    static const char *value(const msg &) { return value(); }                           \
-  };                                                                                    \
-  template <>                                                                           \
-  struct Definition<msg> {                                                              \
-    static const char *value() { return definition; }                                   \
-    static const char *value(const msg &) { return value(); }                           \
-  };                                                                                    \
-  }                                                                                     \
+#define ROS_IMPLEMENT_SIMPLE_TOPIC_TRAITS(msg, md5sum, datatype, definition) \
+  namespace ros {                                                            \
+  namespace message_traits {                                                 \
+  template <>                                                                \
+  struct MD5Sum<msg> {                                                       \
+    static const char* value() { return md5sum; }                            \
+    static const char* value(const msg&) { return value(); }                 \
+  };                                                                         \
+  template <>                                                                \
+  struct DataType<msg> {                                                     \
+    static const char* value() { return datatype; }                          \
+    static const char* value(const msg&) { return value(); }                 \
+  };                                                                         \
+  template <>                                                                \
+  struct Definition<msg> {                                                   \
+    static const char* value() { return definition; }                        \
+    static const char* value(const msg&) { return value(); }                 \
+  };                                                                         \
+  }                                                                          \
   }
 
 namespace ros {
@@ -83,175 +83,171 @@ struct IsSimple : FalseType {};
 template <typename M>
 struct IsMessage<const M, typename boost::disable_if<std::is_const<M>>::type> : IsMessage<M> {};
 template <typename M>
-struct IsFixedSize<const M, typename boost::disable_if<std::is_const<M>>::type> : IsFixedSize<M> {
-};
+struct IsFixedSize<const M, typename boost::disable_if<std::is_const<M>>::type> : IsFixedSize<M> {};
 template <typename M>
 struct HasHeader<const M, typename boost::disable_if<std::is_const<M>>::type> : HasHeader<M> {};
 
 template <typename M, typename Enable = void>
 struct MD5Sum {
-  static const char *value() { return ask<M>(0); }
-  static const char *value(const M &message) { return ask_of(message, 0); }
+  static const char* value() { return ask<M>(0); }
+  static const char* value(const M& message) { return ask_of(message, 0); }
 
  private:
   using Bare = typename std::remove_cv<M>::type;
   template <class T>
-  static const char *ask(decltype(::gazelle::Description<typename std::remove_cv<T>::type>::md5,
+  static const char* ask(decltype(::gazelle::Description<typename std::remove_cv<T>::type>::md5,
                                   0)) {
     return ::gazelle::Description<Bare>::md5;
   }
   template <class T>
-  static const char *ask(...) {
+  static const char* ask(...) {
     return T::__s_getMD5Sum().c_str();
   }
   template <class T>
-  static auto ask_of(const T &message, int) -> decltype(message.__getMD5Sum().c_str()) {
+  static auto ask_of(const T& message, int) -> decltype(message.__getMD5Sum().c_str()) {
     return message.__getMD5Sum().c_str();
   }
   template <class T>
-  static const char *ask_of(const T &, long) {
+  static const char* ask_of(const T&, long) {
     return value();
   }
 };
 
 template <typename M, typename Enable = void>
 struct DataType {
-  static const char *value() { return ask<M>(0); }
-  static const char *value(const M &message) { return ask_of(message, 0); }
+  static const char* value() { return ask<M>(0); }
+  static const char* value(const M& message) { return ask_of(message, 0); }
 
  private:
   using Bare = typename std::remove_cv<M>::type;
   template <class T>
-  static const char *ask(
+  static const char* ask(
       decltype(::gazelle::Description<typename std::remove_cv<T>::type>::ros1_type, 0)) {
     return ::gazelle::Description<Bare>::ros1_type;
   }
   template <class T>
-  static const char *ask(...) {
+  static const char* ask(...) {
     return T::__s_getDataType().c_str();
   }
   template <class T>
-  static auto ask_of(const T &message, int) -> decltype(message.__getDataType().c_str()) {
+  static auto ask_of(const T& message, int) -> decltype(message.__getDataType().c_str()) {
     return message.__getDataType().c_str();
   }
   template <class T>
-  static const char *ask_of(const T &, long) {
+  static const char* ask_of(const T&, long) {
     return value();
   }
 };
 
 template <typename M, typename Enable = void>
 struct Definition {
-  static const char *value() { return ask<M>(0); }
-  static const char *value(const M &message) { return ask_of(message, 0); }
+  static const char* value() { return ask<M>(0); }
+  static const char* value(const M& message) { return ask_of(message, 0); }
 
  private:
   using Bare = typename std::remove_cv<M>::type;
   template <class T>
-  static const char *ask(
+  static const char* ask(
       decltype(::gazelle::Description<typename std::remove_cv<T>::type>::definition, 0)) {
     return ::gazelle::Description<Bare>::definition();
   }
   template <class T>
-  static const char *ask(...) {
+  static const char* ask(...) {
     return T::__s_getMessageDefinition().c_str();
   }
   template <class T>
-  static auto ask_of(const T &message, int)
-      -> decltype(message.__getMessageDefinition().c_str()) {
+  static auto ask_of(const T& message, int) -> decltype(message.__getMessageDefinition().c_str()) {
     return message.__getMessageDefinition().c_str();
   }
   template <class T>
-  static const char *ask_of(const T &, long) {
+  static const char* ask_of(const T&, long) {
     return value();
   }
 };
 
 template <typename M, typename Enable = void>
 struct Header {
-  static std_msgs::Header *pointer(M &) { return nullptr; }
-  static std_msgs::Header const *pointer(const M &) { return nullptr; }
+  static std_msgs::Header* pointer(M&) { return nullptr; }
+  static std_msgs::Header const* pointer(const M&) { return nullptr; }
 };
 template <typename M>
 struct Header<M, typename boost::enable_if<HasHeader<M>>::type> {
-  static std_msgs::Header *pointer(typename std::remove_const<M>::type &m) { return &m.header; }
-  static std_msgs::Header const *pointer(const M &m) { return &m.header; }
+  static std_msgs::Header* pointer(typename std::remove_const<M>::type& m) { return &m.header; }
+  static std_msgs::Header const* pointer(const M& m) { return &m.header; }
 };
 
 template <typename M, typename Enable = void>
 struct FrameId {
-  static std::string *pointer(M &) { return nullptr; }
-  static std::string const *pointer(const M &) { return nullptr; }
+  static std::string* pointer(M&) { return nullptr; }
+  static std::string const* pointer(const M&) { return nullptr; }
 };
 template <typename M>
 struct FrameId<M, typename boost::enable_if<HasHeader<M>>::type> {
-  static std::string *pointer(typename std::remove_const<M>::type &m) {
-    return &m.header.frame_id;
-  }
-  static std::string const *pointer(const M &m) { return &m.header.frame_id; }
-  static std::string value(const M &m) { return m.header.frame_id; }
+  static std::string* pointer(typename std::remove_const<M>::type& m) { return &m.header.frame_id; }
+  static std::string const* pointer(const M& m) { return &m.header.frame_id; }
+  static std::string value(const M& m) { return m.header.frame_id; }
 };
 
 template <typename M, typename Enable = void>
 struct TimeStamp {
-  static ros::Time *pointer(M &) { return nullptr; }
-  static ros::Time const *pointer(const M &) { return nullptr; }
+  static ros::Time* pointer(M&) { return nullptr; }
+  static ros::Time const* pointer(const M&) { return nullptr; }
 };
 template <typename M>
 struct TimeStamp<M, typename boost::enable_if<HasHeader<M>>::type> {
-  static ros::Time *pointer(typename std::remove_const<M>::type &m) { return &m.header.stamp; }
-  static ros::Time const *pointer(const M &m) { return &m.header.stamp; }
-  static ros::Time value(const M &m) { return m.header.stamp; }
+  static ros::Time* pointer(typename std::remove_const<M>::type& m) { return &m.header.stamp; }
+  static ros::Time const* pointer(const M& m) { return &m.header.stamp; }
+  static ros::Time value(const M& m) { return m.header.stamp; }
 };
 
 template <typename M>
-inline const char *md5sum() {
+inline const char* md5sum() {
   return MD5Sum<typename std::remove_cv<typename std::remove_reference<M>::type>::type>::value();
 }
 template <typename M>
-inline const char *datatype() {
+inline const char* datatype() {
   return DataType<typename std::remove_cv<typename std::remove_reference<M>::type>::type>::value();
 }
 template <typename M>
-inline const char *definition() {
+inline const char* definition() {
   return Definition<
       typename std::remove_cv<typename std::remove_reference<M>::type>::type>::value();
 }
 template <typename M>
-inline const char *md5sum(const M &message) {
+inline const char* md5sum(const M& message) {
   return MD5Sum<typename std::remove_cv<M>::type>::value(message);
 }
 template <typename M>
-inline const char *datatype(const M &message) {
+inline const char* datatype(const M& message) {
   return DataType<typename std::remove_cv<M>::type>::value(message);
 }
 template <typename M>
-inline const char *definition(const M &message) {
+inline const char* definition(const M& message) {
   return Definition<typename std::remove_cv<M>::type>::value(message);
 }
 
 template <typename M>
-inline std_msgs::Header *header(M &message) {
+inline std_msgs::Header* header(M& message) {
   return Header<typename std::remove_cv<M>::type>::pointer(message);
 }
 template <typename M>
-inline std_msgs::Header const *header(const M &message) {
+inline std_msgs::Header const* header(const M& message) {
   return Header<typename std::remove_cv<M>::type>::pointer(message);
 }
 template <typename M>
-inline std::string *frameId(M &message) {
+inline std::string* frameId(M& message) {
   return FrameId<typename std::remove_cv<M>::type>::pointer(message);
 }
 template <typename M>
-inline std::string const *frameId(const M &message) {
+inline std::string const* frameId(const M& message) {
   return FrameId<typename std::remove_cv<M>::type>::pointer(message);
 }
 template <typename M>
-inline ros::Time *timeStamp(M &message) {
+inline ros::Time* timeStamp(M& message) {
   return TimeStamp<typename std::remove_cv<M>::type>::pointer(message);
 }
 template <typename M>
-inline ros::Time const *timeStamp(const M &message) {
+inline ros::Time const* timeStamp(const M& message) {
   return TimeStamp<typename std::remove_cv<M>::type>::pointer(message);
 }
 
@@ -261,8 +257,7 @@ inline bool isSimple() {
 }
 template <typename M>
 inline bool isFixedSize() {
-  return IsFixedSize<
-      typename std::remove_cv<typename std::remove_reference<M>::type>::type>::value;
+  return IsFixedSize<typename std::remove_cv<typename std::remove_reference<M>::type>::type>::value;
 }
 template <typename M>
 inline bool hasHeader() {

@@ -28,20 +28,20 @@
 #define ROS_NEW_SERIALIZATION_API 1
 
 // A Serializer's three functions, all by its `allInOne`.
-#define ROS_DECLARE_ALLINONE_SERIALIZER                          \
-  template <typename Stream, typename T>                         \
-  inline static void write(Stream &stream, const T &t) {         \
-    allInOne<Stream, const T &>(stream, t);                      \
-  }                                                              \
-  template <typename Stream, typename T>                         \
-  inline static void read(Stream &stream, T &t) {                \
-    allInOne<Stream, T &>(stream, t);                            \
-  }                                                              \
-  template <typename T>                                          \
-  inline static uint32_t serializedLength(const T &t) {          \
-    ros::serialization::LStream stream;                          \
-    allInOne<ros::serialization::LStream, const T &>(stream, t); \
-    return stream.getLength();                                   \
+#define ROS_DECLARE_ALLINONE_SERIALIZER                         \
+  template <typename Stream, typename T>                        \
+  inline static void write(Stream& stream, const T& t) {        \
+    allInOne<Stream, const T&>(stream, t);                      \
+  }                                                             \
+  template <typename Stream, typename T>                        \
+  inline static void read(Stream& stream, T& t) {               \
+    allInOne<Stream, T&>(stream, t);                            \
+  }                                                             \
+  template <typename T>                                         \
+  inline static uint32_t serializedLength(const T& t) {         \
+    ros::serialization::LStream stream;                         \
+    allInOne<ros::serialization::LStream, const T&>(stream, t); \
+    return stream.getLength();                                  \
   }
 
 namespace ros {
@@ -51,12 +51,10 @@ namespace mt = message_traits;
 
 class StreamOverrunException : public ros::Exception {
  public:
-  explicit StreamOverrunException(const std::string &what) : Exception(what) {}
+  explicit StreamOverrunException(const std::string& what) : Exception(what) {}
 };
 
-[[noreturn]] inline void throwStreamOverrun() {
-  throw StreamOverrunException("Buffer Overrun");
-}
+[[noreturn]] inline void throwStreamOverrun() { throw StreamOverrunException("Buffer Overrun"); }
 
 namespace stream_types {
 enum StreamType { Input, Output, Length };
@@ -64,42 +62,42 @@ enum StreamType { Input, Output, Length };
 typedef stream_types::StreamType StreamType;
 
 struct Stream {
-  uint8_t *getData() { return data_; }
-  uint8_t *advance(uint32_t len) {
+  uint8_t* getData() { return data_; }
+  uint8_t* advance(uint32_t len) {
     if (len > getLength()) throwStreamOverrun();
-    uint8_t *const before = data_;
+    uint8_t* const before = data_;
     data_ += len;
     return before;
   }
   uint32_t getLength() { return static_cast<uint32_t>(end_ - data_); }
 
  protected:
-  Stream(uint8_t *data, uint32_t count) : data_(data), end_(data + count) {}
+  Stream(uint8_t* data, uint32_t count) : data_(data), end_(data + count) {}
 
  private:
-  uint8_t *data_;
-  uint8_t *end_;
+  uint8_t* data_;
+  uint8_t* end_;
 };
 
 template <typename T>
 struct Serializer;
 
 template <typename T, typename Stream>
-inline void serialize(Stream &stream, const T &t);
+inline void serialize(Stream& stream, const T& t);
 template <typename T, typename Stream>
-inline void deserialize(Stream &stream, T &t);
+inline void deserialize(Stream& stream, T& t);
 template <typename T>
-inline uint32_t serializationLength(const T &t);
+inline uint32_t serializationLength(const T& t);
 
 struct IStream : public Stream {
   static const StreamType stream_type = stream_types::Input;
-  IStream(uint8_t *data, uint32_t count) : Stream(data, count) {}
+  IStream(uint8_t* data, uint32_t count) : Stream(data, count) {}
   template <typename T>
-  void next(T &t) {
+  void next(T& t) {
     deserialize(*this, t);
   }
   template <typename T>
-  IStream &operator>>(T &t) {
+  IStream& operator>>(T& t) {
     deserialize(*this, t);
     return *this;
   }
@@ -107,13 +105,13 @@ struct IStream : public Stream {
 
 struct OStream : public Stream {
   static const StreamType stream_type = stream_types::Output;
-  OStream(uint8_t *data, uint32_t count) : Stream(data, count) {}
+  OStream(uint8_t* data, uint32_t count) : Stream(data, count) {}
   template <typename T>
-  void next(const T &t) {
+  void next(const T& t) {
     serialize(*this, t);
   }
   template <typename T>
-  OStream &operator<<(const T &t) {
+  OStream& operator<<(const T& t) {
     serialize(*this, t);
     return *this;
   }
@@ -123,7 +121,7 @@ struct LStream {
   static const StreamType stream_type = stream_types::Length;
   LStream() : count_(0) {}
   template <typename T>
-  void next(const T &t) {
+  void next(const T& t) {
     count_ += serializationLength(t);
   }
   uint32_t advance(uint32_t len) {
@@ -158,13 +156,13 @@ struct Wire<bool> {
 template <typename T>
 struct Serializer {
   template <typename Stream>
-  inline static void write(Stream &stream, typename boost::call_traits<T>::param_type t) {
+  inline static void write(Stream& stream, typename boost::call_traits<T>::param_type t) {
     if constexpr (detail::is_number_v<T>) {
       const typename detail::Wire<T>::type value = t;
       std::memcpy(stream.advance(sizeof(value)), &value, sizeof(value));
     } else if constexpr (::gazelle::is_message_v<T>) {
       const uint32_t left = stream.getLength();
-      const auto &layout = ::gazelle::Description<T>::layout();
+      const auto& layout = ::gazelle::Description<T>::layout();
       const std::size_t size = ::gazelle::ros1_size(layout, &t);
       if (size > left) throwStreamOverrun();
       ::gazelle::encode_ros1(layout, &t, stream.advance(static_cast<uint32_t>(size)), size);
@@ -173,7 +171,7 @@ struct Serializer {
     }
   }
   template <typename Stream>
-  inline static void read(Stream &stream, T &t) {
+  inline static void read(Stream& stream, T& t) {
     if constexpr (detail::is_number_v<T>) {
       typename detail::Wire<T>::type value;
       std::memcpy(&value, stream.advance(sizeof(value)), sizeof(value));
@@ -182,7 +180,7 @@ struct Serializer {
       try {
         stream.advance(static_cast<uint32_t>(::gazelle::decode_ros1(
             ::gazelle::Description<T>::layout(), &t, stream.getData(), stream.getLength())));
-      } catch (const ::gazelle::Error &) {
+      } catch (const ::gazelle::Error&) {
         throwStreamOverrun();
       }
     } else {
@@ -193,8 +191,7 @@ struct Serializer {
     if constexpr (detail::is_number_v<T>) {
       return sizeof(typename detail::Wire<T>::type);
     } else if constexpr (::gazelle::is_message_v<T>) {
-      return static_cast<uint32_t>(
-          ::gazelle::ros1_size(::gazelle::Description<T>::layout(), &t));
+      return static_cast<uint32_t>(::gazelle::ros1_size(::gazelle::Description<T>::layout(), &t));
     } else {
       return t.serializationLength();
     }
@@ -205,20 +202,20 @@ template <class Allocator>
 struct Serializer<std::basic_string<char, std::char_traits<char>, Allocator>> {
   typedef std::basic_string<char, std::char_traits<char>, Allocator> StringType;
   template <typename Stream>
-  inline static void write(Stream &stream, const StringType &text) {
+  inline static void write(Stream& stream, const StringType& text) {
     serialize(stream, static_cast<uint32_t>(text.size()));
     if (!text.empty()) {
       std::memcpy(stream.advance(static_cast<uint32_t>(text.size())), text.data(), text.size());
     }
   }
   template <typename Stream>
-  inline static void read(Stream &stream, StringType &text) {
+  inline static void read(Stream& stream, StringType& text) {
     uint32_t size = 0;
     deserialize(stream, size);
-    const uint8_t *const start = stream.advance(size);
-    text.assign(reinterpret_cast<const char *>(start), size);
+    const uint8_t* const start = stream.advance(size);
+    text.assign(reinterpret_cast<const char*>(start), size);
   }
-  inline static uint32_t serializedLength(const StringType &text) {
+  inline static uint32_t serializedLength(const StringType& text) {
     return 4 + static_cast<uint32_t>(text.size());
   }
 };
@@ -227,30 +224,30 @@ namespace detail {
 template <class TimeClass>
 struct TimeSerializer {
   template <typename Stream>
-  inline static void write(Stream &stream, const TimeClass &time) {
+  inline static void write(Stream& stream, const TimeClass& time) {
     serialize(stream, time.sec);
     serialize(stream, time.nsec);
   }
   template <typename Stream>
-  inline static void read(Stream &stream, TimeClass &time) {
+  inline static void read(Stream& stream, TimeClass& time) {
     deserialize(stream, time.sec);
     deserialize(stream, time.nsec);
   }
-  inline static uint32_t serializedLength(const TimeClass &) { return 8; }
+  inline static uint32_t serializedLength(const TimeClass&) { return 8; }
 };
 
 template <typename Stream, typename T>
-inline void write_each(Stream &stream, const T &values) {
-  for (const auto &value : values) serialize(stream, value);
+inline void write_each(Stream& stream, const T& values) {
+  for (const auto& value : values) serialize(stream, value);
 }
 template <typename Stream, typename T>
-inline void read_each(Stream &stream, T &values) {
-  for (auto &value : values) deserialize(stream, value);
+inline void read_each(Stream& stream, T& values) {
+  for (auto& value : values) deserialize(stream, value);
 }
 template <typename T>
-inline uint32_t length_of_each(const T &values) {
+inline uint32_t length_of_each(const T& values) {
   uint32_t size = 0;
-  for (const auto &value : values) size += serializationLength(value);
+  for (const auto& value : values) size += serializationLength(value);
   return size;
 }
 }  // namespace detail
@@ -264,18 +261,18 @@ template <typename T, class Allocator>
 struct Serializer<std::vector<T, Allocator>> {
   typedef std::vector<T, Allocator> VecType;
   template <typename Stream>
-  inline static void write(Stream &stream, const VecType &values) {
+  inline static void write(Stream& stream, const VecType& values) {
     serialize(stream, static_cast<uint32_t>(values.size()));
     detail::write_each(stream, values);
   }
   template <typename Stream>
-  inline static void read(Stream &stream, VecType &values) {
+  inline static void read(Stream& stream, VecType& values) {
     uint32_t size = 0;
     deserialize(stream, size);
     values.resize(size);
     detail::read_each(stream, values);
   }
-  inline static uint32_t serializedLength(const VecType &values) {
+  inline static uint32_t serializedLength(const VecType& values) {
     return 4 + detail::length_of_each(values);
   }
 };
@@ -284,42 +281,42 @@ template <typename T, size_t N>
 struct Serializer<boost::array<T, N>> {
   typedef boost::array<T, N> ArrayType;
   template <typename Stream>
-  inline static void write(Stream &stream, const ArrayType &values) {
+  inline static void write(Stream& stream, const ArrayType& values) {
     detail::write_each(stream, values);
   }
   template <typename Stream>
-  inline static void read(Stream &stream, ArrayType &values) {
+  inline static void read(Stream& stream, ArrayType& values) {
     detail::read_each(stream, values);
   }
-  inline static uint32_t serializedLength(const ArrayType &values) {
+  inline static uint32_t serializedLength(const ArrayType& values) {
     return detail::length_of_each(values);
   }
 };
 
 template <typename T, typename Stream>
-inline void serialize(Stream &stream, const T &t) {
+inline void serialize(Stream& stream, const T& t) {
   Serializer<T>::write(stream, t);
 }
 template <typename T, typename Stream>
-inline void deserialize(Stream &stream, T &t) {
+inline void deserialize(Stream& stream, T& t) {
   Serializer<T>::read(stream, t);
 }
 template <typename T>
-inline uint32_t serializationLength(const T &t) {
+inline uint32_t serializationLength(const T& t) {
   return Serializer<T>::serializedLength(t);
 }
 
 template <typename T, class Allocator, typename Stream>
-inline void serialize(Stream &stream, const std::vector<T, Allocator> &t) {
+inline void serialize(Stream& stream, const std::vector<T, Allocator>& t) {
   Serializer<std::vector<T, Allocator>>::write(stream, t);
 }
 template <typename T, class Allocator, typename Stream>
-inline void deserialize(Stream &stream, std::vector<T, Allocator> &t) {
+inline void deserialize(Stream& stream, std::vector<T, Allocator>& t) {
   Serializer<std::vector<T, Allocator>>::read(stream, t);
 }
 
 template <typename M>
-inline SerializedMessage serializeMessage(const M &message) {
+inline SerializedMessage serializeMessage(const M& message) {
   SerializedMessage made;
   const uint32_t size = serializationLength(message);
   made.num_bytes = size + 4;
@@ -332,7 +329,7 @@ inline SerializedMessage serializeMessage(const M &message) {
 }
 
 template <typename M>
-inline SerializedMessage serializeServiceResponse(bool ok, const M &message) {
+inline SerializedMessage serializeServiceResponse(bool ok, const M& message) {
   SerializedMessage made;
   const uint32_t size = ok ? serializationLength(message) : serializationLength(std::string());
   made.num_bytes = ok ? size + 5 : 5;
@@ -350,7 +347,7 @@ inline SerializedMessage serializeServiceResponse(bool ok, const M &message) {
 }
 
 template <typename M>
-inline void deserializeMessage(const SerializedMessage &m, M &message) {
+inline void deserializeMessage(const SerializedMessage& m, M& message) {
   IStream stream(m.message_start,
                  static_cast<uint32_t>(m.num_bytes - (m.message_start - m.buf.get())));
   deserialize(stream, message);
@@ -364,7 +361,7 @@ struct PreDeserializeParams {
 };
 template <typename M>
 struct PreDeserialize {
-  static void notify(const PreDeserializeParams<M> &) {}
+  static void notify(const PreDeserializeParams<M>&) {}
 };
 
 }  // namespace serialization

@@ -14,10 +14,10 @@ class SerializedMessage {
  public:
   boost::shared_array<uint8_t> buf;
   size_t num_bytes;
-  uint8_t *message_start;
+  uint8_t* message_start;
 
   boost::shared_ptr<void const> message;
-  const std::type_info *type_info;
+  const std::type_info* type_info;
 
   SerializedMessage()
       : buf(boost::shared_array<uint8_t>()),

@@ -1,0 +1,3 @@
+#pragma once
+#include <ros/macros.h>
+#define CPP_COMMON_DECL ROS_HELPER_EXPORT

@@ -1,0 +1,2 @@
+#pragma once
+#include <std_msgs/Header.h>
