@@ -47,6 +47,7 @@ defined there:
         MapWriteError
         MassError
         MeshError
+        NoToolchainError
         NoWorldError
         NotFoundError
         ReconfigureError
@@ -60,6 +61,7 @@ defined there:
         ToolError
             FieldError
         TreeError
+        UnknownVerbError
         UserFileError
 """
 

@@ -14,16 +14,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib import import_module
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from gazelle.errors import GazelleError
 
-if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
-
 __all__ = ["FAMILIES", "UnknownVerbError", "Verb", "verb", "verb_named"]
 
-Verb = Callable[["HostContext", dict[str, Any]], Any]
+Verb = Callable[[Any, dict[str, Any]], Any]
+"""Takes the process's `HostContext` and a request; its module knows which class that is."""
 
 FAMILIES: dict[str, str] = {
     "end": "gazelle.cpp.verbs.topic",
