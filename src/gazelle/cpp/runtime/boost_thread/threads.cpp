@@ -23,8 +23,8 @@ namespace boost {
 namespace detail {
 
 struct thread_exit_callback_node {
-  thread_exit_function_base *function;
-  thread_exit_callback_node *next;
+  thread_exit_function_base* function;
+  thread_exit_callback_node* next;
 };
 
 namespace {
@@ -34,12 +34,12 @@ struct ForeignThread : thread_data_base {
   void run() override {}
 };
 
-thread_local thread_data_base *current = nullptr;
+thread_local thread_data_base* current = nullptr;
 
-void run_exit_callbacks(thread_data_base &thread) {
+void run_exit_callbacks(thread_data_base& thread) {
   // A callback may add another one, or a value.
   while (thread.thread_exit_callbacks != nullptr || !thread.tss_data.empty()) {
-    while (thread_exit_callback_node *node = thread.thread_exit_callbacks) {
+    while (thread_exit_callback_node* node = thread.thread_exit_callbacks) {
       thread.thread_exit_callbacks = node->next;
       if (node->function != nullptr) {
         (*node->function)();
@@ -47,9 +47,9 @@ void run_exit_callbacks(thread_data_base &thread) {
       }
       delete node;
     }
-    std::map<void const *, tss_data_node> values;
+    std::map<void const*, tss_data_node> values;
     values.swap(thread.tss_data);
-    for (auto &entry : values) {
+    for (auto& entry : values) {
       if (entry.second.func != nullptr && entry.second.value != nullptr) {
         (*entry.second.caller)(entry.second.func, entry.second.value);
       }
@@ -70,7 +70,7 @@ struct ForeignEnd {
   }
 };
 
-thread_data_base &current_or_foreign() {
+thread_data_base& current_or_foreign() {
   if (current == nullptr) {
     static thread_local ForeignEnd end;
     end.record.reset(new ForeignThread);
@@ -81,7 +81,7 @@ thread_data_base &current_or_foreign() {
   return *current;
 }
 
-void tell_of_end(thread_data_base &thread) {
+void tell_of_end(thread_data_base& thread) {
   {
     boost::lock_guard<boost::mutex> guard(thread.data_mutex);
     thread.done = true;
@@ -89,14 +89,14 @@ void tell_of_end(thread_data_base &thread) {
   thread.done_condition.notify_all();
 }
 
-extern "C" void *gazelle_boost_thread_begin(void *argument) {
+extern "C" void* gazelle_boost_thread_begin(void* argument) {
   // The starter has put the record into its own `self`, so it is there.
-  thread_data_ptr thread = static_cast<thread_data_base *>(argument)->self;
+  thread_data_ptr thread = static_cast<thread_data_base*>(argument)->self;
   thread->self.reset();
   current = thread.get();
   try {
     thread->run();
-  } catch (const thread_interrupted &) {
+  } catch (const thread_interrupted&) {
     // An interrupted thread has ended as it was asked to.
   }
   run_exit_callbacks(*thread);
@@ -108,19 +108,19 @@ extern "C" void *gazelle_boost_thread_begin(void *argument) {
 }  // namespace
 
 thread_data_base::~thread_data_base() {
-  for (auto &waiting : notify) {
+  for (auto& waiting : notify) {
     waiting.second->unlock();
     waiting.first->notify_all();
   }
-  for (auto &state : async_states_) {
+  for (auto& state : async_states_) {
     state->notify_deferred();
   }
 }
 
-thread_data_base *get_current_thread_data() { return current; }
+thread_data_base* get_current_thread_data() { return current; }
 
-void add_thread_exit_function(thread_exit_function_base *function) {
-  thread_data_base &thread = current_or_foreign();
+void add_thread_exit_function(thread_exit_function_base* function) {
+  thread_data_base& thread = current_or_foreign();
   thread.thread_exit_callbacks =
       new thread_exit_callback_node{function, thread.thread_exit_callbacks};
 }
@@ -129,7 +129,7 @@ void make_ready_at_thread_exit(shared_ptr<shared_state_base> state) {
   current_or_foreign().make_ready_at_thread_exit(std::move(state));
 }
 
-void *get_tss_data(void const *key) {
+void* get_tss_data(void const* key) {
   if (current == nullptr) {
     return nullptr;
   }
@@ -137,12 +137,12 @@ void *get_tss_data(void const *key) {
   return found == current->tss_data.end() ? nullptr : found->second.value;
 }
 
-void set_tss_data(void const *key, thread::cleanup_caller_t caller, thread::cleanup_func_t func,
-                  void *value, bool cleanup_existing) {
+void set_tss_data(void const* key, thread::cleanup_caller_t caller, thread::cleanup_func_t func,
+                  void* value, bool cleanup_existing) {
   if (current == nullptr && value == nullptr) {
     return;
   }
-  thread_data_base &record = current_or_foreign();
+  thread_data_base& record = current_or_foreign();
   const auto found = record.tss_data.find(key);
   if (found != record.tss_data.end()) {
     const tss_data_node old = found->second;
@@ -164,9 +164,9 @@ thread::thread(detail::thread_data_ptr data) : thread_info(std::move(data)) {}
 
 bool thread::start_thread_noexcept() { return start_thread_noexcept(attributes()); }
 
-bool thread::start_thread_noexcept(const attributes &wanted) {
+bool thread::start_thread_noexcept(const attributes& wanted) {
   thread_info->self = thread_info;
-  const pthread_attr_t *native = wanted.native_handle();
+  const pthread_attr_t* native = wanted.native_handle();
   if (pthread_create(&thread_info->thread_handle, native, &detail::gazelle_boost_thread_begin,
                      thread_info.get()) != 0) {
     thread_info->self.reset();
@@ -217,8 +217,8 @@ bool thread::join_noexcept() {
   return true;
 }
 
-bool thread::do_try_join_until_noexcept(detail::internal_platform_timepoint const &timeout,
-                                        bool &result) {
+bool thread::do_try_join_until_noexcept(detail::internal_platform_timepoint const& timeout,
+                                        bool& result) {
   const detail::thread_data_ptr record = thread_info;
   if (!record) {
     return false;
@@ -313,7 +313,7 @@ bool thread::interruption_requested() const BOOST_NOEXCEPT {
 namespace this_thread {
 
 void interruption_point() {
-  detail::thread_data_base *const record = detail::current;
+  detail::thread_data_base* const record = detail::current;
   if (record != nullptr && record->interrupt_enabled) {
     boost::lock_guard<boost::mutex> guard(record->data_mutex);
     if (record->interrupt_requested) {
@@ -328,7 +328,7 @@ bool interruption_enabled() BOOST_NOEXCEPT {
 }
 
 bool interruption_requested() BOOST_NOEXCEPT {
-  detail::thread_data_base *const record = detail::current;
+  detail::thread_data_base* const record = detail::current;
   if (record == nullptr) {
     return false;
   }
@@ -349,7 +349,7 @@ disable_interruption::~disable_interruption() BOOST_NOEXCEPT {
   }
 }
 
-restore_interruption::restore_interruption(disable_interruption &disabled) BOOST_NOEXCEPT {
+restore_interruption::restore_interruption(disable_interruption& disabled) BOOST_NOEXCEPT {
   if (disabled.interruption_was_enabled) {
     detail::current->interrupt_enabled = true;
   }
@@ -366,7 +366,7 @@ void yield() BOOST_NOEXCEPT { sched_yield(); }
 namespace no_interruption_point {
 namespace hidden {
 
-void sleep_for_internal(const detail::platform_duration &time) {
+void sleep_for_internal(const detail::platform_duration& time) {
   if (time > detail::platform_duration::zero()) {
     std::this_thread::sleep_for(std::chrono::nanoseconds(time.getNs()));
   }
@@ -376,7 +376,7 @@ void sleep_for_internal(const detail::platform_duration &time) {
 }  // namespace no_interruption_point
 }  // namespace this_thread
 
-void notify_all_at_thread_exit(condition_variable &condition, unique_lock<mutex> lock) {
+void notify_all_at_thread_exit(condition_variable& condition, unique_lock<mutex> lock) {
   detail::current_or_foreign().notify_all_at_thread_exit(&condition, lock.release());
 }
 
@@ -384,7 +384,7 @@ namespace {
 
 class FutureCategory : public system::error_category {
  public:
-  const char *name() const BOOST_NOEXCEPT override { return "future"; }
+  const char* name() const BOOST_NOEXCEPT override { return "future"; }
 
   std::string message(int value) const override {
     switch (static_cast<future_errc>(value)) {
@@ -405,7 +405,7 @@ class FutureCategory : public system::error_category {
 
 }  // namespace
 
-const system::error_category &future_category() BOOST_NOEXCEPT {
+const system::error_category& future_category() BOOST_NOEXCEPT {
   static const FutureCategory category;
   return category;
 }
@@ -418,7 +418,7 @@ enum : atomic_int_type { untouched = 0, begun = 1, done = 2 };
 pthread_mutex_t once_mutex = PTHREAD_MUTEX_INITIALIZER;
 pthread_cond_t once_changed = PTHREAD_COND_INITIALIZER;
 
-void set_state(once_flag &flag, atomic_int_type state) {
+void set_state(once_flag& flag, atomic_int_type state) {
   pthread_mutex_lock(&once_mutex);
   get_atomic_storage(flag).store(state, memory_order_release);
   pthread_mutex_unlock(&once_mutex);
@@ -427,8 +427,8 @@ void set_state(once_flag &flag, atomic_int_type state) {
 
 }  // namespace
 
-bool enter_once_region(once_flag &flag) BOOST_NOEXCEPT {
-  atomic_type &state = get_atomic_storage(flag);
+bool enter_once_region(once_flag& flag) BOOST_NOEXCEPT {
+  atomic_type& state = get_atomic_storage(flag);
   if (state.load(memory_order_acquire) == done) {
     return false;
   }
@@ -444,9 +444,9 @@ bool enter_once_region(once_flag &flag) BOOST_NOEXCEPT {
   return is_first;
 }
 
-void commit_once_region(once_flag &flag) BOOST_NOEXCEPT { set_state(flag, done); }
+void commit_once_region(once_flag& flag) BOOST_NOEXCEPT { set_state(flag, done); }
 
-void rollback_once_region(once_flag &flag) BOOST_NOEXCEPT { set_state(flag, untouched); }
+void rollback_once_region(once_flag& flag) BOOST_NOEXCEPT { set_state(flag, untouched); }
 
 }  // namespace thread_detail
 }  // namespace boost

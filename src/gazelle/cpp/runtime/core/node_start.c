@@ -18,9 +18,9 @@
 #define KEPT used
 #endif
 
-extern int main(int argc, char **argv) __attribute__((visibility("hidden")));
+extern int main(int argc, char** argv) __attribute__((visibility("hidden")));
 
-__attribute__((visibility("default"), KEPT)) int (*gazelle_node_main)(int, char **) = main;
+__attribute__((visibility("default"), KEPT)) int (*gazelle_node_main)(int, char**) = main;
 
 __attribute__((visibility("default"), KEPT)) const char gazelle_node_mark[] = "gazelle-node-abi-1";
 

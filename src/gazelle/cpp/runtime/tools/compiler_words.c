@@ -15,13 +15,13 @@
 #include <string.h>
 #include <unistd.h>
 
-static int starts(const char *word, const char *start) {
+static int starts(const char* word, const char* start) {
   return strncmp(word, start, strlen(start)) == 0;
 }
 
-static int is_old_standard(const char *word) {
-  static const char *const old[] = {"98", "03", "0x", "11", "1y", "14", "1z"};
-  const char *name = 0;
+static int is_old_standard(const char* word) {
+  static const char* const old[] = {"98", "03", "0x", "11", "1y", "14", "1z"};
+  const char* name = 0;
   size_t index;
   if (starts(word, "-std=c++")) {
     name = word + strlen("-std=c++");
@@ -36,7 +36,7 @@ static int is_old_standard(const char *word) {
   return 0;
 }
 
-static int is_left_out(const char *word) {
+static int is_left_out(const char* word) {
   return strcmp(word, "-march=native") == 0 || strcmp(word, "-mtune=native") == 0 ||
          strcmp(word, "-mcpu=native") == 0 || strcmp(word, "-Werror") == 0 ||
          starts(word, "-Werror=") || strcmp(word, "-pedantic-errors") == 0 ||
@@ -45,11 +45,11 @@ static int is_left_out(const char *word) {
 }
 
 /* The header that a source includes first, by the table; a new string, or null. */
-static char *precompiled(const char *table, const char *source) {
+static char* precompiled(const char* table, const char* source) {
   static char line[8192];
   size_t length = strlen(source);
-  char *found = 0;
-  FILE *file = fopen(table, "r");
+  char* found = 0;
+  FILE* file = fopen(table, "r");
   if (!file) {
     return 0;
   }
@@ -63,11 +63,11 @@ static char *precompiled(const char *table, const char *source) {
   return found;
 }
 
-int main(int argc, char **argv) {
-  const char *table = getenv("GAZELLE_PRECOMPILED");
-  const char *source = 0;
-  char *header = 0;
-  char **words = calloc((size_t)argc + 5, sizeof *words);
+int main(int argc, char** argv) {
+  const char* table = getenv("GAZELLE_PRECOMPILED");
+  const char* source = 0;
+  char* header = 0;
+  char** words = calloc((size_t)argc + 5, sizeof *words);
   int from;
   int count = 0;
   if (argc < 2 || !words) {

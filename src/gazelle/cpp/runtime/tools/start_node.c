@@ -17,7 +17,7 @@ static long system_call(long number, long a, long b, long c) {
   return result;
 }
 enum { NUMBER_WRITE = 1, NUMBER_EXECVE = 59, NUMBER_EXIT = 60, NUMBER_READLINK = 89 };
-static long read_link(const char *path, char *to, long size) {
+static long read_link(const char* path, char* to, long size) {
   return system_call(NUMBER_READLINK, (long)path, (long)to, size);
 }
 __asm__(
@@ -36,7 +36,7 @@ static long system_call(long number, long a, long b, long c) {
   return system_call4(number, a, b, c, 0);
 }
 enum { NUMBER_WRITE = 64, NUMBER_EXECVE = 221, NUMBER_EXIT = 93, NUMBER_READLINKAT = 78 };
-static long read_link(const char *path, char *to, long size) {
+static long read_link(const char* path, char* to, long size) {
   return system_call4(NUMBER_READLINKAT, -100, (long)path, (long)to, size);
 }
 __asm__(".globl _start\n_start:\n  mov x29, #0\n  mov x0, sp\n  bl begin\n");
@@ -44,10 +44,10 @@ __asm__(".globl _start\n_start:\n  mov x29, #0\n  mov x0, sp\n  bl begin\n");
 #error "nodes' files are started by launchers only on this machine"
 #endif
 
-static const char *words[MOST_WORDS];
+static const char* words[MOST_WORDS];
 static char file[LONGEST_PATH];
 
-static long length_of(const char *text) {
+static long length_of(const char* text) {
   long length = 0;
   while (text[length]) {
     ++length;
@@ -56,7 +56,7 @@ static long length_of(const char *text) {
 }
 
 /* The value of a variable of the environment, null where it is not set. */
-static const char *value_of(char **environment, const char *name) {
+static const char* value_of(char** environment, const char* name) {
   for (; *environment; ++environment) {
     long index = 0;
     while (name[index] && (*environment)[index] == name[index]) {
@@ -69,13 +69,13 @@ static const char *value_of(char **environment, const char *name) {
   return 0;
 }
 
-static void say(const char *text) { system_call(NUMBER_WRITE, 2, (long)text, length_of(text)); }
+static void say(const char* text) { system_call(NUMBER_WRITE, 2, (long)text, length_of(text)); }
 
-__attribute__((used, noreturn)) static void begin(long *stack) {
+__attribute__((used, noreturn)) static void begin(long* stack) {
   long count = stack[0];
-  char **arguments = (char **)(stack + 1);
-  char **environment = arguments + count + 1;
-  const char *python = value_of(environment, "GAZELLE_PYTHON");
+  char** arguments = (char**)(stack + 1);
+  char** environment = arguments + count + 1;
+  const char* python = value_of(environment, "GAZELLE_PYTHON");
   long from;
   long to = 0;
   long length = read_link("/proc/self/exe", file, sizeof file - 1);
