@@ -54,7 +54,7 @@ class Link {
     rclcpp::SubscriptionOptions options;
     options.callback_group = group_;
     states_ = node_->create_subscription<msgs::sen::JointState>(
-        "joint_states", rclcpp::SystemDefaultsQoS(),
+        "joint_states", rclcpp::SensorDataQoS(),
         [this](msgs::sen::JointState::ConstSharedPtr message) { take(*message); }, options);
     events_ = node_->create_publisher<std_msgs::msg::String>(
         joined(ns_, "trajectory_execution_event"), 1);
