@@ -2,10 +2,10 @@
 
 #include <camera_calibration_parsers/parse.h>
 #include <camera_info_manager/camera_info_manager.h>
-#include <gazelle/core.hpp>
 #include <ros/console.h>
 #include <ros/package.h>
 #include <sys/stat.h>
+#include <gazelle/core.hpp>
 
 #include <cctype>
 #include <cstdlib>
@@ -241,8 +241,7 @@ bool CameraInfoManager::loadCalibration(const std::string& url, const std::strin
   return false;
 }
 
-bool CameraInfoManager::loadCalibrationFile(const std::string& filename,
-                                            const std::string& cname) {
+bool CameraInfoManager::loadCalibrationFile(const std::string& filename, const std::string& cname) {
   struct stat found;
   if (stat(filename.c_str(), &found) != 0) {
     ROS_WARN("Camera calibration file %s not found.", filename.c_str());
@@ -281,8 +280,7 @@ bool CameraInfoManager::saveCalibration(const sensor_msgs::CameraInfo& new_info,
 }
 
 bool CameraInfoManager::saveCalibrationFile(const sensor_msgs::CameraInfo& new_info,
-                                            const std::string& filename,
-                                            const std::string& cname) {
+                                            const std::string& filename, const std::string& cname) {
   ROS_INFO("writing calibration data to %s", filename.c_str());
   if (!makeFolder(filename)) {
     ROS_ERROR("The folder of %s cannot be made", filename.c_str());

@@ -10,11 +10,11 @@ namespace gazelle {
 // ---- Equal stamps
 
 void ExactMatcher::add(std::size_t topic, Stamped message) {
-  Events &events = waiting_[message.stamp_ns];
+  Events& events = waiting_[message.stamp_ns];
   events.resize(topics_);
   events[topic] = std::move(message.event);
   const bool is_whole =
-      std::all_of(events.begin(), events.end(), [](const auto &event) { return event != nullptr; });
+      std::all_of(events.begin(), events.end(), [](const auto& event) { return event != nullptr; });
   if (is_whole) {
     const Events found = std::move(events);
     const std::int64_t stamp_ns = message.stamp_ns;
@@ -45,7 +45,7 @@ void ApproximateMatcher::set_lower_bound(std::size_t topic, std::int64_t bound_n
 }
 
 void ApproximateMatcher::add(std::size_t topic, Stamped message) {
-  Topic &own = topics_[topic];
+  Topic& own = topics_[topic];
   own.ahead.push_back(std::move(message));
   if (own.ahead.size() == 1) {
     if (++with_messages_ == topics_.size()) process();
@@ -65,7 +65,7 @@ void ApproximateMatcher::add(std::size_t topic, Stamped message) {
 }
 
 void ApproximateMatcher::check_bound(std::size_t topic) {
-  Topic &own = topics_[topic];
+  Topic& own = topics_[topic];
   if (own.was_warned || !broken_bound) return;
   const std::int64_t last = own.ahead.back().stamp_ns;
   const std::int64_t before = own.ahead[own.ahead.size() - 2].stamp_ns;
@@ -78,7 +78,7 @@ void ApproximateMatcher::check_bound(std::size_t topic) {
   }
 }
 
-std::int64_t ApproximateMatcher::earliest_of(const Topic &topic, bool with_bounds) const {
+std::int64_t ApproximateMatcher::earliest_of(const Topic& topic, bool with_bounds) const {
   if (!topic.ahead.empty() || !with_bounds) return topic.ahead.front().stamp_ns;
   // What comes next cannot be older than the last one and its bound, nor matter before the pivot.
   return std::max(topic.passed.back().stamp_ns + topic.lower_bound_ns, pivot_ns_);
@@ -152,7 +152,7 @@ bool ApproximateMatcher::try_with_bounds() {
 
 void ApproximateMatcher::choose() {
   best_.clear();
-  for (Topic &topic : topics_) {
+  for (Topic& topic : topics_) {
     best_.push_back(topic.ahead.front().event);
     topic.passed.clear();
   }
@@ -168,19 +168,19 @@ void ApproximateMatcher::tell() {
 }
 
 void ApproximateMatcher::move_on(std::size_t topic) {
-  Topic &own = topics_[topic];
+  Topic& own = topics_[topic];
   own.passed.push_back(std::move(own.ahead.front()));
   drop_front(topic);
 }
 
 void ApproximateMatcher::drop_front(std::size_t topic) {
-  Topic &own = topics_[topic];
+  Topic& own = topics_[topic];
   own.ahead.pop_front();
   if (own.ahead.empty()) --with_messages_;
 }
 
 void ApproximateMatcher::bring_back(std::size_t topic, std::size_t count) {
-  Topic &own = topics_[topic];
+  Topic& own = topics_[topic];
   if (count > 0 && own.ahead.empty()) ++with_messages_;
   for (; count > 0; --count) {
     own.ahead.push_front(std::move(own.passed.back()));

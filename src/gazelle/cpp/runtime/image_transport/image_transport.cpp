@@ -3,9 +3,9 @@
 #include <image_transport/image_transport.h>
 #include <image_transport/raw_publisher.h>
 #include <image_transport/raw_subscriber.h>
+#include <image_transport/subscriber_filter.h>
 #include <message_filters/subscriber.h>
 #include <message_filters/time_synchronizer.h>
-#include <image_transport/subscriber_filter.h>
 #include <pluginlib/class_loader.h>
 #include <ros/console.h>
 
@@ -18,6 +18,7 @@ namespace image_transport {
 namespace {
 
 const char kPackage[] = "image_transport";
+const char kRaw[] = "image_transport/raw";  // ours, also where the original's sources are
 
 // The plugins of one side; packages without any cost one look.
 template <class Plugin>
@@ -111,7 +112,9 @@ Publisher ImageTransport::advertise(const std::string& base_topic, uint32_t queu
   std::vector<boost::shared_ptr<PublisherPlugin> > all;
   all.push_back(boost::make_shared<RawPublisher>());
   for (const std::string& name : publisherPlugins().getDeclaredClasses()) {
-    if (!endsWith(name, "_pub") || isDisabled(disabled, transportOf(name))) continue;
+    if (!endsWith(name, "_pub") || transportOf(name) == kRaw ||
+        isDisabled(disabled, transportOf(name)))
+      continue;
     try {
       all.push_back(publisherPlugins().createInstance(name));
     } catch (const std::exception& error) {
@@ -161,7 +164,7 @@ Subscriber ImageTransport::subscribe(const std::string& base_topic, uint32_t que
   Subscriber subscriber;
   subscriber.impl_ = boost::make_shared<Subscriber::Impl>();
   const std::string& transport = transport_hints.getTransport();
-  if (transport == "raw" || transport == "image_transport/raw") {
+  if (transport == "raw" || transport == kRaw) {
     subscriber.impl_->subscriber = boost::make_shared<RawSubscriber>();
   } else {
     std::string name = SubscriberPlugin::getLookupName(transport);
@@ -178,11 +181,12 @@ Subscriber ImageTransport::subscribe(const std::string& base_topic, uint32_t que
   const std::string clean = ros::names::clean(base_topic);
   const std::size_t slash = clean.rfind('/');
   if (slash != std::string::npos && transport != "raw" && clean.substr(slash + 1) == transport)
-    ROS_WARN("[image_transport] It looks like you are trying to subscribe directly to a "
-             "transport-specific image topic '%s', in which case you will likely get a connection "
-             "error. Try subscribing to the base topic '%s' instead with parameter "
-             "~image_transport set to '%s' (on the command line, _image_transport:=%s).",
-             clean.c_str(), clean.substr(0, slash).c_str(), transport.c_str(), transport.c_str());
+    ROS_WARN(
+        "[image_transport] It looks like you are trying to subscribe directly to a "
+        "transport-specific image topic '%s', in which case you will likely get a connection "
+        "error. Try subscribing to the base topic '%s' instead with parameter "
+        "~image_transport set to '%s' (on the command line, _image_transport:=%s).",
+        clean.c_str(), clean.substr(0, slash).c_str(), transport.c_str(), transport.c_str());
   subscriber.impl_->subscriber->subscribe(nh_, base_topic, queue_size, callback, tracked_object,
                                           transport_hints);
   return subscriber;
@@ -250,8 +254,8 @@ CameraPublisher ImageTransport::advertiseCamera(
   publisher.impl_ = boost::make_shared<CameraPublisher::Impl>();
   // Beside the images' own topic, where remappings have moved it.
   const std::string image_topic = nh_.resolveName(base_topic);
-  publisher.impl_->image = advertise(image_topic, queue_size, image_connect_cb,
-                                     image_disconnect_cb, tracked_object, latch);
+  publisher.impl_->image = advertise(image_topic, queue_size, image_connect_cb, image_disconnect_cb,
+                                     tracked_object, latch);
   publisher.impl_->info = nh_.advertise<sensor_msgs::CameraInfo>(
       getCameraInfoTopic(image_topic), queue_size, info_connect_cb, info_disconnect_cb,
       tracked_object, latch);
@@ -279,10 +283,11 @@ struct CameraSubscriber::Impl {
   void look() {
     const std::lock_guard<std::mutex> lock(mutex);
     if (3 * both < std::min(images, infos))
-      ROS_WARN("[image_transport] Topics '%s' and '%s' do not appear to be synchronized. In the "
-               "last 10s:\n\tImage messages received:      %d\n\tCameraInfo messages received: "
-               "%d\n\tSynchronized pairs:           %d",
-               image.getTopic().c_str(), info.getTopic().c_str(), images, infos, both);
+      ROS_WARN(
+          "[image_transport] Topics '%s' and '%s' do not appear to be synchronized. In the "
+          "last 10s:\n\tImage messages received:      %d\n\tCameraInfo messages received: "
+          "%d\n\tSynchronized pairs:           %d",
+          image.getTopic().c_str(), info.getTopic().c_str(), images, infos, both);
     images = infos = both = 0;
   }
 };
@@ -307,8 +312,7 @@ void CameraSubscriber::shutdown() {
   impl_.reset();
 }
 
-CameraSubscriber ImageTransport::subscribeCamera(const std::string& base_topic,
-                                                 uint32_t queue_size,
+CameraSubscriber ImageTransport::subscribeCamera(const std::string& base_topic, uint32_t queue_size,
                                                  const CameraSubscriber::Callback& callback,
                                                  const ros::VoidPtr& tracked_object,
                                                  const TransportHints& transport_hints) {
@@ -328,40 +332,40 @@ CameraSubscriber ImageTransport::subscribeCamera(const std::string& base_topic,
   impl->sync.connectInput(impl->image, impl->info);
   const bool is_tracked = static_cast<bool>(tracked_object);
   const boost::weak_ptr<void> tracked = tracked_object;
-  impl->sync.registerCallback([impl, callback, is_tracked, tracked](
-                                  const sensor_msgs::ImageConstPtr& image,
-                                  const sensor_msgs::CameraInfoConstPtr& info) {
-    {
-      const std::lock_guard<std::mutex> lock(impl->mutex);
-      ++impl->both;
-    }
-    const ros::VoidPtr held = tracked.lock();
-    if (!is_tracked || held) callback(image, info);
-  });
+  impl->sync.registerCallback(
+      [impl, callback, is_tracked, tracked](const sensor_msgs::ImageConstPtr& image,
+                                            const sensor_msgs::CameraInfoConstPtr& info) {
+        {
+          const std::lock_guard<std::mutex> lock(impl->mutex);
+          ++impl->both;
+        }
+        const ros::VoidPtr held = tracked.lock();
+        if (!is_tracked || held) callback(image, info);
+      });
   impl->image.subscribe(*this, image_topic, queue_size, transport_hints);
   impl->info.subscribe(nh_, getCameraInfoTopic(image_topic), queue_size,
                        transport_hints.getRosHints());
   impl->check = nh_.createWallTimer(
-      ros::WallDuration(10.0), ros::WallTimerCallback([impl](const ros::WallTimerEvent&) {
-        impl->look();
-      }));
+      ros::WallDuration(10.0),
+      ros::WallTimerCallback([impl](const ros::WallTimerEvent&) { impl->look(); }));
   return subscriber;
 }
 
 // ---- What there is
 
 std::vector<std::string> ImageTransport::getDeclaredTransports() const {
-  std::vector<std::string> found{"image_transport/raw"};
+  std::vector<std::string> found{kRaw};
   for (const std::string& name : subscriberPlugins().getDeclaredClasses())
-    if (endsWith(name, "_sub")) found.push_back(transportOf(name));
+    if (endsWith(name, "_sub") && transportOf(name) != kRaw) found.push_back(transportOf(name));
   return found;
 }
 
 std::vector<std::string> ImageTransport::getLoadableTransports() const {
-  std::vector<std::string> found{"image_transport/raw"};
+  std::vector<std::string> found{kRaw};
   for (const std::string& name : subscriberPlugins().getDeclaredClasses()) {
     try {
-      if (endsWith(name, "_sub") && subscriberPlugins().createInstance(name))
+      if (endsWith(name, "_sub") && transportOf(name) != kRaw &&
+          subscriberPlugins().createInstance(name))
         found.push_back(transportOf(name));
     } catch (const std::exception& error) {
       ROS_DEBUG("Transport %s cannot be loaded: %s", name.c_str(), error.what());

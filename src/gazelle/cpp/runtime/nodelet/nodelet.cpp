@@ -20,9 +20,8 @@ namespace nodelet {
 Nodelet::Nodelet() : inited_(false), st_queue_(NULL), mt_queue_(NULL) {}
 Nodelet::~Nodelet() {}
 
-void Nodelet::init(const std::string& name, const M_string& remapping_args,
-                   const V_string& my_argv, ros::CallbackQueueInterface* st_queue,
-                   ros::CallbackQueueInterface* mt_queue) {
+void Nodelet::init(const std::string& name, const M_string& remapping_args, const V_string& my_argv,
+                   ros::CallbackQueueInterface* st_queue, ros::CallbackQueueInterface* mt_queue) {
   if (inited_) throw MultipleInitializationException();
   nodelet_name_ = name;
   my_argv_ = my_argv;
@@ -151,16 +150,14 @@ struct Loader::Impl {
     node = server_nh;
     node.setCallbackQueue(&api_queue);
     load_server = node.advertiseService<NodeletLoad::Request, NodeletLoad::Response>(
-        "load_nodelet",
-        [&loader](NodeletLoad::Request& request, NodeletLoad::Response& response) {
+        "load_nodelet", [&loader](NodeletLoad::Request& request, NodeletLoad::Response& response) {
           M_string remappings;
           const std::size_t count =
               std::min(request.remap_source_args.size(), request.remap_target_args.size());
           for (std::size_t i = 0; i < count; ++i)
             remappings[ros::names::resolve(request.remap_source_args[i])] =
                 ros::names::resolve(request.remap_target_args[i]);
-          response.success =
-              loader.load(request.name, request.type, remappings, request.my_argv);
+          response.success = loader.load(request.name, request.type, remappings, request.my_argv);
           return response.success != 0;
         });
     unload_server = node.advertiseService<NodeletUnload::Request, NodeletUnload::Response>(

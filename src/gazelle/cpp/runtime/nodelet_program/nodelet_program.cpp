@@ -14,7 +14,8 @@ namespace {
 
 const char kUsage[] =
     "usage: nodelet load pkg/Type manager - Launch a nodelet of type pkg/Type on manager manager\n"
-    "       nodelet standalone pkg/Type   - Launch a nodelet of type pkg/Type in a standalone node\n"
+    "       nodelet standalone pkg/Type   - Launch a nodelet of type pkg/Type in a standalone "
+    "node\n"
     "       nodelet unload name manager   - Unload a nodelet by name from manager\n"
     "       nodelet manager               - Launch a nodelet manager node\n";
 
@@ -77,8 +78,9 @@ int load(const Words& words) {
   for (const auto& pair : ros::names::getRemappings())
     ROS_INFO("%s -> %s", pair.first.c_str(), pair.second.c_str());
   if (!client.call(service)) {
-    if (ros::ok()) ROS_FATAL("Failed to load nodelet '%s` of type `%s` to manager `%s'",
-                             name.c_str(), words.type.c_str(), words.manager.c_str());
+    if (ros::ok())
+      ROS_FATAL("Failed to load nodelet '%s` of type `%s` to manager `%s'", name.c_str(),
+                words.type.c_str(), words.manager.c_str());
     return 1;
   }
   // The nodelet lives as long as this process: it is taken out before the node leaves the graph.

@@ -1,8 +1,8 @@
 // Bags of ROS 1: reading by their index, writing chunk by chunk.
 
-#include <gazelle/core.hpp>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <gazelle/core.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -385,7 +385,8 @@ struct Bag::Impl {
     chunk_info = ChunkInfo();
     chunk_info.position = index;
     for (const auto& connection : connections)
-      if (connection) numbers[keyOf(connection->topic, connection->md5sum, connection->header)] = connection->id;
+      if (connection)
+        numbers[keyOf(connection->topic, connection->md5sum, connection->header)] = connection->id;
   }
 
   static std::tuple<std::string, std::string, std::string> keyOf(
@@ -423,8 +424,8 @@ struct Bag::Impl {
       info->datatype = datatype;
       info->md5sum = md5sum;
       info->msg_def = definition;
-      info->header = header ? boost::make_shared<ros::M_string>(*header)
-                            : boost::make_shared<ros::M_string>();
+      info->header =
+          header ? boost::make_shared<ros::M_string>(*header) : boost::make_shared<ros::M_string>();
       (*info->header)["topic"] = topic;
       (*info->header)["type"] = datatype;
       (*info->header)["md5sum"] = md5sum;
@@ -600,7 +601,8 @@ std::vector<uint8_t> MessageInstance::read() const { return bag_->message(entry_
 uint32_t MessageInstance::size() const { return static_cast<uint32_t>(read().size()); }
 
 void View::addQuery(Bag const& bag, ros::Time const& start_time, ros::Time const& end_time) {
-  addQuery(bag, [](ConnectionInfo const*) { return true; }, start_time, end_time);
+  addQuery(
+      bag, [](ConnectionInfo const*) { return true; }, start_time, end_time);
 }
 
 void View::addQuery(Bag const& bag, Query query, ros::Time const& start_time,
@@ -617,10 +619,9 @@ void View::addQuery(Bag const& bag, Query query, ros::Time const& start_time,
     return std::make_tuple(one.entry_.time.toNSec(), one.bag_.get(), one.entry_.chunk_pos,
                            one.entry_.offset);
   };
-  std::stable_sort(messages_.begin(), messages_.end(),
-                   [&place](const MessageInstance& a, const MessageInstance& b) {
-                     return place(a) < place(b);
-                   });
+  std::stable_sort(
+      messages_.begin(), messages_.end(),
+      [&place](const MessageInstance& a, const MessageInstance& b) { return place(a) < place(b); });
   if (reduce_overlap_)
     messages_.erase(std::unique(messages_.begin(), messages_.end(),
                                 [&place](const MessageInstance& a, const MessageInstance& b) {

@@ -1,13 +1,13 @@
 // Levels, loggers, and what is said.
 
-#include <gazelle/cdr.hpp>
-#include <gazelle/core.hpp>
 #include <ros/console.h>
 #include <ros/names.h>
 #include <ros/service_callback_helper.h>
 #include <ros/this_node.h>
 #include <roscpp/GetLoggers.h>
 #include <roscpp/SetLoggerLevel.h>
+#include <gazelle/cdr.hpp>
+#include <gazelle/core.hpp>
 
 #include <cctype>
 #include <cstdio>
@@ -61,8 +61,7 @@ void readConfiguration(std::map<std::string, Level>& set) {
     std::string word = line.substr(equals + 1);
     word = word.substr(0, word.find_first_of(", \t\r"));
     Level level;
-    if (levelOf(word, level))
-      set[line.substr(kPrefix.size(), equals - kPrefix.size())] = level;
+    if (levelOf(word, level)) set[line.substr(kPrefix.size(), equals - kPrefix.size())] = level;
   }
 }
 
@@ -187,8 +186,7 @@ void shutdown() {}
 bool get_loggers(std::map<std::string, levels::Level>& found) {
   const std::lock_guard<std::mutex> lock(loggers().mutex);
   found["ros"] = effective(loggers(), "ros");
-  for (const auto& known : loggers().known)
-    found[known.first] = effective(loggers(), known.first);
+  for (const auto& known : loggers().known) found[known.first] = effective(loggers(), known.first);
   for (const auto& set : loggers().set) found[set.first] = set.second;
   return true;
 }
@@ -242,22 +240,21 @@ template <class S, class Answer>
 std::shared_ptr<gazelle::ServiceServer> offer(gazelle::GraphNode& node, const char* name,
                                               const Answer& answer) {
   auto server = std::make_shared<std::weak_ptr<gazelle::ServiceServer> >();
-  auto made = node.offer(
-      names::append(this_node::getName(), name),
-      *detail::serviceTypeOf<typename S::Request, typename S::Response>(),
-      [server, answer](gazelle::RequestId id, gazelle::Bytes bytes) {
-        const std::shared_ptr<gazelle::ServiceServer> self = server->lock();
-        if (!self) return;
-        try {
-          typename S::Response response;
-          if (answer(requestOf<typename S::Request>(bytes), response))
-            self->respond(id, bytesOf(response));
-          else
-            self->fail(id, "");
-        } catch (const std::exception& error) {
-          self->fail(id, error.what());
-        }
-      });
+  auto made = node.offer(names::append(this_node::getName(), name),
+                         *detail::serviceTypeOf<typename S::Request, typename S::Response>(),
+                         [server, answer](gazelle::RequestId id, gazelle::Bytes bytes) {
+                           const std::shared_ptr<gazelle::ServiceServer> self = server->lock();
+                           if (!self) return;
+                           try {
+                             typename S::Response response;
+                             if (answer(requestOf<typename S::Request>(bytes), response))
+                               self->respond(id, bytesOf(response));
+                             else
+                               self->fail(id, "");
+                           } catch (const std::exception& error) {
+                             self->fail(id, error.what());
+                           }
+                         });
   *server = made;
   return made;
 }

@@ -1,7 +1,6 @@
 // What publishers, subscribers, services and clients of roscpp are inside.
 #pragma once
 
-#include <gazelle/core.hpp>
 #include <ros/advertise_options.h>
 #include <ros/callback_queue_interface.h>
 #include <ros/foreign_message.h>
@@ -10,6 +9,7 @@
 #include <ros/service_server.h>
 #include <ros/subscribe_options.h>
 #include <ros/subscriber.h>
+#include <gazelle/core.hpp>
 
 #include <atomic>
 #include <deque>

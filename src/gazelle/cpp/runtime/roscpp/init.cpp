@@ -1,6 +1,5 @@
 // The life of a node: arguments, start, spinning, the end.
 
-#include <gazelle/core.hpp>
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -8,6 +7,7 @@
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
+#include <gazelle/core.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -295,8 +295,7 @@ void XMLRPCManager::hear(const std::string& function_name, const std::string& re
 }
 
 namespace xmlrpc {
-XmlRpc::XmlRpcValue responseStr(int code, const std::string& message,
-                                const std::string& response) {
+XmlRpc::XmlRpcValue responseStr(int code, const std::string& message, const std::string& response) {
   XmlRpc::XmlRpcValue answer;
   answer[0] = code;
   answer[1] = message;

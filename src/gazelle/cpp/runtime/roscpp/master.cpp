@@ -1,11 +1,11 @@
 // What a master would know, asked of the graph.
 
-#include <gazelle/core.hpp>
 #include <ros/console.h>
 #include <ros/master.h>
 #include <ros/names.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
+#include <gazelle/core.hpp>
 
 #include <unistd.h>
 

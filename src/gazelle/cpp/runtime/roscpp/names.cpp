@@ -1,9 +1,9 @@
 // Names of the graph by ROS 1's rules, and the name of this node.
 
-#include <ros/names.h>
-#include <ros/this_node.h>
 #include <ros/exceptions.h>
 #include <ros/init.h>
+#include <ros/names.h>
+#include <ros/this_node.h>
 
 #include <cctype>
 #include <cstdlib>

@@ -158,7 +158,10 @@ std::string NodeHandle::resolveName(const std::string& name, bool remap) const {
   std::string error;
   if (!names::validate(name, error)) throw InvalidNameException(error);
   if (!name.empty() && name[0] == '~')
-    throw InvalidNameException("Using ~ names with NodeHandle methods is not allowed. Make a private NodeHandle, ros::NodeHandle(\"~\"), for '" + name + "'");
+    throw InvalidNameException(
+        "Using ~ names with NodeHandle methods is not allowed. Make a private NodeHandle, "
+        "ros::NodeHandle(\"~\"), for '" +
+        name + "'");
   std::string global = name;
   if (name.empty())
     global = namespace_;
@@ -226,15 +229,17 @@ Publisher NodeHandle::advertise(AdvertiseOptions& options) {
         callback(SingleSubscriberPublisher(Publisher(self), self->topic, subscriber));
       };
       self->queue->addCallback(
-          detail::later(call, is_tracked ? tracked : VoidConstWPtr(boost::weak_ptr<void const>(self))),
+          detail::later(call,
+                        is_tracked ? tracked : VoidConstWPtr(boost::weak_ptr<void const>(self))),
           self->owner);
     };
   }
   try {
     const std::lock_guard<std::mutex> lock(impl->mutex);
-    impl->publisher = options.type ? node->advertise(impl->topic, *options.type, qos, more)
-                                   : node->advertise(impl->topic, detail::ros2TypeName(impl->datatype),
-                                                     impl->definition, qos, more);
+    impl->publisher = options.type
+                          ? node->advertise(impl->topic, *options.type, qos, more)
+                          : node->advertise(impl->topic, detail::ros2TypeName(impl->datatype),
+                                            impl->definition, qos, more);
   } catch (const gazelle::Error& error) {
     reportError("Cannot advertise", impl->topic, error);
     return Publisher();
@@ -349,26 +354,26 @@ ServiceServer NodeHandle::advertiseService(AdvertiseServiceOptions& options) {
   const boost::weak_ptr<ServiceServer::Impl> weak = impl;
   try {
     const std::lock_guard<std::mutex> lock(offered->mutex);
-    impl->server = node->offer(
-        impl->service, *options.type,
-        [weak, offered, is_tracked, tracked, helper = options.helper](gazelle::RequestId id,
-                                                                      gazelle::Bytes request) {
-          std::shared_ptr<gazelle::ServiceServer> server;
-          {
-            const std::lock_guard<std::mutex> lock(offered->mutex);
-            server = offered->server.lock();
-          }
-          if (!server) return;
-          const boost::shared_ptr<ServiceServer::Impl> self = weak.lock();
-          if (!self || self->is_closed) {
-            server->fail(id, "the service is gone");
-            return;
-          }
-          self->queue->addCallback(
-              boost::make_shared<Asked>(server, std::move(id), std::move(request), helper,
-                                        is_tracked, tracked),
-              self->owner);
-        });
+    impl->server =
+        node->offer(impl->service, *options.type,
+                    [weak, offered, is_tracked, tracked, helper = options.helper](
+                        gazelle::RequestId id, gazelle::Bytes request) {
+                      std::shared_ptr<gazelle::ServiceServer> server;
+                      {
+                        const std::lock_guard<std::mutex> lock(offered->mutex);
+                        server = offered->server.lock();
+                      }
+                      if (!server) return;
+                      const boost::shared_ptr<ServiceServer::Impl> self = weak.lock();
+                      if (!self || self->is_closed) {
+                        server->fail(id, "the service is gone");
+                        return;
+                      }
+                      self->queue->addCallback(
+                          boost::make_shared<Asked>(server, std::move(id), std::move(request),
+                                                    helper, is_tracked, tracked),
+                          self->owner);
+                    });
     offered->server = impl->server;
   } catch (const gazelle::Error& error) {
     reportError("Cannot advertise service", impl->service, error);

@@ -1,10 +1,10 @@
 // What the parts of roscpp share: the node of the process and everything it has made.
 #pragma once
 
-#include <gazelle/core.hpp>
 #include <ros/callback_queue.h>
 #include <ros/forwards.h>
 #include <xmlrpcpp/XmlRpcValue.h>
+#include <gazelle/core.hpp>
 
 #include <memory>
 #include <string>
@@ -50,6 +50,6 @@ void init(const M_string& remappings);
 namespace console {
 void offerServices(gazelle::GraphNode& node);
 void closeServices();
-}
+}  // namespace console
 
 }  // namespace ros

@@ -1,7 +1,7 @@
 // Packages, by name.
 
-#include <gazelle/core.hpp>
 #include <ros/package.h>
+#include <gazelle/core.hpp>
 
 #include <sstream>
 
@@ -48,8 +48,7 @@ std::string command(const std::string& command) {
     std::string text;
     const Json found =
         ask("rospack/depends", Json::object({{"command", verb}, {"package", package}}));
-    for (const std::string& name : found.as_strings())
-      text += name + "\n";
+    for (const std::string& name : found.as_strings()) text += name + "\n";
     return text;
   }
   return "";
@@ -62,12 +61,10 @@ void command(const std::string& command_text, V_string& output) {
     if (!line.empty()) output.push_back(line);
 }
 
-void getPlugins(const std::string& package, const std::string& attribute, M_string& plugins,
-                bool) {
+void getPlugins(const std::string& package, const std::string& attribute, M_string& plugins, bool) {
   const Json rows =
       ask("rospack/exports", Json::object({{"package", package}, {"attribute", attribute}}));
-  for (const Json& found : rows.items())
-    plugins[found[0].as_string()] = found[1].as_string();
+  for (const Json& found : rows.items()) plugins[found[0].as_string()] = found[1].as_string();
 }
 
 void getPlugins(const std::string& package, const std::string& attribute, V_string& plugins,

@@ -1,9 +1,9 @@
 // The parameter server.
 
-#include <gazelle/core.hpp>
 #include <ros/console.h>
 #include <ros/names.h>
 #include <ros/param.h>
+#include <gazelle/core.hpp>
 
 #include <cerrno>
 #include <cmath>
@@ -40,13 +40,15 @@ XmlRpc::XmlRpcValue valueOf(const gazelle::Json& json) {
     }
     case Json::Kind::kObject:
       if (json.size() == 1 && json["$bytes"].is_string()) {
-        const std::string xml = "<value><base64>" + json["$bytes"].as_string() + "</base64></value>";
+        const std::string xml =
+            "<value><base64>" + json["$bytes"].as_string() + "</base64></value>";
         int at = 0;
         value.fromXml(xml, &at);
         break;
       }
       value.begin();  // a table, also where it is empty
-      for (const Json::Member& member : json.members()) value[member.first] = valueOf(member.second);
+      for (const Json::Member& member : json.members())
+        value[member.first] = valueOf(member.second);
       break;
     case Json::Kind::kNull:
       break;
@@ -226,20 +228,20 @@ Json listed(const std::map<std::string, T>& values) {
 
 }  // namespace
 
-#define GAZELLE_ROS_READ(Type)                                                              \
-  bool get(const std::string& key, Type& value) { return read(key, value, false); }        \
+#define GAZELLE_ROS_READ(Type)                                                      \
+  bool get(const std::string& key, Type& value) { return read(key, value, false); } \
   bool getCached(const std::string& key, Type& value) { return read(key, value, true); }
-#define GAZELLE_ROS_LISTS(Type)                                                             \
-  GAZELLE_ROS_READ(std::vector<Type>)                                                       \
+#define GAZELLE_ROS_LISTS(Type)                                                                   \
+  GAZELLE_ROS_READ(std::vector<Type>)                                                             \
   void set(const std::string& key, const std::vector<Type>& value) { store(key, listed(value)); } \
-  bool get(const std::string& key, std::map<std::string, Type>& value) {                    \
-    return read(key, value, false);                                                         \
-  }                                                                                         \
-  bool getCached(const std::string& key, std::map<std::string, Type>& value) {              \
-    return read(key, value, true);                                                          \
-  }                                                                                         \
-  void set(const std::string& key, const std::map<std::string, Type>& value) {              \
-    store(key, listed(value));                                                              \
+  bool get(const std::string& key, std::map<std::string, Type>& value) {                          \
+    return read(key, value, false);                                                               \
+  }                                                                                               \
+  bool getCached(const std::string& key, std::map<std::string, Type>& value) {                    \
+    return read(key, value, true);                                                                \
+  }                                                                                               \
+  void set(const std::string& key, const std::map<std::string, Type>& value) {                    \
+    store(key, listed(value));                                                                    \
   }
 
 GAZELLE_ROS_READ(XmlRpc::XmlRpcValue)

@@ -56,8 +56,10 @@ bool ServiceClient::askBytes(std::vector<uint8_t> request, gazelle::Bytes& respo
     return false;
   }
   if (!impl_->md5sum.empty() && impl_->md5sum != "*" && impl_->md5sum != type.md5) {
-    ROS_ERROR("Call to service [%s] with md5sum [%s] does not match md5sum when the handle was created ([%s])",
-              impl_->service.c_str(), type.md5, impl_->md5sum.c_str());
+    ROS_ERROR(
+        "Call to service [%s] with md5sum [%s] does not match md5sum when the handle was created "
+        "([%s])",
+        impl_->service.c_str(), type.md5, impl_->md5sum.c_str());
     return false;
   }
   gazelle::CallResult result;
@@ -77,8 +79,7 @@ bool ServiceClient::askBytes(std::vector<uint8_t> request, gazelle::Bytes& respo
     ROS_ERROR("Service call failed: service [%s] responded with an error: %s",
               impl_->service.c_str(), result.text.c_str());
   else
-    ROS_DEBUG("Service call failed: service [%s]: %s", impl_->service.c_str(),
-              result.text.c_str());
+    ROS_DEBUG("Service call failed: service [%s]: %s", impl_->service.c_str(), result.text.c_str());
   return false;
 }
 
@@ -119,7 +120,8 @@ bool exists(const std::string& service_name, bool print_failure_reason) {
   } catch (const gazelle::Error& error) {
     ROS_DEBUG("Whether %s is there cannot be asked: %s", name.c_str(), error.what());
   }
-  if (print_failure_reason) ROS_INFO("waitForService: Service [%s] has not been advertised, waiting...", name.c_str());
+  if (print_failure_reason)
+    ROS_INFO("waitForService: Service [%s] has not been advertised, waiting...", name.c_str());
   return false;
 }
 
@@ -139,7 +141,9 @@ bool waitForService(const std::string& service_name, Duration timeout) {
       is_told = !exists(service_name, true);
     WallDuration(0.02).sleep();
   }
-  if (is_told) ROS_INFO("waitForService: Service [%s] is now available.", names::resolve(service_name).c_str());
+  if (is_told)
+    ROS_INFO("waitForService: Service [%s] is now available.",
+             names::resolve(service_name).c_str());
   return true;
 }
 

@@ -37,8 +37,10 @@ void SubscriptionQueue::push(gazelle::Delivered delivered) {
     if (is_full) {
       waiting_.pop_front();
       if (!was_full_)
-        ROS_DEBUG("Incoming queue was full for topic \"%s\". Discarded oldest message (current queue size [%zu])",
-                  topic_.c_str(), waiting_.size());
+        ROS_DEBUG(
+            "Incoming queue was full for topic \"%s\". Discarded oldest message (current queue "
+            "size [%zu])",
+            topic_.c_str(), waiting_.size());
     }
     was_full_ = is_full;
     waiting_.push_back({std::move(delivered), Time::now()});

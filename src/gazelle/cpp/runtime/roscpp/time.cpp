@@ -1,8 +1,8 @@
 // Times, spans and rates.
 
-#include <gazelle/core.hpp>
 #include <ros/rate.h>
 #include <ros/time.h>
+#include <gazelle/core.hpp>
 
 #include <time.h>
 
@@ -30,7 +30,8 @@ int64_t clockNow() {
 // A signal ends it early, as in ROS 1: the loop around it then asks ros::ok().
 bool sleepWall(int64_t nanoseconds) {
   if (nanoseconds <= 0) return true;
-  timespec span{static_cast<time_t>(nanoseconds / kSecond), static_cast<long>(nanoseconds % kSecond)};
+  timespec span{static_cast<time_t>(nanoseconds / kSecond),
+                static_cast<long>(nanoseconds % kSecond)};
   return nanosleep(&span, nullptr) == 0;
 }
 
@@ -175,7 +176,8 @@ Time Time::now() {
 }
 
 bool Time::isValid() {
-  return is_initialized && (fixed_ns.load() > 0 || (fixed_ns.load() < 0 && gazelle::clock::is_valid()));
+  return is_initialized &&
+         (fixed_ns.load() > 0 || (fixed_ns.load() < 0 && gazelle::clock::is_valid()));
 }
 bool Time::waitForValid() { return waitForValid(WallDuration()); }
 bool Time::waitForValid(const WallDuration& timeout) {

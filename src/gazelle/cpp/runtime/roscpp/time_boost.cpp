@@ -1,7 +1,7 @@
 // Times and spans as those of Boost.
 
-#include <boost/date_time/posix_time/posix_time_types.hpp>
 #include <ros/time.h>
+#include <boost/date_time/posix_time/posix_time_types.hpp>
 
 namespace ros {
 

@@ -1,8 +1,8 @@
 // Timers of all three clocks.
 
-#include <gazelle/core.hpp>
 #include <ros/console.h>
 #include <ros/node_handle.h>
+#include <gazelle/core.hpp>
 
 #include <atomic>
 #include <mutex>
@@ -163,8 +163,7 @@ class Ticking : public detail::End,
     boost::weak_ptr<Ticking> weak = this->shared_from_this();
     alarm_ = Alarms::at(K::base, static_cast<int64_t>(next_.toNSec()),
                         [weak](gazelle::clock::Wake wake) {
-                          if (const boost::shared_ptr<Ticking> self = weak.lock())
-                            self->wake(wake);
+                          if (const boost::shared_ptr<Ticking> self = weak.lock()) self->wake(wake);
                         });
   }
   void disarm() {
@@ -206,36 +205,36 @@ class Ticking : public detail::End,
 }  // namespace
 
 // Copies of a timer share it; with the last one it stops.
-#define GAZELLE_ROS_TIMER(C)                                                         \
-  class C::Impl : public Ticking<C> {                                                \
-   public:                                                                           \
-    explicit Impl(const C##Options& options) : Ticking<C>(options) {}                \
-  };                                                                                 \
-  C::C(const C##Options& options) : impl_(boost::make_shared<Impl>(options)) {       \
-    detail::keep(boost::shared_ptr<detail::End>(impl_));                             \
-  }                                                                                  \
-  void C::start() {                                                                  \
-    if (impl_) impl_->start();                                                       \
-  }                                                                                  \
-  void C::stop() {                                                                   \
-    if (impl_) impl_->stop();                                                        \
-  }                                                                                  \
-  bool C::hasPending() { return impl_ && impl_->isPending(); }                       \
-  bool C::hasStarted() const { return impl_ && impl_->isStarted(); }                 \
-  bool C::isValid() const { return static_cast<bool>(impl_); }                       \
-  void C::setPeriod(const Clock<C>::Span& period, bool reset) {                      \
-    if (impl_) impl_->setPeriod(period, reset);                                      \
-  }                                                                                  \
-  C NodeHandle::create##C(C##Options& options) const {                               \
-    if (options.callback_queue == 0) options.callback_queue = getCallbackQueue();    \
-    C timer(options);                                                                \
-    if (options.autostart) timer.start();                                            \
-    return timer;                                                                    \
-  }                                                                                  \
-  C NodeHandle::create##C(Clock<C>::Span period, const C##Callback& callback,        \
-                          bool oneshot, bool autostart) const {                      \
-    C##Options options(period, callback, 0, oneshot, autostart);                     \
-    return create##C(options);                                                       \
+#define GAZELLE_ROS_TIMER(C)                                                                \
+  class C::Impl : public Ticking<C> {                                                       \
+   public:                                                                                  \
+    explicit Impl(const C##Options& options) : Ticking<C>(options) {}                       \
+  };                                                                                        \
+  C::C(const C##Options& options) : impl_(boost::make_shared<Impl>(options)) {              \
+    detail::keep(boost::shared_ptr<detail::End>(impl_));                                    \
+  }                                                                                         \
+  void C::start() {                                                                         \
+    if (impl_) impl_->start();                                                              \
+  }                                                                                         \
+  void C::stop() {                                                                          \
+    if (impl_) impl_->stop();                                                               \
+  }                                                                                         \
+  bool C::hasPending() { return impl_ && impl_->isPending(); }                              \
+  bool C::hasStarted() const { return impl_ && impl_->isStarted(); }                        \
+  bool C::isValid() const { return static_cast<bool>(impl_); }                              \
+  void C::setPeriod(const Clock<C>::Span& period, bool reset) {                             \
+    if (impl_) impl_->setPeriod(period, reset);                                             \
+  }                                                                                         \
+  C NodeHandle::create##C(C##Options& options) const {                                      \
+    if (options.callback_queue == 0) options.callback_queue = getCallbackQueue();           \
+    C timer(options);                                                                       \
+    if (options.autostart) timer.start();                                                   \
+    return timer;                                                                           \
+  }                                                                                         \
+  C NodeHandle::create##C(Clock<C>::Span period, const C##Callback& callback, bool oneshot, \
+                          bool autostart) const {                                           \
+    C##Options options(period, callback, 0, oneshot, autostart);                            \
+    return create##C(options);                                                              \
   }
 
 GAZELLE_ROS_TIMER(Timer)

@@ -1,11 +1,11 @@
 // A message from CDR to ROS 1's bytes and back, without a class of it: the host says in which order
 // a type's fields lie in either, and whole arrays of numbers are copied.
 
+#include <ros/foreign_message.h>
+#include <rosgraph_msgs/Log.h>
 #include <gazelle/cdr.hpp>
 #include <gazelle/core.hpp>
 #include <gazelle/message.hpp>
-#include <ros/foreign_message.h>
-#include <rosgraph_msgs/Log.h>
 
 #include <cstring>
 #include <map>
@@ -267,8 +267,8 @@ const Type& typeOf(const std::string& given, const std::string& definition) {
   const auto found = types().known.find(name);
   if (found != types().known.end() && found->second && !found->second->md5.empty())
     return *found->second;
-  const Json described = gazelle::call(
-      "wire/type", Json::object({{"type", name}, {"definition", definition}}));
+  const Json described =
+      gazelle::call("wire/type", Json::object({{"type", name}, {"definition", definition}}));
   return typeLocked(name, described);
 }
 

@@ -410,8 +410,8 @@ std::string XmlRpcValue::toXml() const {
     case TypeDateTime: {
       char text[32];
       const struct tm& t = *_value.asTime;
-      std::snprintf(text, sizeof text, "%4d%02d%02dT%02d:%02d:%02d", t.tm_year, t.tm_mon,
-                    t.tm_mday, t.tm_hour, t.tm_min, t.tm_sec);
+      std::snprintf(text, sizeof text, "%4d%02d%02dT%02d:%02d:%02d", t.tm_year, t.tm_mon, t.tm_mday,
+                    t.tm_hour, t.tm_min, t.tm_sec);
       inner = std::string("<dateTime.iso8601>") + text + "</dateTime.iso8601>";
       break;
     }
@@ -449,8 +449,8 @@ std::ostream& XmlRpcValue::write(std::ostream& stream) const {
     case TypeDateTime: {
       const struct tm& t = *_value.asTime;
       char text[32];
-      std::snprintf(text, sizeof text, "%4d%02d%02dT%02d:%02d:%02d", t.tm_year, t.tm_mon,
-                    t.tm_mday, t.tm_hour, t.tm_min, t.tm_sec);
+      std::snprintf(text, sizeof text, "%4d%02d%02dT%02d:%02d:%02d", t.tm_year, t.tm_mon, t.tm_mday,
+                    t.tm_hour, t.tm_min, t.tm_sec);
       return stream << text;
     }
     case TypeBase64:

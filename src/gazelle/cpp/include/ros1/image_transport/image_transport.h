@@ -23,8 +23,8 @@ class IMAGE_TRANSPORT_DECL ImageTransport {
   explicit ImageTransport(const ros::NodeHandle& nh) : nh_(nh) {}
 
   Publisher advertise(const std::string& base_topic, uint32_t queue_size, bool latch = false) {
-    return advertise(base_topic, queue_size, SubscriberStatusCallback(),
-                     SubscriberStatusCallback(), ros::VoidPtr(), latch);
+    return advertise(base_topic, queue_size, SubscriberStatusCallback(), SubscriberStatusCallback(),
+                     ros::VoidPtr(), latch);
   }
   Publisher advertise(const std::string& base_topic, uint32_t queue_size,
                       const SubscriberStatusCallback& connect_cb,
@@ -87,10 +87,9 @@ class IMAGE_TRANSPORT_DECL ImageTransport {
                                                  const sensor_msgs::CameraInfoConstPtr&),
                                    T* obj,
                                    const TransportHints& transport_hints = TransportHints()) {
-    return subscribeCamera(
-        base_topic, queue_size,
-        boost::bind(fp, obj, boost::placeholders::_1, boost::placeholders::_2), ros::VoidPtr(),
-        transport_hints);
+    return subscribeCamera(base_topic, queue_size,
+                           boost::bind(fp, obj, boost::placeholders::_1, boost::placeholders::_2),
+                           ros::VoidPtr(), transport_hints);
   }
   template <class T>
   CameraSubscriber subscribeCamera(const std::string& base_topic, uint32_t queue_size,

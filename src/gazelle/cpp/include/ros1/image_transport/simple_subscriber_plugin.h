@@ -31,15 +31,13 @@ class SimpleSubscriberPlugin : public SubscriberPlugin {
                              uint32_t queue_size, const Callback& callback,
                              const ros::VoidPtr& tracked_object,
                              const TransportHints& transport_hints) {
-    inner_.reset(
-        new Inner(ros::NodeHandle(transport_hints.getParameterNH(), getTransportName())));
-    inner_->subscriber = nh.subscribe<M>(
-        getTopicToSubscribe(base_topic), queue_size,
-        boost::function<void(const typename M::ConstPtr&)>(
-            [this, callback](const typename M::ConstPtr& message) {
-              internalCallback(message, callback);
-            }),
-        tracked_object, transport_hints.getRosHints());
+    inner_.reset(new Inner(ros::NodeHandle(transport_hints.getParameterNH(), getTransportName())));
+    inner_->subscriber = nh.subscribe<M>(getTopicToSubscribe(base_topic), queue_size,
+                                         boost::function<void(const typename M::ConstPtr&)>(
+                                             [this, callback](const typename M::ConstPtr& message) {
+                                               internalCallback(message, callback);
+                                             }),
+                                         tracked_object, transport_hints.getRosHints());
   }
   const ros::NodeHandle& nh() const { return inner_->param_nh; }
 

@@ -18,11 +18,11 @@ class SubscriberFilter : public message_filters::SimpleFilter<sensor_msgs::Image
   void subscribe(ImageTransport& it, const std::string& base_topic, uint32_t queue_size,
                  const TransportHints& transport_hints = TransportHints()) {
     unsubscribe();
-    subscriber_ = it.subscribe(
-        base_topic, queue_size,
-        ImageTransport::ImageCallback(
-            [this](const sensor_msgs::ImageConstPtr& image) { signalMessage(image); }),
-        ros::VoidPtr(), transport_hints);
+    subscriber_ =
+        it.subscribe(base_topic, queue_size,
+                     ImageTransport::ImageCallback(
+                         [this](const sensor_msgs::ImageConstPtr& image) { signalMessage(image); }),
+                     ros::VoidPtr(), transport_hints);
   }
   void unsubscribe() { subscriber_.shutdown(); }
   std::string getTopic() const { return subscriber_.getTopic(); }

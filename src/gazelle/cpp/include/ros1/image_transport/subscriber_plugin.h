@@ -38,8 +38,8 @@ class SubscriberPlugin : boost::noncopyable {
   void subscribe(ros::NodeHandle& nh, const std::string& base_topic, uint32_t queue_size,
                  void (T::*fp)(const sensor_msgs::ImageConstPtr&), const boost::shared_ptr<T>& obj,
                  const TransportHints& transport_hints = TransportHints()) {
-    subscribe(nh, base_topic, queue_size, boost::bind(fp, obj.get(), boost::placeholders::_1),
-              obj, transport_hints);
+    subscribe(nh, base_topic, queue_size, boost::bind(fp, obj.get(), boost::placeholders::_1), obj,
+              transport_hints);
   }
   virtual std::string getTopic() const = 0;
   virtual uint32_t getNumPublishers() const = 0;

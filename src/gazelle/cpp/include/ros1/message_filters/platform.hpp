@@ -40,8 +40,10 @@ inline void warn_of_bound(int topic, bool goes_back) {
   if (goes_back)
     ROS_WARN("Messages of type %d arrived out of order (will print only once)", topic);
   else
-    ROS_WARN("Messages of type %d arrived closer than the lower bound you provided (will print only once)",
-             topic);
+    ROS_WARN(
+        "Messages of type %d arrived closer than the lower bound you provided (will print only "
+        "once)",
+        topic);
 }
 
 }  // namespace platform

@@ -27,8 +27,8 @@ class TimeSequencer : public SimpleFilter<M> {
   TimeSequencer(ros::Duration delay, ros::Duration update_rate, uint32_t queue_size,
                 ros::NodeHandle nh = ros::NodeHandle())
       : delay_(delay), queue_size_(queue_size), node_(nh) {
-    timer_ = node_.createTimer(
-        update_rate, ros::TimerCallback([this](const ros::TimerEvent&) { dispatch(); }));
+    timer_ = node_.createTimer(update_rate,
+                               ros::TimerCallback([this](const ros::TimerEvent&) { dispatch(); }));
   }
   ~TimeSequencer() {
     timer_.stop();

@@ -17,7 +17,8 @@
 #define NODELET_DEBUG_ONCE(...) ROS_DEBUG_ONCE_NAMED(getName(), __VA_ARGS__)
 #define NODELET_DEBUG_STREAM_ONCE(...) ROS_DEBUG_STREAM_ONCE_NAMED(getName(), __VA_ARGS__)
 #define NODELET_DEBUG_COND(cond, ...) ROS_DEBUG_COND_NAMED(cond, getName(), __VA_ARGS__)
-#define NODELET_DEBUG_STREAM_COND(cond, ...) ROS_DEBUG_STREAM_COND_NAMED(cond, getName(), __VA_ARGS__)
+#define NODELET_DEBUG_STREAM_COND(cond, ...) \
+  ROS_DEBUG_STREAM_COND_NAMED(cond, getName(), __VA_ARGS__)
 #define NODELET_DEBUG_THROTTLE(rate, ...) ROS_DEBUG_THROTTLE_NAMED(rate, getName(), __VA_ARGS__)
 #define NODELET_DEBUG_STREAM_THROTTLE(rate, ...) \
   ROS_DEBUG_STREAM_THROTTLE_NAMED(rate, getName(), __VA_ARGS__)
@@ -53,7 +54,8 @@
 #define NODELET_ERROR_ONCE(...) ROS_ERROR_ONCE_NAMED(getName(), __VA_ARGS__)
 #define NODELET_ERROR_STREAM_ONCE(...) ROS_ERROR_STREAM_ONCE_NAMED(getName(), __VA_ARGS__)
 #define NODELET_ERROR_COND(cond, ...) ROS_ERROR_COND_NAMED(cond, getName(), __VA_ARGS__)
-#define NODELET_ERROR_STREAM_COND(cond, ...) ROS_ERROR_STREAM_COND_NAMED(cond, getName(), __VA_ARGS__)
+#define NODELET_ERROR_STREAM_COND(cond, ...) \
+  ROS_ERROR_STREAM_COND_NAMED(cond, getName(), __VA_ARGS__)
 #define NODELET_ERROR_THROTTLE(rate, ...) ROS_ERROR_THROTTLE_NAMED(rate, getName(), __VA_ARGS__)
 #define NODELET_ERROR_STREAM_THROTTLE(rate, ...) \
   ROS_ERROR_STREAM_THROTTLE_NAMED(rate, getName(), __VA_ARGS__)
@@ -65,7 +67,8 @@
 #define NODELET_FATAL_ONCE(...) ROS_FATAL_ONCE_NAMED(getName(), __VA_ARGS__)
 #define NODELET_FATAL_STREAM_ONCE(...) ROS_FATAL_STREAM_ONCE_NAMED(getName(), __VA_ARGS__)
 #define NODELET_FATAL_COND(cond, ...) ROS_FATAL_COND_NAMED(cond, getName(), __VA_ARGS__)
-#define NODELET_FATAL_STREAM_COND(cond, ...) ROS_FATAL_STREAM_COND_NAMED(cond, getName(), __VA_ARGS__)
+#define NODELET_FATAL_STREAM_COND(cond, ...) \
+  ROS_FATAL_STREAM_COND_NAMED(cond, getName(), __VA_ARGS__)
 #define NODELET_FATAL_THROTTLE(rate, ...) ROS_FATAL_THROTTLE_NAMED(rate, getName(), __VA_ARGS__)
 #define NODELET_FATAL_STREAM_THROTTLE(rate, ...) \
   ROS_FATAL_STREAM_THROTTLE_NAMED(rate, getName(), __VA_ARGS__)

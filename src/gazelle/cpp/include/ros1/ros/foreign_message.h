@@ -3,11 +3,11 @@
 // ros::serialization::Serializer reads and writes ROS 1's bytes, which become CDR by the type's
 // definition (runtime/roscpp/wire_conversion.cpp).
 
-#include <gazelle/core.hpp>
 #include <ros/common.h>
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 #include <ros/subscription_callback_helper.h>
+#include <gazelle/core.hpp>
 
 #include <memory>
 #include <string>
@@ -18,12 +18,10 @@ namespace detail {
 
 /// CDR of a type to ROS 1's bytes and back; the definition may be empty where Gazelle knows the
 /// type. Throws gazelle::Error.
-ROSCPP_DECL std::vector<uint8_t> ros1FromCdr(const std::string& type,
-                                             const std::string& definition, const uint8_t* cdr,
-                                             std::size_t size);
-ROSCPP_DECL std::vector<uint8_t> cdrFromRos1(const std::string& type,
-                                             const std::string& definition, const uint8_t* bytes,
-                                             std::size_t size);
+ROSCPP_DECL std::vector<uint8_t> ros1FromCdr(const std::string& type, const std::string& definition,
+                                             const uint8_t* cdr, std::size_t size);
+ROSCPP_DECL std::vector<uint8_t> cdrFromRos1(const std::string& type, const std::string& definition,
+                                             const uint8_t* bytes, std::size_t size);
 /// "std_msgs/String" as "std_msgs/msg/String", which stays what it is.
 ROSCPP_DECL std::string ros2TypeName(const std::string& type, const char* folder = "msg");
 ROSCPP_DECL std::string ros1TypeName(const std::string& type);

@@ -13,16 +13,16 @@ namespace param {
 
 // One declaration a type for set, get and getCached: what the parameter server stores, and lists
 // and tables of it.
-#define GAZELLE_ROS_PARAMETER(Type, Passed)                               \
-  ROSCPP_DECL void set(const std::string& key, Passed value);             \
-  ROSCPP_DECL bool get(const std::string& key, Type& value);              \
+#define GAZELLE_ROS_PARAMETER(Type, Passed)                   \
+  ROSCPP_DECL void set(const std::string& key, Passed value); \
+  ROSCPP_DECL bool get(const std::string& key, Type& value);  \
   ROSCPP_DECL bool getCached(const std::string& key, Type& value);
-#define GAZELLE_ROS_PARAMETER_LISTS(Type)                                                     \
-  ROSCPP_DECL void set(const std::string& key, const std::vector<Type>& value);               \
-  ROSCPP_DECL bool get(const std::string& key, std::vector<Type>& value);                     \
-  ROSCPP_DECL bool getCached(const std::string& key, std::vector<Type>& value);               \
-  ROSCPP_DECL void set(const std::string& key, const std::map<std::string, Type>& value);     \
-  ROSCPP_DECL bool get(const std::string& key, std::map<std::string, Type>& value);           \
+#define GAZELLE_ROS_PARAMETER_LISTS(Type)                                                 \
+  ROSCPP_DECL void set(const std::string& key, const std::vector<Type>& value);           \
+  ROSCPP_DECL bool get(const std::string& key, std::vector<Type>& value);                 \
+  ROSCPP_DECL bool getCached(const std::string& key, std::vector<Type>& value);           \
+  ROSCPP_DECL void set(const std::string& key, const std::map<std::string, Type>& value); \
+  ROSCPP_DECL bool get(const std::string& key, std::map<std::string, Type>& value);       \
   ROSCPP_DECL bool getCached(const std::string& key, std::map<std::string, Type>& value);
 
 GAZELLE_ROS_PARAMETER(XmlRpc::XmlRpcValue, const XmlRpc::XmlRpcValue&)

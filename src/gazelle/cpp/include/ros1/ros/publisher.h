@@ -1,12 +1,12 @@
 #pragma once
 
-#include <gazelle/core.hpp>
-#include <gazelle/pointers.hpp>
 #include <ros/common.h>
 #include <ros/forwards.h>
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 #include <ros/subscription_callback_helper.h>
+#include <gazelle/core.hpp>
+#include <gazelle/pointers.hpp>
 
 #include <boost/shared_ptr.hpp>
 
@@ -41,7 +41,8 @@ class ROSCPP_DECL Publisher {
       if (!accepts(gazelle::message_type<M>())) return;
       sendCopy(&message, gazelle::message_type<M>(), &detail::copyOf<M>);
     } else if constexpr (std::is_same<M, SerializedMessage>::value) {
-      sendRos1(message.message_start, message.num_bytes - (message.message_start - message.buf.get()));
+      sendRos1(message.message_start,
+               message.num_bytes - (message.message_start - message.buf.get()));
     } else {
       std::vector<uint8_t> bytes(serialization::serializationLength(message));
       serialization::OStream stream(bytes.data(), static_cast<uint32_t>(bytes.size()));

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <gazelle/core.hpp>
-#include <gazelle/message.hpp>
 #include <ros/common.h>
 #include <ros/foreign_message.h>
 #include <ros/forwards.h>
 #include <ros/message_traits.h>
 #include <ros/service_traits.h>
+#include <gazelle/core.hpp>
+#include <gazelle/message.hpp>
 
 #include <boost/function.hpp>
 
@@ -44,8 +44,8 @@ class ServiceEvent {
   typedef boost::shared_ptr<ResponseType> ResponsePtr;
   typedef boost::function<bool(ServiceEvent<RequestType, ResponseType>&)> CallbackType;
 
-  ServiceEvent(const boost::shared_ptr<MReq const>& request, const boost::shared_ptr<MRes>& response,
-               const boost::shared_ptr<M_string>& header)
+  ServiceEvent(const boost::shared_ptr<MReq const>& request,
+               const boost::shared_ptr<MRes>& response, const boost::shared_ptr<M_string>& header)
       : request_(request), response_(response), connection_header_(header) {}
 
   static bool call(const CallbackType& callback,
@@ -114,8 +114,7 @@ class ServiceCallbackHelperT : public ServiceCallbackHelper {
   typedef boost::function<RequestPtr()> ReqCreateFunction;
   typedef boost::function<ResponsePtr()> ResCreateFunction;
 
-  ServiceCallbackHelperT(const Callback& callback,
-                         const ReqCreateFunction& = ReqCreateFunction(),
+  ServiceCallbackHelperT(const Callback& callback, const ReqCreateFunction& = ReqCreateFunction(),
                          const ResCreateFunction& = ResCreateFunction())
       : callback_(callback) {}
 

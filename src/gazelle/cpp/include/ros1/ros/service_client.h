@@ -1,12 +1,12 @@
 #pragma once
 
-#include <gazelle/core.hpp>
 #include <ros/common.h>
 #include <ros/forwards.h>
 #include <ros/message_traits.h>
 #include <ros/service_callback_helper.h>
 #include <ros/service_client_options.h>
 #include <ros/service_traits.h>
+#include <gazelle/core.hpp>
 
 namespace ros {
 

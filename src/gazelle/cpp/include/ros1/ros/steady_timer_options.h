@@ -8,8 +8,8 @@ namespace ros {
 /// All that such a timer may be told.
 struct ROSCPP_DECL SteadyTimerOptions {
   SteadyTimerOptions() : period(0.1), callback_queue(0), oneshot(false), autostart(true) {}
-  SteadyTimerOptions(WallDuration period_, const SteadyTimerCallback& callback_, CallbackQueueInterface* queue,
-      bool oneshot_ = false, bool autostart_ = true)
+  SteadyTimerOptions(WallDuration period_, const SteadyTimerCallback& callback_,
+                     CallbackQueueInterface* queue, bool oneshot_ = false, bool autostart_ = true)
       : period(period_),
         callback(callback_),
         callback_queue(queue),

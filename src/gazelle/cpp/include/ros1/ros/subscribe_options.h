@@ -34,17 +34,18 @@ struct ROSCPP_DECL SubscribeOptions {
   }
 
   template <class M>
-  void init(const std::string& topic_, uint32_t queue_size_,
-            const boost::function<void(const boost::shared_ptr<M const>&)>& callback,
-            const boost::function<boost::shared_ptr<M>(void)>& factory =
-                DefaultMessageCreator<M>()) {
+  void init(
+      const std::string& topic_, uint32_t queue_size_,
+      const boost::function<void(const boost::shared_ptr<M const>&)>& callback,
+      const boost::function<boost::shared_ptr<M>(void)>& factory = DefaultMessageCreator<M>()) {
     typedef typename ParameterAdapter<M>::Message Message;
     topic = topic_;
     queue_size = queue_size_;
     md5sum = message_traits::md5sum<Message>();
     datatype = message_traits::datatype<Message>();
-    helper = boost::make_shared<
-        SubscriptionCallbackHelperT<const boost::shared_ptr<Message const>&> >(callback, factory);
+    helper =
+        boost::make_shared<SubscriptionCallbackHelperT<const boost::shared_ptr<Message const>&> >(
+            callback, factory);
   }
 
   template <class M>

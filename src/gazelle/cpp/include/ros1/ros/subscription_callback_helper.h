@@ -1,13 +1,13 @@
 #pragma once
 
-#include <gazelle/core.hpp>
-#include <gazelle/message.hpp>
-#include <gazelle/pointers.hpp>
 #include <ros/common.h>
 #include <ros/forwards.h>
 #include <ros/message_event.h>
 #include <ros/message_traits.h>
 #include <ros/parameter_adapter.h>
+#include <gazelle/core.hpp>
+#include <gazelle/message.hpp>
+#include <gazelle/pointers.hpp>
 
 #include <boost/function.hpp>
 
@@ -89,9 +89,8 @@ class SubscriptionCallbackHelperT : public SubscriptionCallbackHelper {
   typedef boost::function<void(typename Adapter::Parameter)> Callback;
   typedef boost::function<NonConstTypePtr()> CreateFunction;
 
-  SubscriptionCallbackHelperT(
-      const Callback& callback,
-      const CreateFunction& create = DefaultMessageCreator<NonConstType>())
+  SubscriptionCallbackHelperT(const Callback& callback,
+                              const CreateFunction& create = DefaultMessageCreator<NonConstType>())
       : callback_(callback), create_(create) {}
 
   void setCreateFunction(const CreateFunction& create) { create_ = create; }

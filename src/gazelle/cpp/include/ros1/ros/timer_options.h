@@ -9,7 +9,7 @@ namespace ros {
 struct ROSCPP_DECL TimerOptions {
   TimerOptions() : period(0.1), callback_queue(0), oneshot(false), autostart(true) {}
   TimerOptions(Duration period_, const TimerCallback& callback_, CallbackQueueInterface* queue,
-      bool oneshot_ = false, bool autostart_ = true)
+               bool oneshot_ = false, bool autostart_ = true)
       : period(period_),
         callback(callback_),
         callback_queue(queue),

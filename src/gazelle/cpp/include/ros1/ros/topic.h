@@ -30,10 +30,10 @@ boost::shared_ptr<M const> waitForMessage(const std::string& topic, ros::NodeHan
                                           ros::Duration timeout) {
   SubscribeHelper<M> helper;
   SubscribeOptions options;
-  options.template init<M>(topic, 1, [&helper](const boost::shared_ptr<M const>& message) {
-    helper.callback(message);
-  });
-  waitForMessageImpl(options, [&helper] { return helper.hasMessage(); }, node, timeout);
+  options.template init<M>(
+      topic, 1, [&helper](const boost::shared_ptr<M const>& message) { helper.callback(message); });
+  waitForMessageImpl(
+      options, [&helper] { return helper.hasMessage(); }, node, timeout);
   return helper.getMessage();
 }
 

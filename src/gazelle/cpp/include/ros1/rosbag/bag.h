@@ -55,9 +55,9 @@ class ROSBAG_STORAGE_DECL Bag {
     write(topic, event.getReceiptTime(), *event.getMessage(), event.getConnectionHeaderPtr());
   }
   template <class T>
-  void write(std::string const& topic, ros::Time const& time, T const& message,
-             boost::shared_ptr<ros::M_string> connection_header =
-                 boost::shared_ptr<ros::M_string>()) {
+  void write(
+      std::string const& topic, ros::Time const& time, T const& message,
+      boost::shared_ptr<ros::M_string> connection_header = boost::shared_ptr<ros::M_string>()) {
     std::vector<uint8_t> bytes(ros::serialization::serializationLength(message));
     ros::serialization::OStream stream(bytes.data(), static_cast<uint32_t>(bytes.size()));
     ros::serialization::serialize(stream, message);
@@ -66,16 +66,15 @@ class ROSBAG_STORAGE_DECL Bag {
                connection_header, bytes);
   }
   template <class T>
-  void write(std::string const& topic, ros::Time const& time,
-             boost::shared_ptr<T const> const& message,
-             boost::shared_ptr<ros::M_string> connection_header =
-                 boost::shared_ptr<ros::M_string>()) {
+  void write(
+      std::string const& topic, ros::Time const& time, boost::shared_ptr<T const> const& message,
+      boost::shared_ptr<ros::M_string> connection_header = boost::shared_ptr<ros::M_string>()) {
     write(topic, time, *message, connection_header);
   }
   template <class T>
-  void write(std::string const& topic, ros::Time const& time, boost::shared_ptr<T> const& message,
-             boost::shared_ptr<ros::M_string> connection_header =
-                 boost::shared_ptr<ros::M_string>()) {
+  void write(
+      std::string const& topic, ros::Time const& time, boost::shared_ptr<T> const& message,
+      boost::shared_ptr<ros::M_string> connection_header = boost::shared_ptr<ros::M_string>()) {
     write(topic, time, *message, connection_header);
   }
 

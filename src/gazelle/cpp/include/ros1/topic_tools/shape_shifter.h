@@ -38,10 +38,9 @@ class TOPIC_TOOLS_DECL ShapeShifter {
     latching_ = latching;
     typed_ = md5_ != "*";
   }
-  ros::Publisher advertise(ros::NodeHandle& nh, const std::string& topic, uint32_t queue_size,
-                           bool latch = false,
-                           const ros::SubscriberStatusCallback& connect_cb =
-                               ros::SubscriberStatusCallback()) const {
+  ros::Publisher advertise(
+      ros::NodeHandle& nh, const std::string& topic, uint32_t queue_size, bool latch = false,
+      const ros::SubscriberStatusCallback& connect_cb = ros::SubscriberStatusCallback()) const {
     ros::AdvertiseOptions options(topic, queue_size, md5_, datatype_, definition_, connect_cb);
     options.latch = latch;
     return nh.advertise(options);
@@ -53,13 +52,11 @@ class TOPIC_TOOLS_DECL ShapeShifter {
     if (!typed_)
       throw ShapeShifterException("Tried to instantiate message from an untyped ShapeShifter.");
     if (ros::message_traits::datatype<M>() != getDataType())
-      throw ShapeShifterException(
-          "Tried to instantiate message without matching datatype: it is " + getDataType() +
-          ", not " + ros::message_traits::datatype<M>());
+      throw ShapeShifterException("Tried to instantiate message without matching datatype: it is " +
+                                  getDataType() + ", not " + ros::message_traits::datatype<M>());
     if (ros::message_traits::md5sum<M>() != getMD5Sum())
-      throw ShapeShifterException(
-          "Tried to instantiate message without matching md5sum: it is " + getMD5Sum() +
-          ", not " + ros::message_traits::md5sum<M>());
+      throw ShapeShifterException("Tried to instantiate message without matching md5sum: it is " +
+                                  getMD5Sum() + ", not " + ros::message_traits::md5sum<M>());
     const boost::shared_ptr<M> made = boost::make_shared<M>();
     ros::serialization::IStream stream(const_cast<uint8_t*>(bytes_.data()), size());
     ros::serialization::deserialize(stream, *made);

@@ -43,8 +43,7 @@ class XMLRPCPP_DECL XmlRpcValue {
   XmlRpcValue(const char* value) : _type(TypeString) { _value.asString = new std::string(value); }
   XmlRpcValue(struct tm* value) : _type(TypeDateTime) { _value.asTime = new struct tm(*value); }
   XmlRpcValue(void* value, int size) : _type(TypeBase64) {
-    _value.asBinary =
-        new BinaryData(static_cast<char*>(value), static_cast<char*>(value) + size);
+    _value.asBinary = new BinaryData(static_cast<char*>(value), static_cast<char*>(value) + size);
   }
   /// From XML, `<value>…</value>`; invalid where it is none.
   XmlRpcValue(const std::string& xml, int* offset) : _type(TypeInvalid) {
@@ -80,8 +79,8 @@ class XMLRPCPP_DECL XmlRpcValue {
   operator const std::string&() const { return *as(TypeString)._value.asString; }
   operator BinaryData&() { return *as(TypeBase64)._value.asBinary; }
   operator const BinaryData&() const { return *as(TypeBase64)._value.asBinary; }
-  operator struct tm&() { return *as(TypeDateTime)._value.asTime; }
-  operator const struct tm&() const { return *as(TypeDateTime)._value.asTime; }
+  operator struct tm &() { return *as(TypeDateTime)._value.asTime; }
+  operator const struct tm &() const { return *as(TypeDateTime)._value.asTime; }
 
   XmlRpcValue const& operator[](int i) const;
   XmlRpcValue& operator[](int i);

@@ -30,32 +30,32 @@ class MessageEvent {
   using CreateFunction = std::function<MessagePtr()>;
 
   MessageEvent() = default;
-  MessageEvent(const MessageEvent<Message> &other) { take(other); }
-  MessageEvent(const MessageEvent<ConstMessage> &other) { take(other); }
-  MessageEvent(const MessageEvent<Message> &other, bool nonconst_need_copy) {
+  MessageEvent(const MessageEvent<Message>& other) { take(other); }
+  MessageEvent(const MessageEvent<ConstMessage>& other) { take(other); }
+  MessageEvent(const MessageEvent<Message>& other, bool nonconst_need_copy) {
     take(other);
     nonconst_need_copy_ = nonconst_need_copy;
   }
-  MessageEvent(const MessageEvent<ConstMessage> &other, bool nonconst_need_copy) {
+  MessageEvent(const MessageEvent<ConstMessage>& other, bool nonconst_need_copy) {
     take(other);
     nonconst_need_copy_ = nonconst_need_copy;
   }
-  MessageEvent(const ConstMessagePtr &message)  // NOLINT: as the original
+  MessageEvent(const ConstMessagePtr& message)  // NOLINT: as the original
       : message_(message), receipt_time_(rclcpp::Clock().now()) {}
-  MessageEvent(const ConstMessagePtr &message, rclcpp::Time receipt_time)
+  MessageEvent(const ConstMessagePtr& message, rclcpp::Time receipt_time)
       : message_(message), receipt_time_(receipt_time) {}
-  MessageEvent(const ConstMessagePtr &message, rclcpp::Time receipt_time, bool nonconst_need_copy,
-               const CreateFunction &create)
+  MessageEvent(const ConstMessagePtr& message, rclcpp::Time receipt_time, bool nonconst_need_copy,
+               const CreateFunction& create)
       : message_(message),
         receipt_time_(receipt_time),
         nonconst_need_copy_(nonconst_need_copy),
         create_(create) {}
 
-  MessageEvent &operator=(const MessageEvent<Message> &other) {
+  MessageEvent& operator=(const MessageEvent<Message>& other) {
     take(other);
     return *this;
   }
-  MessageEvent &operator=(const MessageEvent<ConstMessage> &other) {
+  MessageEvent& operator=(const MessageEvent<ConstMessage>& other) {
     take(other);
     return *this;
   }
@@ -70,26 +70,26 @@ class MessageEvent {
       return copy_;
     }
   }
-  const ConstMessagePtr &getConstMessage() const { return message_; }
+  const ConstMessagePtr& getConstMessage() const { return message_; }
   rclcpp::Time getReceiptTime() const { return receipt_time_; }
   bool nonConstWillCopy() const { return nonconst_need_copy_; }
   bool getMessageWillCopy() const { return !std::is_const_v<M> && nonconst_need_copy_; }
-  const CreateFunction &getMessageFactory() const { return create_; }
+  const CreateFunction& getMessageFactory() const { return create_; }
 
-  bool operator<(const MessageEvent<M> &other) const {
+  bool operator<(const MessageEvent<M>& other) const {
     if (message_ != other.message_) return message_ < other.message_;
     return receipt_time_.nanoseconds() < other.receipt_time_.nanoseconds();
   }
-  bool operator==(const MessageEvent<M> &other) const {
+  bool operator==(const MessageEvent<M>& other) const {
     return message_ == other.message_ &&
            receipt_time_.nanoseconds() == other.receipt_time_.nanoseconds() &&
            nonconst_need_copy_ == other.nonconst_need_copy_;
   }
-  bool operator!=(const MessageEvent<M> &other) const { return !(*this == other); }
+  bool operator!=(const MessageEvent<M>& other) const { return !(*this == other); }
 
  private:
   template <class Other>
-  void take(const Other &other) {
+  void take(const Other& other) {
     message_ = other.getConstMessage();
     receipt_time_ = other.getReceiptTime();
     nonconst_need_copy_ = other.nonConstWillCopy();

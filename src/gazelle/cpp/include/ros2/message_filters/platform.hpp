@@ -28,11 +28,11 @@ using Duration = rclcpp::Duration;
 using std::static_pointer_cast;
 
 template <class M>
-Time stamp(const M &message) {
+Time stamp(const M& message) {
   return message_traits::TimeStamp<M>::value(message);
 }
-inline std::int64_t ns_of(const Time &time) { return time.nanoseconds(); }
-inline std::int64_t ns_of(const Duration &span) { return span.nanoseconds(); }
+inline std::int64_t ns_of(const Time& time) { return time.nanoseconds(); }
+inline std::int64_t ns_of(const Duration& span) { return span.nanoseconds(); }
 
 inline void warn_of_bound(int topic, bool goes_back) {
   const rclcpp::Logger logger = rclcpp::get_logger("message_filters");

@@ -16,9 +16,9 @@ class SubscriberBase {
  public:
   using NodePtr = std::shared_ptr<NodeType>;
   virtual ~SubscriberBase() = default;
-  virtual void subscribe(NodePtr node, const std::string &topic,
+  virtual void subscribe(NodePtr node, const std::string& topic,
                          const rmw_qos_profile_t qos = rmw_qos_profile_default) = 0;
-  virtual void subscribe(NodeType *node, const std::string &topic,
+  virtual void subscribe(NodeType* node, const std::string& topic,
                          const rmw_qos_profile_t qos = rmw_qos_profile_default) = 0;
   virtual void subscribe() = 0;
   virtual void unsubscribe() = 0;
@@ -33,59 +33,58 @@ class Subscriber : public SubscriberBase<NodeType>, public SimpleFilter<M> {
   using Options = rclcpp::SubscriptionOptions;
 
   Subscriber() = default;
-  Subscriber(NodePtr node, const std::string &topic,
+  Subscriber(NodePtr node, const std::string& topic,
              const rmw_qos_profile_t qos = rmw_qos_profile_default) {
     subscribe(node.get(), topic, qos);
     kept_ = node;
   }
-  Subscriber(NodeType *node, const std::string &topic,
+  Subscriber(NodeType* node, const std::string& topic,
              const rmw_qos_profile_t qos = rmw_qos_profile_default) {
     subscribe(node, topic, qos);
   }
-  Subscriber(NodePtr node, const std::string &topic, const rmw_qos_profile_t qos,
-             Options options) {
+  Subscriber(NodePtr node, const std::string& topic, const rmw_qos_profile_t qos, Options options) {
     subscribe(node.get(), topic, qos, options);
     kept_ = node;
   }
-  Subscriber(NodeType *node, const std::string &topic, const rmw_qos_profile_t qos,
+  Subscriber(NodeType* node, const std::string& topic, const rmw_qos_profile_t qos,
              Options options) {
     subscribe(node, topic, qos, options);
   }
-  Subscriber(NodePtr node, const std::string &topic, const rclcpp::QoS &qos,
+  Subscriber(NodePtr node, const std::string& topic, const rclcpp::QoS& qos,
              Options options = Options()) {
     subscribe(node.get(), topic, qos, options);
     kept_ = node;
   }
-  Subscriber(NodeType *node, const std::string &topic, const rclcpp::QoS &qos,
+  Subscriber(NodeType* node, const std::string& topic, const rclcpp::QoS& qos,
              Options options = Options()) {
     subscribe(node, topic, qos, options);
   }
   ~Subscriber() override { unsubscribe(); }
 
-  void subscribe(NodePtr node, const std::string &topic,
+  void subscribe(NodePtr node, const std::string& topic,
                  const rmw_qos_profile_t qos = rmw_qos_profile_default) override {
     subscribe(node.get(), topic, qos, Options());
     kept_ = node;
   }
-  void subscribe(NodeType *node, const std::string &topic,
+  void subscribe(NodeType* node, const std::string& topic,
                  const rmw_qos_profile_t qos = rmw_qos_profile_default) override {
     subscribe(node, topic, qos, Options());
   }
-  void subscribe(NodePtr node, const std::string &topic, const rmw_qos_profile_t qos,
+  void subscribe(NodePtr node, const std::string& topic, const rmw_qos_profile_t qos,
                  Options options) {
     subscribe(node.get(), topic, qos, options);
     kept_ = node;
   }
-  void subscribe(NodeType *node, const std::string &topic, const rmw_qos_profile_t qos,
+  void subscribe(NodeType* node, const std::string& topic, const rmw_qos_profile_t qos,
                  Options options) {
     subscribe(node, topic, rclcpp::QoS(rclcpp::QoSInitialization::from_rmw(qos), qos), options);
   }
-  void subscribe(NodePtr node, const std::string &topic, const rclcpp::QoS &qos,
+  void subscribe(NodePtr node, const std::string& topic, const rclcpp::QoS& qos,
                  Options options = Options()) {
     subscribe(node.get(), topic, qos, options);
     kept_ = node;
   }
-  void subscribe(NodeType *node, const std::string &topic, const rclcpp::QoS &qos,
+  void subscribe(NodeType* node, const std::string& topic, const rclcpp::QoS& qos,
                  Options options = Options()) {
     unsubscribe();
     if (topic.empty()) return;
@@ -95,9 +94,7 @@ class Subscriber : public SubscriberBase<NodeType>, public SimpleFilter<M> {
     options_ = options;
     subscription_ = node->template create_subscription<M>(
         topic, qos,
-        [this](const std::shared_ptr<const M> message) {
-          this->signalMessage(EventType(message));
-        },
+        [this](const std::shared_ptr<const M> message) { this->signalMessage(EventType(message)); },
         options);
   }
   void subscribe() override {
@@ -110,12 +107,12 @@ class Subscriber : public SubscriberBase<NodeType>, public SimpleFilter<M> {
 
   // At the front of a chain it takes nothing.
   template <typename F>
-  void connectInput(F &) {}
-  void add(const EventType &) {}
+  void connectInput(F&) {}
+  void add(const EventType&) {}
 
  private:
   NodePtr kept_;
-  NodeType *node_ = nullptr;
+  NodeType* node_ = nullptr;
   std::string topic_;
   rclcpp::QoS qos_{10};
   Options options_;

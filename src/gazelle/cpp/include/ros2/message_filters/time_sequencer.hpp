@@ -19,7 +19,7 @@ class TimeSequencer : public SimpleFilter<M> {
   using EventType = MessageEvent<M const>;
 
   template <class F>
-  TimeSequencer(F &filter, rclcpp::Duration delay, rclcpp::Duration update_rate,
+  TimeSequencer(F& filter, rclcpp::Duration delay, rclcpp::Duration update_rate,
                 std::uint32_t queue_size, std::shared_ptr<rclcpp::Node> node)
       : TimeSequencer(delay, update_rate, queue_size, node) {
     connectInput(filter);
@@ -36,18 +36,18 @@ class TimeSequencer : public SimpleFilter<M> {
   }
 
   template <class F>
-  void connectInput(F &filter) {
+  void connectInput(F& filter) {
     incoming_.disconnect();
-    incoming_ = connect_events<M>(filter, [this](const EventType &event) { add(event); });
+    incoming_ = connect_events<M>(filter, [this](const EventType& event) { add(event); });
   }
-  void add(const EventType &event) {
+  void add(const EventType& event) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::int64_t stamp_ns = platform::ns_of(platform::stamp(*event.getConstMessage()));
     if (stamp_ns < last_ns_) return;  // its turn is over
     waiting_.emplace(stamp_ns, event);
     if (queue_size_ != 0 && waiting_.size() > queue_size_) waiting_.erase(waiting_.begin());
   }
-  void add(const MConstPtr &message) { add(EventType(message)); }
+  void add(const MConstPtr& message) { add(EventType(message)); }
 
  private:
   void dispatch() {
@@ -61,7 +61,7 @@ class TimeSequencer : public SimpleFilter<M> {
         waiting_.erase(waiting_.begin());
       }
     }
-    for (const EventType &event : due) this->signalMessage(event);
+    for (const EventType& event : due) this->signalMessage(event);
   }
 
   std::int64_t delay_ns_;

@@ -23,11 +23,11 @@ using NullTypeConstPtr = platform::Ptr<const NullType>;
 template <class M>
 struct NullFilter {
   template <typename C>
-  Connection registerCallback(const C &) {
+  Connection registerCallback(const C&) {
     return Connection();
   }
   template <typename P>
-  Connection registerCallback(const std::function<void(P)> &) {
+  Connection registerCallback(const std::function<void(P)>&) {
     return Connection();
   }
 };
@@ -49,7 +49,7 @@ class CallList {
     return Connection([weak, kept] {
       if (const auto state = weak.lock()) {
         const std::lock_guard<std::mutex> lock(state->mutex);
-        auto &calls = state->calls;
+        auto& calls = state->calls;
         for (auto call = calls.begin(); call != calls.end(); ++call) {
           if (*call == kept) {
             calls.erase(call);
@@ -60,13 +60,13 @@ class CallList {
     });
   }
   template <class... A>
-  void call(const A &...arguments) const {
+  void call(const A&... arguments) const {
     std::vector<std::shared_ptr<Call>> calls;
     {
       const std::lock_guard<std::mutex> lock(state_->mutex);
       calls = state_->calls;
     }
-    for (const auto &call : calls) (*call)(arguments...);
+    for (const auto& call : calls) (*call)(arguments...);
   }
 
  private:
@@ -82,20 +82,20 @@ template <class... P>
 struct Typed {
   template <class F, class Events>
   static auto bound(F function) {
-    return [function](const Events &events) mutable {
+    return [function](const Events& events) mutable {
       call(function, events, std::index_sequence_for<P...>{});
     };
   }
 
  private:
   template <class F, class Events, std::size_t... I>
-  static void call(F &function, const Events &events, std::index_sequence<I...>) {
+  static void call(F& function, const Events& events, std::index_sequence<I...>) {
     function(platform::Adapter<P>::getParameter(std::get<I>(events))...);
   }
 };
 
 template <class Event>
-auto pointer_of(const Event &event) {
+auto pointer_of(const Event& event) {
   return event.getConstMessage();
 }
 
@@ -105,7 +105,7 @@ template <std::size_t Count>
 struct Untyped {
   template <class F, class Events>
   static auto bound(F function) {
-    return [function](const Events &events) mutable {
+    return [function](const Events& events) mutable {
       call(function, events, std::make_index_sequence<Count>{},
            std::make_index_sequence<std::tuple_size_v<Events>>{});
     };
@@ -113,13 +113,13 @@ struct Untyped {
 
  private:
   template <class F, class Events, std::size_t... I, std::size_t... All>
-  static void call(F &function, const Events &events, std::index_sequence<I...>,
+  static void call(F& function, const Events& events, std::index_sequence<I...>,
                    std::index_sequence<All...>) {
-    if constexpr (std::is_invocable_v<F &, decltype(pointer_of(std::get<I>(events)))...>) {
+    if constexpr (std::is_invocable_v<F&, decltype(pointer_of(std::get<I>(events)))...>) {
       function(pointer_of(std::get<I>(events))...);
-    } else if constexpr (std::is_invocable_v<F &, decltype(*pointer_of(std::get<I>(events)))...>) {
+    } else if constexpr (std::is_invocable_v<F&, decltype(*pointer_of(std::get<I>(events)))...>) {
       function(*pointer_of(std::get<I>(events))...);
-    } else if constexpr (std::is_invocable_v<F &, decltype(std::get<I>(events))...>) {
+    } else if constexpr (std::is_invocable_v<F&, decltype(std::get<I>(events))...>) {
       function(std::get<I>(events)...);
     } else {
       function(pointer_of(std::get<All>(events))...);
@@ -132,11 +132,11 @@ template <class Events, std::size_t Count>
 class Registers {
  public:
   template <class C, class = std::enable_if_t<!std::is_function_v<C>>>
-  Connection registerCallback(const C &callback) {
+  Connection registerCallback(const C& callback) {
     return add(Untyped<Count>::template bound<C, Events>(callback));
   }
   template <class R, class... P>
-  Connection registerCallback(const std::function<R(P...)> &callback) {
+  Connection registerCallback(const std::function<R(P...)>& callback) {
     return add(Typed<P...>::template bound<std::function<R(P...)>, Events>(callback));
   }
   template <class R, class... P>
@@ -144,35 +144,33 @@ class Registers {
     return add(Typed<P...>::template bound<R (*)(P...), Events>(callback));
   }
   template <class R, class T, class U, class... P>
-  Connection registerCallback(R (T::*method)(P...), U *object) {
-    return of_method<P...>([method, object](auto &&...a) {
-      (object->*method)(std::forward<decltype(a)>(a)...);
-    });
+  Connection registerCallback(R (T::*method)(P...), U* object) {
+    return of_method<P...>(
+        [method, object](auto&&... a) { (object->*method)(std::forward<decltype(a)>(a)...); });
   }
   template <class R, class T, class U, class... P>
-  Connection registerCallback(R (T::*method)(P...) const, U *object) {
-    return of_method<P...>([method, object](auto &&...a) {
-      (object->*method)(std::forward<decltype(a)>(a)...);
-    });
+  Connection registerCallback(R (T::*method)(P...) const, U* object) {
+    return of_method<P...>(
+        [method, object](auto&&... a) { (object->*method)(std::forward<decltype(a)>(a)...); });
   }
 #ifdef GAZELLE_MESSAGE_FILTERS_BOOST
   template <class R, class... P>
-  Connection registerCallback(const boost::function<R(P...)> &callback) {
+  Connection registerCallback(const boost::function<R(P...)>& callback) {
     return add(Typed<P...>::template bound<boost::function<R(P...)>, Events>(callback));
   }
 #endif
 
  protected:
-  void tell(const Events &events) const { calls_.call(events); }
+  void tell(const Events& events) const { calls_.call(events); }
 
  private:
   template <class... P, class F>
   Connection of_method(F function) {
     return add(Typed<P...>::template bound<F, Events>(std::move(function)));
   }
-  Connection add(std::function<void(const Events &)> call) { return calls_.add(std::move(call)); }
+  Connection add(std::function<void(const Events&)> call) { return calls_.add(std::move(call)); }
 
-  CallList<std::function<void(const Events &)>> calls_;
+  CallList<std::function<void(const Events&)>> calls_;
 };
 
 }  // namespace detail

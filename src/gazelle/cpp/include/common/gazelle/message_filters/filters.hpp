@@ -19,15 +19,15 @@ class SimpleFilter : public detail::Registers<std::tuple<platform::Event<M const
  public:
   using MConstPtr = platform::Ptr<M const>;
   using EventType = platform::Event<M const>;
-  using Callback = platform::Function<void(const MConstPtr &)>;
-  using EventCallback = platform::Function<void(const EventType &)>;
+  using Callback = platform::Function<void(const MConstPtr&)>;
+  using EventCallback = platform::Function<void(const EventType&)>;
 
-  void setName(const std::string &name) { name_ = name; }
-  const std::string &getName() { return name_; }
+  void setName(const std::string& name) { name_ = name; }
+  const std::string& getName() { return name_; }
 
  protected:
-  void signalMessage(const MConstPtr &message) { signalMessage(EventType(message)); }
-  void signalMessage(const EventType &event) { this->tell(std::tuple<EventType>(event)); }
+  void signalMessage(const MConstPtr& message) { signalMessage(EventType(message)); }
+  void signalMessage(const EventType& event) { this->tell(std::tuple<EventType>(event)); }
 
  private:
   std::string name_;
@@ -35,9 +35,9 @@ class SimpleFilter : public detail::Registers<std::tuple<platform::Event<M const
 
 // Connects a filter's output to a function of events.
 template <class M, class F, class Function>
-Connection connect_events(F &filter, Function function) {
+Connection connect_events(F& filter, Function function) {
   return filter.registerCallback(
-      platform::Function<void(const platform::Event<M const> &)>(std::move(function)));
+      platform::Function<void(const platform::Event<M const>&)>(std::move(function)));
 }
 
 // Tells on what it is told.
@@ -49,17 +49,17 @@ class PassThrough : public SimpleFilter<M> {
 
   PassThrough() = default;
   template <typename F>
-  explicit PassThrough(F &filter) {
+  explicit PassThrough(F& filter) {
     connectInput(filter);
   }
   ~PassThrough() { incoming_.disconnect(); }
   template <class F>
-  void connectInput(F &filter) {
+  void connectInput(F& filter) {
     incoming_.disconnect();
-    incoming_ = connect_events<M>(filter, [this](const EventType &event) { add(event); });
+    incoming_ = connect_events<M>(filter, [this](const EventType& event) { add(event); });
   }
-  void add(const MConstPtr &message) { this->signalMessage(message); }
-  void add(const EventType &event) { this->signalMessage(event); }
+  void add(const MConstPtr& message) { this->signalMessage(message); }
+  void add(const EventType& event) { this->signalMessage(event); }
 
  private:
   Connection incoming_;
@@ -74,21 +74,21 @@ class Cache : public SimpleFilter<M> {
   using Time = platform::Time;
 
   template <class F>
-  explicit Cache(F &filter, unsigned int cache_size = 1) : cache_size_(cache_size) {
+  explicit Cache(F& filter, unsigned int cache_size = 1) : cache_size_(cache_size) {
     connectInput(filter);
   }
   explicit Cache(unsigned int cache_size = 1) : cache_size_(cache_size) {}
   ~Cache() { incoming_.disconnect(); }
 
   template <class F>
-  void connectInput(F &filter) {
+  void connectInput(F& filter) {
     incoming_.disconnect();
-    incoming_ = connect_events<M>(filter, [this](const EventType &event) { add(event); });
+    incoming_ = connect_events<M>(filter, [this](const EventType& event) { add(event); });
   }
   void setCacheSize(unsigned int cache_size) { cache_size_ = cache_size; }
 
-  void add(const MConstPtr &message) { add(EventType(message)); }
-  void add(const EventType &event) {
+  void add(const MConstPtr& message) { add(EventType(message)); }
+  void add(const EventType& event) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       while (!kept_.empty() && kept_.size() >= cache_size_) kept_.pop_front();
@@ -100,10 +100,10 @@ class Cache : public SimpleFilter<M> {
     this->signalMessage(event);
   }
 
-  std::vector<MConstPtr> getInterval(const Time &start, const Time &end) const {
+  std::vector<MConstPtr> getInterval(const Time& start, const Time& end) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     std::vector<MConstPtr> found;
-    for (const EventType &event : kept_) {
+    for (const EventType& event : kept_) {
       const std::int64_t stamp_ns = stamp_of(event);
       if (stamp_ns >= platform::ns_of(start) && stamp_ns <= platform::ns_of(end))
         found.push_back(event.getConstMessage());
@@ -111,7 +111,7 @@ class Cache : public SimpleFilter<M> {
     return found;
   }
   // Those of the interval, with the last before and the first after it.
-  std::vector<MConstPtr> getSurroundingInterval(const Time &start, const Time &end) const {
+  std::vector<MConstPtr> getSurroundingInterval(const Time& start, const Time& end) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     std::vector<MConstPtr> found;
     if (kept_.empty()) return found;
@@ -122,16 +122,16 @@ class Cache : public SimpleFilter<M> {
     for (std::size_t i = first; i <= last; ++i) found.push_back(kept_[i].getConstMessage());
     return found;
   }
-  MConstPtr getElemBeforeTime(const Time &time) const {
+  MConstPtr getElemBeforeTime(const Time& time) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     MConstPtr found;
-    for (const EventType &event : kept_)
+    for (const EventType& event : kept_)
       if (stamp_of(event) < platform::ns_of(time)) found = event.getConstMessage();
     return found;
   }
-  MConstPtr getElemAfterTime(const Time &time) const {
+  MConstPtr getElemAfterTime(const Time& time) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (const EventType &event : kept_)
+    for (const EventType& event : kept_)
       if (stamp_of(event) > platform::ns_of(time)) return event.getConstMessage();
     return MConstPtr();
   }
@@ -145,7 +145,7 @@ class Cache : public SimpleFilter<M> {
   }
 
  private:
-  static std::int64_t stamp_of(const EventType &event) {
+  static std::int64_t stamp_of(const EventType& event) {
     return platform::ns_of(platform::stamp(*event.getConstMessage()));
   }
 
@@ -164,7 +164,7 @@ class Chain : public SimpleFilter<M> {
 
   Chain() = default;
   template <typename F>
-  explicit Chain(F &filter) {
+  explicit Chain(F& filter) {
     connectInput(filter);
   }
   ~Chain() {
@@ -173,21 +173,22 @@ class Chain : public SimpleFilter<M> {
   }
 
   struct NullDeleter {
-    void operator()(void const *) const {}
+    void operator()(void const*) const {}
   };
 
   template <class F>
-  std::size_t addFilter(F *filter) {
+  std::size_t addFilter(F* filter) {
     return addFilter(platform::Ptr<F>(filter, NullDeleter()));
   }
   template <class F>
-  std::size_t addFilter(const platform::Ptr<F> &filter) {
+  std::size_t addFilter(const platform::Ptr<F>& filter) {
     last_.disconnect();
-    last_ = connect_events<M>(*filter, [this](const EventType &event) { lastFilterCB(event); });
+    last_ = connect_events<M>(*filter, [this](const EventType& event) { lastFilterCB(event); });
     if (!filters_.empty()) filters_.back().connect(*filter);
-    filters_.push_back(Link{filter, filter.get(),
-                            [filter](const EventType &event) { filter->add(event); },
-                            [filter](const std::function<void(const EventType &)> &next) {
+    filters_.push_back(Link{filter,
+                            filter.get(),
+                            [filter](const EventType& event) { filter->add(event); },
+                            [filter](const std::function<void(const EventType&)>& next) {
                               return connect_events<M>(*filter, next);
                             },
                             {}});
@@ -199,28 +200,28 @@ class Chain : public SimpleFilter<M> {
     return platform::static_pointer_cast<F>(filters_[index].kept);
   }
   template <class F>
-  void connectInput(F &filter) {
+  void connectInput(F& filter) {
     incoming_.disconnect();
-    incoming_ = connect_events<M>(filter, [this](const EventType &event) { add(event); });
+    incoming_ = connect_events<M>(filter, [this](const EventType& event) { add(event); });
   }
-  void add(const MConstPtr &message) { add(EventType(message)); }
-  void add(const EventType &event) {
+  void add(const MConstPtr& message) { add(EventType(message)); }
+  void add(const EventType& event) {
     if (!filters_.empty()) filters_.front().add(event);
   }
 
  private:
   struct Link {
     platform::Ptr<void> kept;
-    void *raw;
-    std::function<void(const EventType &)> add;
-    std::function<Connection(const std::function<void(const EventType &)> &)> listen;
+    void* raw;
+    std::function<void(const EventType&)> add;
+    std::function<Connection(const std::function<void(const EventType&)>&)> listen;
     Connection to_next;
     template <class F>
-    void connect(F &next) {
-      to_next = listen([&next](const EventType &event) { next.add(event); });
+    void connect(F& next) {
+      to_next = listen([&next](const EventType& event) { next.add(event); });
     }
   };
-  void lastFilterCB(const EventType &event) { this->signalMessage(event); }
+  void lastFilterCB(const EventType& event) { this->signalMessage(event); }
 
   std::vector<Link> filters_;
   Connection incoming_, last_;

@@ -17,7 +17,7 @@ struct Stamped {
   std::shared_ptr<const void> event;
 };
 
-using Matched = std::function<void(const std::vector<std::shared_ptr<const void>> &)>;
+using Matched = std::function<void(const std::vector<std::shared_ptr<const void>>&)>;
 
 // One message a topic, all of the very same stamp. What is older than a match is dropped.
 class __attribute__((visibility("default"))) ExactMatcher {
@@ -56,9 +56,9 @@ class __attribute__((visibility("default"))) ApproximateMatcher {
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   struct Topic {
-    std::deque<Stamped> ahead;   // may become part of a set
-    std::vector<Stamped> passed; // looked at already for the pivot of now
-    bool has_dropped = false;    // older ones are gone: a set with it at its end may not be best
+    std::deque<Stamped> ahead;    // may become part of a set
+    std::vector<Stamped> passed;  // looked at already for the pivot of now
+    bool has_dropped = false;     // older ones are gone: a set with it at its end may not be best
     bool was_warned = false;
     std::int64_t lower_bound_ns = 0;
   };
@@ -76,7 +76,7 @@ class __attribute__((visibility("default"))) ApproximateMatcher {
   void bring_back(std::size_t topic, std::size_t count);
   void bring_all_back();
   void check_bound(std::size_t topic);
-  std::int64_t earliest_of(const Topic &topic, bool with_bounds) const;
+  std::int64_t earliest_of(const Topic& topic, bool with_bounds) const;
   Edge edge(bool latest, bool with_bounds) const;
   bool costs_more(std::int64_t end_ns, std::int64_t start_ns) const;
 

@@ -88,12 +88,12 @@ class ActionClient {
               *has_status = true;
               manager->updateStatuses(statuses);
             }));
-    feedback_sub_ = n_.subscribe<ActionFeedback>(
-        "feedback", in,
-        boost::function<void(const ActionFeedbackConstPtr&)>(
-            [manager](const ActionFeedbackConstPtr& feedback) {
-              manager->updateFeedbacks(feedback);
-            }));
+    feedback_sub_ =
+        n_.subscribe<ActionFeedback>("feedback", in,
+                                     boost::function<void(const ActionFeedbackConstPtr&)>(
+                                         [manager](const ActionFeedbackConstPtr& feedback) {
+                                           manager->updateFeedbacks(feedback);
+                                         }));
     result_sub_ = n_.subscribe<ActionResult>(
         "result", in,
         boost::function<void(const ActionResultConstPtr&)>(

@@ -29,14 +29,9 @@ class CommState {
   inline bool operator!=(const StateEnum& other) const { return state_ != other; }
   inline bool operator!=(const CommState& other) const { return state_ != other.state_; }
   std::string toString() const {
-    static const char* const kNames[] = {"WAITING_FOR_GOAL_ACK",
-                                         "PENDING",
-                                         "ACTIVE",
-                                         "WAITING_FOR_RESULT",
-                                         "WAITING_FOR_CANCEL_ACK",
-                                         "RECALLING",
-                                         "PREEMPTING",
-                                         "DONE"};
+    static const char* const kNames[] = {
+        "WAITING_FOR_GOAL_ACK",   "PENDING",   "ACTIVE",     "WAITING_FOR_RESULT",
+        "WAITING_FOR_CANCEL_ACK", "RECALLING", "PREEMPTING", "DONE"};
     return kNames[state_];
   }
 

@@ -34,7 +34,9 @@ class SimpleActionClient {
   typedef boost::function<void(const FeedbackConstPtr& feedback)> SimpleFeedbackCallback;
 
   /// `spin_thread`: callbacks come in a thread of the client's own, so that the program may wait.
-  SimpleActionClient(const std::string& name, bool spin_thread = true) { init(nh_, name, spin_thread); }
+  SimpleActionClient(const std::string& name, bool spin_thread = true) {
+    init(nh_, name, spin_thread);
+  }
   SimpleActionClient(ros::NodeHandle& n, const std::string& name, bool spin_thread = true) {
     init(n, name, spin_thread);
   }
@@ -96,7 +98,9 @@ class SimpleActionClient {
     }
     return shared_->state == SimpleGoalState::DONE;
   }
-  ResultConstPtr getResult() const { return goal_.isExpired() ? ResultConstPtr() : goal_.getResult(); }
+  ResultConstPtr getResult() const {
+    return goal_.isExpired() ? ResultConstPtr() : goal_.getResult();
+  }
 
   SimpleClientGoalState getState() const {
     if (goal_.isExpired()) {

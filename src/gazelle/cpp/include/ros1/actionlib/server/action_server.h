@@ -64,8 +64,7 @@ struct ServerCore : public boost::enable_shared_from_this<ServerCore<ActionSpec>
     for (auto goal = goals.begin(); goal != goals.end();) {
       message.status_list.push_back((*goal)->status);
       // Ended goals that nobody holds are told for some time more.
-      if (!(*goal)->released.isZero() &&
-          (*goal)->released + list_timeout < message.header.stamp)
+      if (!(*goal)->released.isZero() && (*goal)->released + list_timeout < message.header.stamp)
         goal = goals.erase(goal);
       else
         ++goal;
@@ -105,8 +104,9 @@ struct ServerCore : public boost::enable_shared_from_this<ServerCore<ActionSpec>
     goals.push_back(goal);
     GoalHandle handle = handleOf(goal);
     if (!message->goal_id.stamp.isZero() && message->goal_id.stamp <= last_cancel)
-      handle.setCanceled(Result(), "This goal handle was canceled by the action server because its "
-                                   "timestamp is before the timestamp of the last cancel request");
+      handle.setCanceled(Result(),
+                         "This goal handle was canceled by the action server because its "
+                         "timestamp is before the timestamp of the last cancel request");
     else if (goal_callback)
       goal_callback(handle);
   }
@@ -206,12 +206,11 @@ class ActionServerBase {
           if (const auto core = weak.lock()) core->onGoal(goal);
         }));
     typedef actionlib_msgs::GoalID ID;
-    cancel_sub_ = node_.subscribe<ID>(
-        "cancel", in,
-        boost::function<void(const boost::shared_ptr<ID const>&)>(
-            [weak](const boost::shared_ptr<ID const>& id) {
-              if (const auto core = weak.lock()) core->onCancel(*id);
-            }));
+    cancel_sub_ = node_.subscribe<ID>("cancel", in,
+                                      boost::function<void(const boost::shared_ptr<ID const>&)>(
+                                          [weak](const boost::shared_ptr<ID const>& id) {
+                                            if (const auto core = weak.lock()) core->onCancel(*id);
+                                          }));
     if (auto_start) core_->publishStatus();
   }
   void stopServer() {
@@ -237,7 +236,8 @@ class ActionServer : public ActionServerBase<ActionSpec> {
   typedef boost::function<void(GoalHandle)> Callback;
 
   ActionServer(ros::NodeHandle n, std::string name, bool auto_start)
-      : ActionServerBase<ActionSpec>(ros::NodeHandle(n, name), Callback(), Callback(), auto_start) {}
+      : ActionServerBase<ActionSpec>(ros::NodeHandle(n, name), Callback(), Callback(), auto_start) {
+  }
   ActionServer(ros::NodeHandle n, std::string name)
       : ActionServerBase<ActionSpec>(ros::NodeHandle(n, name), Callback(), Callback(), true) {}
   ActionServer(ros::NodeHandle n, std::string name, Callback goal_cb, Callback cancel_cb,
@@ -254,12 +254,11 @@ class ActionServer : public ActionServerBase<ActionSpec> {
 
 template <class ActionSpec>
 void ServerGoalHandle<ActionSpec>::change(const char* what, const std::string& text,
-                                          const Result& result,
-                                          std::initializer_list<Step> steps) {
+                                          const Result& result, std::initializer_list<Step> steps) {
   const boost::shared_ptr<Core> core = core_.lock();
   if (!core || !goal_) {
-    ROS_ERROR_NAMED("actionlib", "Cannot %s a goal that is not initialized, or whose server is gone",
-                    what);
+    ROS_ERROR_NAMED("actionlib",
+                    "Cannot %s a goal that is not initialized, or whose server is gone", what);
     return;
   }
   const std::lock_guard<std::recursive_mutex> lock(core->mutex);

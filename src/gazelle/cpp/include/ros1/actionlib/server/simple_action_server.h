@@ -24,7 +24,8 @@ class SimpleActionServer {
     init(name, auto_start);
   }
   SimpleActionServer(std::string name, bool auto_start) { init(name, auto_start); }
-  ROS_DEPRECATED SimpleActionServer(std::string name, ExecuteCallback execute_cb = ExecuteCallback())
+  ROS_DEPRECATED SimpleActionServer(std::string name,
+                                    ExecuteCallback execute_cb = ExecuteCallback())
       : execute_callback_(execute_cb) {
     init(name, true);
   }
@@ -85,7 +86,9 @@ class SimpleActionServer {
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
     current_goal_.setCanceled(result, text);
   }
-  void publishFeedback(const FeedbackConstPtr& feedback) { current_goal_.publishFeedback(*feedback); }
+  void publishFeedback(const FeedbackConstPtr& feedback) {
+    current_goal_.publishFeedback(*feedback);
+  }
   void publishFeedback(const Feedback& feedback) { current_goal_.publishFeedback(feedback); }
   void registerGoalCallback(boost::function<void()> cb) {
     if (execute_callback_)
@@ -127,8 +130,7 @@ class SimpleActionServer {
     {
       const std::lock_guard<std::recursive_mutex> lock(mutex_);
       const bool is_newer =
-          (!current_goal_.getGoal() ||
-           goal.getGoalID().stamp >= current_goal_.getGoalID().stamp) &&
+          (!current_goal_.getGoal() || goal.getGoalID().stamp >= current_goal_.getGoalID().stamp) &&
           (!next_goal_.getGoal() || goal.getGoalID().stamp >= next_goal_.getGoalID().stamp);
       if (!is_newer) {
         goal.setCanceled(Result(),
