@@ -6,6 +6,7 @@ programs that are wanted are made of them. CMake and ninja know what has changed
 
 from __future__ import annotations
 
+import errno
 import functools
 import os
 import re
@@ -242,13 +243,12 @@ def _report_build_error(error: CppBuildError, diagnostics: Diagnostics) -> None:
 
 
 def _report_os_error(error: OSError, diagnostics: Diagnostics) -> None:
-    import errno
-
+    # Files that are written in one go have no name in the error.
+    where = error.filename or f"{cache_top()}{os.sep}"
+    code = "build.cannot-write"
     if error.errno in (errno.ENOSPC, errno.EDQUOT):
-        diagnostics.report("cpp.no-room", f"cannot write '{error.filename}': {error.strerror}")
-    else:
-        what = f"'{error.filename}': " if error.filename else ""
-        diagnostics.report("build.cannot-write", f"cannot write {what}{error.strerror}")
+        code = "cpp.no-room"
+    diagnostics.report(code, f"cannot write '{where}': {error.strerror or error}")
 
 
 def _unit_of_request(request: CompileRequest) -> Unit:

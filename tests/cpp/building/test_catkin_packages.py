@@ -322,3 +322,19 @@ def test_a_full_disk_is_named(packages: Packages, tmp_path: Path) -> None:
     )
     assert file is None
     assert "cpp.no-room" in codes(found)
+
+
+def test_a_full_disk_of_the_cache_is_named(
+    packages: Packages, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("gazelle.cpp.build_cmake.write_settings", full)
+    workspace, found = opened(packages(WORDS)), Diagnostics()
+    library = ensure_library_built(
+        workspace.package("words"), "words", workspace=workspace, diagnostics=found
+    )
+    assert library is None
+    assert codes(found) == ["cpp.no-room"]
+    assert "No space left on device" in found.by_code("cpp.no-room")[0].message
