@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 import sys
-from typing import Any
 
 import pytest
 from tests.cpp.rclcpp.conftest import Probe

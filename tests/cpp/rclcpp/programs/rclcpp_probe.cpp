@@ -26,33 +26,31 @@ struct rclcpp::TypeAdapter<std::string, String> {
   using is_specialized = std::true_type;
   using custom_type = std::string;
   using ros_message_type = String;
-  static void convert_to_ros_message(const std::string &from, String &to) { to.data = from; }
-  static void convert_to_custom(const String &from, std::string &to) { to = from.data; }
+  static void convert_to_ros_message(const std::string& from, String& to) { to.data = from; }
+  static void convert_to_custom(const String& from, std::string& to) { to = from.data; }
 };
 
 namespace {
 
-void say(const std::string &text) {
+void say(const std::string& text) {
   std::printf("%s\n", text.c_str());
   std::fflush(stdout);
 }
 
-void check(const char *name, bool holds) {
-  say(std::string(name) + (holds ? " holds" : " FAILS"));
-}
+void check(const char* name, bool holds) { say(std::string(name) + (holds ? " holds" : " FAILS")); }
 
 template <class Function>
-bool throws(Function function, const char *part) {
+bool throws(Function function, const char* part) {
   try {
     function();
-  } catch (const std::exception &error) {
+  } catch (const std::exception& error) {
     if (std::string(error.what()).find(part) != std::string::npos) return true;
     say(std::string("said: ") + error.what());
   }
   return false;
 }
 
-void spin(const rclcpp::Node::SharedPtr &node, const std::function<bool()> &done) {
+void spin(const rclcpp::Node::SharedPtr& node, const std::function<bool()>& done) {
   rclcpp::executors::SingleThreadedExecutor executor;
   executor.add_node(node);
   const auto end = std::chrono::steady_clock::now() + 20s;
@@ -64,7 +62,7 @@ void spin(const rclcpp::Node::SharedPtr &node, const std::function<bool()> &done
 struct Methods {
   int reference = 0, shared = 0, constant = 0, unique = 0, info = 0, bytes = 0, custom = 0;
   void by_shared(const String::SharedPtr) { ++shared; }
-  void by_constant(const String::ConstSharedPtr &) { ++constant; }
+  void by_constant(const String::ConstSharedPtr&) { ++constant; }
 };
 
 void signatures() {
@@ -74,8 +72,8 @@ void signatures() {
   const auto add = [&](auto callback) {
     all.push_back(node->create_subscription<String>("topic", 10, callback));
   };
-  add([&](const String &) { ++m.reference; });
-  add([&](const String &, const rclcpp::MessageInfo &given) {
+  add([&](const String&) { ++m.reference; });
+  add([&](const String&, const rclcpp::MessageInfo& given) {
     m.info += given.get_rmw_message_info().source_timestamp > 0;
   });
   add(std::bind(&Methods::by_shared, &m, std::placeholders::_1));
@@ -87,7 +85,7 @@ void signatures() {
     m.bytes += read.data == "x";
   });
   all.push_back(node->create_subscription<rclcpp::TypeAdapter<std::string, String>>(
-      "topic", 10, [&](const std::string &text) { m.custom += text == "x"; }));
+      "topic", 10, [&](const std::string& text) { m.custom += text == "x"; }));
   all.push_back(node->create_generic_subscription(
       "topic", "std_msgs/msg/String", 10,
       [&](std::shared_ptr<rclcpp::SerializedMessage> message) { m.bytes += message->size() > 4; }));
@@ -103,8 +101,8 @@ void signatures() {
 
 void ownership() {
   auto node = std::make_shared<rclcpp::Node>("ownership");
-  const void *sent = nullptr;
-  const void *got = nullptr;
+  const void* sent = nullptr;
+  const void* got = nullptr;
   auto subscription = node->create_subscription<String>(
       "own", 10, [&](String::UniquePtr message) { got = message.get(); });
   auto publisher = node->create_publisher<String>("own", 10);
@@ -124,10 +122,10 @@ void parameters() {
   auto node = std::make_shared<rclcpp::Node>("parameters");
   check("default", node->declare_parameter("rate", 3) == 3);
   check("override", node->declare_parameter<std::string>("name", "none") == "given");
-  check("list", node->declare_parameter<std::vector<double>>("gains") ==
-                    std::vector<double>({1.5, 2.0}));
-  check("declared twice", throws([&]() { node->declare_parameter("rate", 3); },
-                                 "has already been declared"));
+  check("list",
+        node->declare_parameter<std::vector<double>>("gains") == std::vector<double>({1.5, 2.0}));
+  check("declared twice",
+        throws([&]() { node->declare_parameter("rate", 3); }, "has already been declared"));
   check("not declared", throws([&]() { node->get_parameter("nothing"); }, "nothing"));
   check("wrong type", throws([&]() { node->declare_parameter<int>("text"); }, "not allowed"));
   rcl_interfaces::msg::ParameterDescriptor range;
@@ -141,16 +139,16 @@ void parameters() {
   check("type kept", !node->set_parameter(rclcpp::Parameter("even", "x")).successful);
   int before = 0, after = 0;
   auto pre = node->add_pre_set_parameters_callback(
-      [&](std::vector<rclcpp::Parameter> &changes) { before += changes.size(); });
-  auto during = node->add_on_set_parameters_callback(
-      [](const std::vector<rclcpp::Parameter> &changes) {
+      [&](std::vector<rclcpp::Parameter>& changes) { before += changes.size(); });
+  auto during =
+      node->add_on_set_parameters_callback([](const std::vector<rclcpp::Parameter>& changes) {
         rcl_interfaces::msg::SetParametersResult result;
         result.successful = changes[0].as_int() != 8;
         result.reason = "not eight";
         return result;
       });
   auto post = node->add_post_set_parameters_callback(
-      [&](const std::vector<rclcpp::Parameter> &changes) { after += changes.size(); });
+      [&](const std::vector<rclcpp::Parameter>& changes) { after += changes.size(); });
   check("refused", node->set_parameter(rclcpp::Parameter("even", 8)).reason == "not eight");
   check("set", node->set_parameter(rclcpp::Parameter("even", 6)).successful);
   check("called around", before == 2 && after == 1);
@@ -233,18 +231,21 @@ void wait_sets() {
   Int32 number;
   number.data = 5;
   publisher->publish(number);
-  const auto result = set.wait(5s);
   Int32 read;
   rclcpp::MessageInfo info;
-  check("message taken", result.kind() == rclcpp::WaitResultKind::Ready &&
-                             subscription->take(read, info) && read.data == 5);
+  {
+    const auto result = set.wait(5s);
+    check("message taken", result.kind() == rclcpp::WaitResultKind::Ready &&
+                               subscription->take(read, info) && read.data == 5);
+  }
   check("nothing more", !subscription->take(read, info));
-  Int32 waited;
+  rclcpp::WaitSet other;
+  check("in one set only", throws([&]() { other.add_subscription(subscription); }, "in use"));
+  set.remove_subscription(subscription);
   std::thread later([&]() { publisher->publish(number); });
-  check("waited for",
-        rclcpp::wait_for_message(waited, subscription,
-                                 rclcpp::contexts::get_global_default_context(), 5s) ==
-            false);  // it is in use by the set above
+  Int32 waited;
+  check("waited for", rclcpp::wait_for_message(waited, subscription,
+                                               rclcpp::contexts::get_global_default_context(), 5s));
   later.join();
 }
 
@@ -255,8 +256,8 @@ void times() {
                               "different time sources"));
   builtin_interfaces::msg::Duration negative = rclcpp::Duration::from_seconds(-0.25);
   check("negative duration", negative.sec == -1 && negative.nanosec == 750000000u);
-  check("overflow", throws([]() { (void)(rclcpp::Duration::max() + rclcpp::Duration(1s)); },
-                           "overflow"));
+  check("overflow",
+        throws([]() { (void)(rclcpp::Duration::max() + rclcpp::Duration(1s)); }, "overflow"));
   check("expanded", rclcpp::expand_topic_or_service_name("~/x", "n", "/a") == "/a/n/x");
   rclcpp::WallRate rate(1000.0);
   check("rate", rate.sleep() && rate.period() == 1ms);
@@ -269,14 +270,14 @@ void echo() {
   String map;
   map.data = "last";
   latched->publish(map);
-  auto subscription = node->create_subscription<String>("in", 10, [&](const String &message) {
+  auto subscription = node->create_subscription<String>("in", 10, [&](const String& message) {
     String answer;
     answer.data = message.data + " back";
     publisher->publish(answer);
   });
-  auto service = node->create_service<AddTwoInts>(
-      "add", [](const std::shared_ptr<AddTwoInts::Request> request,
-                std::shared_ptr<AddTwoInts::Response> response) {
+  auto service =
+      node->create_service<AddTwoInts>("add", [](const std::shared_ptr<AddTwoInts::Request> request,
+                                                 std::shared_ptr<AddTwoInts::Response> response) {
         response->sum = request->a + request->b;
       });
   node->declare_parameter("rate", 3);
@@ -306,11 +307,10 @@ void act() {
   auto options = rclcpp_action::Client<Fibonacci>::SendGoalOptions();
   int feedback = 0;
   bool done = false;
-  options.feedback_callback =
-      [&](rclcpp_action::ClientGoalHandle<Fibonacci>::SharedPtr,
-          const std::shared_ptr<const Fibonacci::Feedback>) { ++feedback; };
+  options.feedback_callback = [&](rclcpp_action::ClientGoalHandle<Fibonacci>::SharedPtr,
+                                  const std::shared_ptr<const Fibonacci::Feedback>) { ++feedback; };
   options.result_callback =
-      [&](const rclcpp_action::ClientGoalHandle<Fibonacci>::WrappedResult &result) {
+      [&](const rclcpp_action::ClientGoalHandle<Fibonacci>::WrappedResult& result) {
         say("result " + std::to_string(static_cast<int>(result.code)) + " " +
             std::to_string(result.result->sequence.size()));
         done = true;
@@ -328,7 +328,7 @@ void serve_action() {
   std::vector<std::thread> threads;
   auto server = rclcpp_action::create_server<Fibonacci>(
       node, "fibonacci",
-      [](const rclcpp_action::GoalUUID &, std::shared_ptr<const Fibonacci::Goal> goal) {
+      [](const rclcpp_action::GoalUUID&, std::shared_ptr<const Fibonacci::Goal> goal) {
         return goal->order > 40 ? rclcpp_action::GoalResponse::REJECT
                                 : rclcpp_action::GoalResponse::ACCEPT_AND_EXECUTE;
       },
@@ -344,8 +344,8 @@ void serve_action() {
               handle->canceled(result);
               return;
             }
-            if (!waits) feedback->sequence.push_back(feedback->sequence[i] +
-                                                     feedback->sequence[i - 1]);
+            if (!waits)
+              feedback->sequence.push_back(feedback->sequence[i] + feedback->sequence[i - 1]);
             handle->publish_feedback(feedback);
             rclcpp::sleep_for(waits ? 5ms : 1ms);
           }
@@ -355,7 +355,7 @@ void serve_action() {
       });
   say("ready");
   rclcpp::spin(node);
-  for (auto &one : threads) one.join();
+  for (auto& one : threads) one.join();
 }
 
 class Managed : public rclcpp_lifecycle::LifecycleNode {
@@ -364,19 +364,19 @@ class Managed : public rclcpp_lifecycle::LifecycleNode {
     publisher_ = create_publisher<String>("out", 10);
     timer_ = create_wall_timer(5ms, [this]() { publisher_->publish(String()); });
   }
-  CallbackReturn on_configure(const rclcpp_lifecycle::State &from) override {
+  CallbackReturn on_configure(const rclcpp_lifecycle::State& from) override {
     say("configured from " + from.label());
     return CallbackReturn::SUCCESS;
   }
-  CallbackReturn on_activate(const rclcpp_lifecycle::State &from) override {
+  CallbackReturn on_activate(const rclcpp_lifecycle::State& from) override {
     LifecycleNode::on_activate(from);
     say("activated");
     return CallbackReturn::SUCCESS;
   }
-  CallbackReturn on_cleanup(const rclcpp_lifecycle::State &) override {
+  CallbackReturn on_cleanup(const rclcpp_lifecycle::State&) override {
     throw std::runtime_error("cannot clean up");
   }
-  CallbackReturn on_error(const rclcpp_lifecycle::State &) override {
+  CallbackReturn on_error(const rclcpp_lifecycle::State&) override {
     say("error");
     return CallbackReturn::SUCCESS;
   }
@@ -399,7 +399,7 @@ void sim_time() {
 
 }  // namespace
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "inside") {
