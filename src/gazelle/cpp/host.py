@@ -59,7 +59,7 @@ def run_node_file(path: Path, argv: list[str], runtime: Sequence[Path] = ()) -> 
     from gazelle.cpp.host_table import Core
 
     core_path, *libraries = runtime or _linked_with(path)
-    core = Core(_checked(core_path))
+    core = Core(_checked(core_path.resolve()))
     core.library.gazelle_prepare_process()
     context = HostContext(core)
     context.state["argv"] = argv[1:]

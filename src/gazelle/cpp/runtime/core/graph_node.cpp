@@ -129,7 +129,7 @@ class Node final : public GraphNode {
   void shutdown() override {
     nodes().remove(number_);
     if (!closed_.exchange(true)) {
-      call("node/shutdown", Json::object({{"node", handle_}}));
+      host::call_at_end("node/shutdown", Json::object({{"node", handle_}}));
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <iostream>
 #include <string>
 #include <utility>
 
@@ -58,6 +59,14 @@ Bytes lent(const std::uint8_t *data, std::size_t size, void *owner) {
   return {data, size, std::shared_ptr<const void>(owner, [](void *held) {
             if (const gazelle_host *host = table()) host->release(held);
           })};
+}
+
+void call_at_end(const std::string &verb, const Json &request) {
+  try {
+    call(verb, request);
+  } catch (const std::exception &error) {
+    std::cerr << verb << ": " << error.what() << std::endl;
+  }
 }
 
 void on_detach(std::function<void()> listener) { attached().on_detach.add(std::move(listener)); }

@@ -32,6 +32,9 @@ class SignalsBlocked {
 // copied at once.
 Bytes lent(const std::uint8_t *data, std::size_t size, void *owner);
 
+// Ask for the end of something: what goes wrong is said and no more, as destructors ask.
+void call_at_end(const std::string &verb, const Json &request);
+
 // Called when the graph has been left.
 void on_detach(std::function<void()> listener);
 

@@ -89,7 +89,7 @@ void ServerEnd::fail(const RequestId &request, const std::string &text) {
 void ServerEnd::close() {
   servers().remove(number_);
   if (closed_.exchange(true)) return;
-  gazelle::call("end/close", Json::object({{"handle", handle_}}));
+  host::call_at_end("end/close", Json::object({{"handle", handle_}}));
 }
 
 // ---- Clients ------------------------------------------------------------------------------------
@@ -185,7 +185,7 @@ void ClientEnd::close() {
     for (const auto &one : under_way_) calls().take(one.second);
     under_way_.clear();
   }
-  gazelle::call("end/close", Json::object({{"handle", handle_}}));
+  host::call_at_end("end/close", Json::object({{"handle", handle_}}));
 }
 
 }  // namespace gazelle

@@ -209,7 +209,7 @@ void PublisherEnd::close() {
     auto &all = local_->publishers;
     all.erase(std::remove(all.begin(), all.end(), this), all.end());
   }
-  call("end/close", Json::object({{"handle", handle_}}));
+  host::call_at_end("end/close", Json::object({{"handle", handle_}}));
 }
 
 // ---- Subscriptions ------------------------------------------------------------------------------
@@ -291,7 +291,7 @@ void SubscriptionEnd::close() {
     if (mine != ends.end()) ends.erase(mine);
     replace(*local_, std::move(ends));
   }
-  call("end/close", Json::object({{"handle", handle_}}));
+  host::call_at_end("end/close", Json::object({{"handle", handle_}}));
   if (std::find(running_here.begin(), running_here.end(), this) == running_here.end()) {
     std::unique_lock wait(running_);
   }
