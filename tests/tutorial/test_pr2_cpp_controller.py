@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.cpp.compiled_ahead import compile_ahead
 from tests.cpp.control.controller_package import init_of_document, write_controller_package
 from tests.cpp.shared_cache import shared_cpp_cache  # noqa: F401 - a fixture
 
@@ -33,6 +34,7 @@ def workspace(tmp_path: Path, shared_dir: Path, workspaces_dir: Path) -> Path:
     shutil.copytree(
         workspaces_dir / "catkin_ws/src/tutorial_controller", folder / "src/tutorial_controller"
     )
+    compile_ahead(folder, "my_controller_pkg", libraries=["my_controller_lib"], runtime=["control"])
     return folder
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.cpp.compiled_ahead import compile_ahead
 
 MANIFEST = """\
 <package format="3"><name>hello_heron</name><version>1.0.0</version><description>d</description>
@@ -97,6 +98,7 @@ def workspace(tmp_path: Path, examples_dir: Path) -> Path:
     (package / "package.xml").write_text(MANIFEST)
     (package / "CMakeLists.txt").write_text(CMAKE)
     (package / "src" / "hello.cpp").write_text(PROGRAM)
+    compile_ahead(tmp_path, "hello_heron", "hello")
     return tmp_path
 
 

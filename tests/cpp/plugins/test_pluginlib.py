@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.cpp.compiled_ahead import compile_ahead
 
 MANIFEST = """\
 <package format="2"><name>shapes</name><version>1.0.0</version><description>d</description>
@@ -87,6 +88,7 @@ def workspace(tmp_path: Path) -> Path:
     }
     for name, text in files.items():
         (package / name).write_text(text)
+    compile_ahead(tmp_path, "shapes", "measure", libraries=["polygons"])
     return tmp_path
 
 
