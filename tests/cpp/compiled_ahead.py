@@ -1,4 +1,4 @@
-"""Compiles what a test's commands will run: on a cold cache that takes longer than their patience."""
+"""Compiles what a test will run: on a cold cache that takes longer than commands have patience."""
 
 from __future__ import annotations
 
