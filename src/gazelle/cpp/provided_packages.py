@@ -132,7 +132,9 @@ _ROWS = (
             "roscpp_core",
         )
     ),
-    ProvidedPackage("dynamic_reconfigure", ("roscpp",), (1,), scripts=("dynamic_reconfigure",)),
+    ProvidedPackage(
+        "dynamic_reconfigure", ("dynamic_reconfigure",), (1,), scripts=("dynamic_reconfigure",)
+    ),
     _ros1("nodelet", "nodelet"),
     _ros1("image_transport", "image_transport"),
     _ros1("camera_info_manager", "camera_info_manager"),

@@ -57,6 +57,7 @@ LIBRARIES: dict[str, RuntimeLibrary] = {
         RuntimeLibrary("rclcpp_lifecycle", ("rclcpp",), 2),
         RuntimeLibrary("rclcpp_components", ("rclcpp", "class_loader"), 2),
         RuntimeLibrary("class_loader", ("core",)),
+        RuntimeLibrary("dynamic_reconfigure", ("roscpp",), 1),
         RuntimeLibrary("nodelet", ("roscpp", "class_loader"), 1),
         RuntimeLibrary("nodelet_program", ("nodelet",), 1),
         RuntimeLibrary("image_transport", ("roscpp", "class_loader"), 1),

@@ -11,18 +11,18 @@
 namespace {
 
 struct Row {
-  const char *name;
-  const gazelle::MessageType &(*type)();
+  const char* name;
+  const gazelle::MessageType& (*type)();
 };
 
 const Row rows[] = {
     // ROWS
 };
 
-std::vector<std::uint8_t> bytes(const std::string &text) { return {text.begin(), text.end()}; }
+std::vector<std::uint8_t> bytes(const std::string& text) { return {text.begin(), text.end()}; }
 
-std::vector<std::uint8_t> answer(const gazelle::MessageType &type, int what,
-                                 const std::uint8_t *data, std::size_t size) {
+std::vector<std::uint8_t> answer(const gazelle::MessageType& type, int what,
+                                 const std::uint8_t* data, std::size_t size) {
   std::vector<std::uint8_t> out;
   std::ostringstream text;
   switch (what) {
@@ -62,16 +62,16 @@ std::vector<std::uint8_t> answer(const gazelle::MessageType &type, int what,
 }  // namespace
 
 // 0: the sink has the answer; 1: nobody knows the type; 2: the sink has what went wrong.
-extern "C" int probe(const char *name, int what, const std::uint8_t *data, std::size_t size,
-                     void (*sink)(const std::uint8_t *, std::size_t)) {
-  for (const Row &row : rows) {
+extern "C" int probe(const char* name, int what, const std::uint8_t* data, std::size_t size,
+                     void (*sink)(const std::uint8_t*, std::size_t)) {
+  for (const Row& row : rows) {
     if (std::strcmp(row.name, name) == 0) {
       try {
         const std::vector<std::uint8_t> found = answer(row.type(), what, data, size);
         sink(found.data(), found.size());
         return 0;
-      } catch (const gazelle::Error &error) {
-        sink(reinterpret_cast<const std::uint8_t *>(error.what()), std::strlen(error.what()));
+      } catch (const gazelle::Error& error) {
+        sink(reinterpret_cast<const std::uint8_t*>(error.what()), std::strlen(error.what()));
         return 2;
       }
     }

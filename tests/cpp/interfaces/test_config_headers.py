@@ -9,25 +9,11 @@ import pytest
 from gazelle.cpp.interfaces import config_header
 from gazelle.errors import UserFileError
 
-_CFG = """#!/usr/bin/env python
-from dynamic_reconfigure.parameter_generator_catkin import *
-gen = ParameterGenerator()
-print("building")
-size = gen.enum([gen.const("Small", int_t, 0, "small"), gen.const("Large", int_t, 1, "large")],
-                "how large")
-gen.add("size", int_t, 1, "How \\"large\\"", 1, 0, 1, edit_method=size)
-gen.add("gain", double_t, 2, "Gain", .5)
-gen.add("name", str_t, 4, "Name", "Bob")
-inner = gen.add_group("Fine tuning", type="collapse", state=False)
-inner.add("on", bool_t, 8, "On", True)
-exit(gen.generate("my_package", "my_node", "Arm"))
-"""
+_CFG = Path(__file__).parent / "definitions" / "Arm.cfg"
 
 
 def test_a_class_has_the_parameters_of_its_file(tmp_path: Path) -> None:
-    cfg = tmp_path / "Arm.cfg"
-    cfg.write_text(_CFG, encoding="utf-8")
-    header = config_header(cfg, "my_package", tmp_path / "include")
+    header = config_header(_CFG, "my_package", tmp_path / "include")
     assert header == tmp_path / "include/my_package/ArmConfig.h"
     text = header.read_text(encoding="utf-8")
     for line in (

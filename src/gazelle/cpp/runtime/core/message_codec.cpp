@@ -43,11 +43,11 @@ std::size_t number_size(Kind kind) {
 
 bool is_time(Kind kind) { return kind == Kind::time || kind == Kind::duration; }
 
-[[noreturn]] void fail(const Layout &layout, const Member &member, const std::string &why) {
+[[noreturn]] void fail(const Layout& layout, const Member& member, const std::string& why) {
   throw Error(std::string(layout.type) + ": '" + member.name + "' " + why, "InterfaceError");
 }
 
-[[noreturn]] void cut_short(const Layout &layout, std::size_t size) {
+[[noreturn]] void cut_short(const Layout& layout, std::size_t size) {
   throw Error(std::to_string(size) + " bytes are not a " + layout.type +
                   ": the bytes end too early; the sender's definition may be another one "
                   "(ROS: md5sum mismatch, buffer overrun)",
@@ -91,28 +91,28 @@ std::uint8_t level_from_wire(std::uint8_t level) {
 
 // Vectors of numbers are reached through their own type, which is all alike but for the element.
 template <class Use>
-void with_vector(Kind kind, Use &&use) {
+void with_vector(Kind kind, Use&& use) {
   switch (kind) {
     case Kind::int8:
-      return use(static_cast<std::vector<std::int8_t> *>(nullptr));
+      return use(static_cast<std::vector<std::int8_t>*>(nullptr));
     case Kind::int16:
-      return use(static_cast<std::vector<std::int16_t> *>(nullptr));
+      return use(static_cast<std::vector<std::int16_t>*>(nullptr));
     case Kind::uint16:
-      return use(static_cast<std::vector<std::uint16_t> *>(nullptr));
+      return use(static_cast<std::vector<std::uint16_t>*>(nullptr));
     case Kind::int32:
-      return use(static_cast<std::vector<std::int32_t> *>(nullptr));
+      return use(static_cast<std::vector<std::int32_t>*>(nullptr));
     case Kind::uint32:
-      return use(static_cast<std::vector<std::uint32_t> *>(nullptr));
+      return use(static_cast<std::vector<std::uint32_t>*>(nullptr));
     case Kind::int64:
-      return use(static_cast<std::vector<std::int64_t> *>(nullptr));
+      return use(static_cast<std::vector<std::int64_t>*>(nullptr));
     case Kind::uint64:
-      return use(static_cast<std::vector<std::uint64_t> *>(nullptr));
+      return use(static_cast<std::vector<std::uint64_t>*>(nullptr));
     case Kind::float32:
-      return use(static_cast<std::vector<float> *>(nullptr));
+      return use(static_cast<std::vector<float>*>(nullptr));
     case Kind::float64:
-      return use(static_cast<std::vector<double> *>(nullptr));
+      return use(static_cast<std::vector<double>*>(nullptr));
     default:
-      return use(static_cast<std::vector<std::uint8_t> *>(nullptr));
+      return use(static_cast<std::vector<std::uint8_t>*>(nullptr));
   }
 }
 
@@ -128,9 +128,9 @@ struct Plain {
   std::size_t bytes = 0;
 };
 
-Plain plain_of(const Layout &layout);
+Plain plain_of(const Layout& layout);
 
-bool add_plain(const Member &member, std::size_t &position, std::size_t &number) {
+bool add_plain(const Member& member, std::size_t& position, std::size_t& number) {
   if (member.offset != position || member.repeat == Repeat::sequence) {
     return false;
   }
@@ -153,7 +153,7 @@ bool add_plain(const Member &member, std::size_t &position, std::size_t &number)
   return true;
 }
 
-Plain plain_of(const Layout &layout) {
+Plain plain_of(const Layout& layout) {
   std::size_t position = 0;
   std::size_t number = 0;
   for (std::uint32_t i = 0; i < layout.cdr_count; ++i) {
@@ -173,36 +173,36 @@ constexpr std::size_t many = 8;
 struct Counter {
   std::size_t at = 0;
   void skip(std::size_t size) { at += size; }
-  void put(const void *, std::size_t size) { at += size; }
+  void put(const void*, std::size_t size) { at += size; }
 };
 
 struct Growing {
-  std::vector<std::uint8_t> &bytes;
+  std::vector<std::uint8_t>& bytes;
   std::size_t at = 0;  // counted from the end of the header
   void skip(std::size_t size) {
     bytes.resize(bytes.size() + size);
     at += size;
   }
-  void put(const void *data, std::size_t size) {
-    const auto *start = static_cast<const std::uint8_t *>(data);
+  void put(const void* data, std::size_t size) {
+    const auto* start = static_cast<const std::uint8_t*>(data);
     bytes.insert(bytes.end(), start, start + size);
     at += size;
   }
 };
 
 struct Bounded {
-  std::uint8_t *bytes;
+  std::uint8_t* bytes;
   std::size_t size;
   std::size_t at = 0;
   void skip(std::size_t count) {
     std::memset(room(count), 0, count);
     at += count;
   }
-  void put(const void *data, std::size_t count) {
+  void put(const void* data, std::size_t count) {
     std::memcpy(room(count), data, count);
     at += count;
   }
-  std::uint8_t *room(std::size_t count) {
+  std::uint8_t* room(std::size_t count) {
     if (count > size - at) {
       throw Error("the buffer is too small for the message", "InterfaceError");
     }
@@ -213,11 +213,11 @@ struct Bounded {
 template <class Sink, bool is_cdr>
 class Writer {
  public:
-  explicit Writer(Sink &sink) : sink_(sink) {}
+  explicit Writer(Sink& sink) : sink_(sink) {}
 
-  void message(const Layout &layout, const void *from) {
+  void message(const Layout& layout, const void* from) {
     const std::uint32_t count = is_cdr ? layout.cdr_count : layout.count;
-    const Member *members = is_cdr ? layout.cdr_members : layout.members;
+    const Member* members = is_cdr ? layout.cdr_members : layout.members;
     if (is_cdr && count == 0) {
       sink_.skip(1);  // rosidl gives empty messages one byte
     }
@@ -227,12 +227,12 @@ class Writer {
   }
 
  private:
-  void member(const Layout &layout, const Member &member, const void *owner) {
+  void member(const Layout& layout, const Member& member, const void* owner) {
     if (member.offset == absent) {
       missing(member);
       return;
     }
-    const auto *from = static_cast<const std::uint8_t *>(owner) + member.offset;
+    const auto* from = static_cast<const std::uint8_t*>(owner) + member.offset;
     switch (member.repeat) {
       case Repeat::one:
         single(layout, member, from);
@@ -246,22 +246,22 @@ class Writer {
     }
   }
 
-  void single(const Layout &layout, const Member &member, const std::uint8_t *from) {
+  void single(const Layout& layout, const Member& member, const std::uint8_t* from) {
     switch (member.kind) {
       case Kind::message:
         message(member.child(), from);
         return;
       case Kind::string:
-        string(layout, member, *reinterpret_cast<const std::string *>(from));
+        string(layout, member, *reinterpret_cast<const std::string*>(from));
         return;
       case Kind::wstring:
-        wide(layout, member, *reinterpret_cast<const std::u16string *>(from));
+        wide(layout, member, *reinterpret_cast<const std::u16string*>(from));
         return;
       case Kind::wide_on_wire:
         if (is_cdr) {
-          wide(layout, member, widened(*reinterpret_cast<const std::string *>(from)));
+          wide(layout, member, widened(*reinterpret_cast<const std::string*>(from)));
         } else {
-          string(layout, member, *reinterpret_cast<const std::string *>(from));
+          string(layout, member, *reinterpret_cast<const std::string*>(from));
         }
         return;
       case Kind::log_level: {
@@ -288,14 +288,14 @@ class Writer {
   }
 
   // `count` elements that follow each other in memory.
-  void repeated(const Layout &layout, const Member &member, const std::uint8_t *from,
+  void repeated(const Layout& layout, const Member& member, const std::uint8_t* from,
                 std::size_t count) {
     if (count == 0) {
       return;
     }
     switch (member.kind) {
       case Kind::message: {
-        const Layout &child = member.child();
+        const Layout& child = member.child();
         const std::size_t size = child.bytes;
         if (count >= many) {
           const Plain plain = plain_of(child);
@@ -340,44 +340,44 @@ class Writer {
     }
   }
 
-  void sequence(const Layout &layout, const Member &member, const std::uint8_t *from) {
+  void sequence(const Layout& layout, const Member& member, const std::uint8_t* from) {
     switch (member.kind) {
       case Kind::message: {
-        const Sequence &access = member.sequence();
+        const Sequence& access = member.sequence();
         const std::size_t count = access.size(from);
         begin_sequence(layout, member, count);
         // Reading a vector's address does not change it.
         repeated(layout, member,
-                 static_cast<const std::uint8_t *>(access.data(const_cast<std::uint8_t *>(from))),
+                 static_cast<const std::uint8_t*>(access.data(const_cast<std::uint8_t*>(from))),
                  count);
         return;
       }
       case Kind::string:
       case Kind::wide_on_wire: {
-        const auto &values = *reinterpret_cast<const std::vector<std::string> *>(from);
+        const auto& values = *reinterpret_cast<const std::vector<std::string>*>(from);
         begin_sequence(layout, member, values.size());
-        repeated(layout, member, reinterpret_cast<const std::uint8_t *>(values.data()),
+        repeated(layout, member, reinterpret_cast<const std::uint8_t*>(values.data()),
                  values.size());
         return;
       }
       case Kind::wstring: {
-        const auto &values = *reinterpret_cast<const std::vector<std::u16string> *>(from);
+        const auto& values = *reinterpret_cast<const std::vector<std::u16string>*>(from);
         begin_sequence(layout, member, values.size());
-        repeated(layout, member, reinterpret_cast<const std::uint8_t *>(values.data()),
+        repeated(layout, member, reinterpret_cast<const std::uint8_t*>(values.data()),
                  values.size());
         return;
       }
       case Kind::time:
       case Kind::duration: {
-        const auto &values = *reinterpret_cast<const std::vector<TwoWords> *>(from);
+        const auto& values = *reinterpret_cast<const std::vector<TwoWords>*>(from);
         begin_sequence(layout, member, values.size());
-        repeated(layout, member, reinterpret_cast<const std::uint8_t *>(values.data()),
+        repeated(layout, member, reinterpret_cast<const std::uint8_t*>(values.data()),
                  values.size());
         return;
       }
       case Kind::boolean:
         if (!layout.is_ros1) {
-          const auto &values = *reinterpret_cast<const std::vector<bool> *>(from);
+          const auto& values = *reinterpret_cast<const std::vector<bool>*>(from);
           begin_sequence(layout, member, values.size());
           for (const bool value : values) {
             const std::uint8_t byte = value;
@@ -387,17 +387,17 @@ class Writer {
         }
         [[fallthrough]];
       default:
-        with_vector(member.kind, [&](auto *kind) {
+        with_vector(member.kind, [&](auto* kind) {
           using Vector = std::remove_pointer_t<decltype(kind)>;
-          const auto &values = *reinterpret_cast<const Vector *>(from);
+          const auto& values = *reinterpret_cast<const Vector*>(from);
           begin_sequence(layout, member, values.size());
-          repeated(layout, member, reinterpret_cast<const std::uint8_t *>(values.data()),
+          repeated(layout, member, reinterpret_cast<const std::uint8_t*>(values.data()),
                    values.size());
         });
     }
   }
 
-  void begin_sequence(const Layout &layout, const Member &member, std::size_t count) {
+  void begin_sequence(const Layout& layout, const Member& member, std::size_t count) {
     if (member.size != 0 && count > member.size) {
       fail(layout, member,
            "holds " + std::to_string(count) + " values, at most " + std::to_string(member.size) +
@@ -406,7 +406,7 @@ class Writer {
     length(layout, member, count);
   }
 
-  void length(const Layout &layout, const Member &member, std::size_t count) {
+  void length(const Layout& layout, const Member& member, std::size_t count) {
     if (count > 0xffffffffu) {
       fail(layout, member, "is longer than a message can say");
     }
@@ -415,7 +415,7 @@ class Writer {
     sink_.put(&value, 4);
   }
 
-  void string(const Layout &layout, const Member &member, const std::string &text) {
+  void string(const Layout& layout, const Member& member, const std::string& text) {
     bound(layout, member, text.size());
     if (is_cdr) {
       length(layout, member, text.size() + 1);
@@ -426,13 +426,13 @@ class Writer {
     }
   }
 
-  void wide(const Layout &layout, const Member &member, const std::u16string &text) {
+  void wide(const Layout& layout, const Member& member, const std::u16string& text) {
     bound(layout, member, text.size());
     length(layout, member, text.size());
     sink_.put(text.data(), text.size() * sizeof(char16_t));
   }
 
-  void bound(const Layout &layout, const Member &member, std::size_t size) {
+  void bound(const Layout& layout, const Member& member, std::size_t size) {
     if (member.string_bound != 0 && size > member.string_bound) {
       fail(layout, member,
            "has " + std::to_string(size) + " letters, at most " +
@@ -441,7 +441,7 @@ class Writer {
   }
 
   // What the class lacks is written as its default.
-  void missing(const Member &member) {
+  void missing(const Member& member) {
     const std::size_t times = member.repeat == Repeat::fixed ? member.size : 1;
     if (member.repeat == Repeat::sequence) {
       align(4);
@@ -480,12 +480,12 @@ class Writer {
     }
   }
 
-  static std::u16string widened(const std::string &text);
+  static std::u16string widened(const std::string& text);
 
-  Sink &sink_;
+  Sink& sink_;
 };
 
-void append_utf16(std::u16string &text, std::uint32_t letter) {
+void append_utf16(std::u16string& text, std::uint32_t letter) {
   if (letter >= 0x10000u) {
     letter -= 0x10000u;
     text += static_cast<char16_t>(0xd800u + (letter >> 10));
@@ -509,7 +509,7 @@ std::size_t letters_after(unsigned char first) {
 }
 
 // Bytes that are no UTF-8 become the replacement letter.
-std::u16string utf16_of(const std::string &text) {
+std::u16string utf16_of(const std::string& text) {
   std::u16string made;
   for (std::size_t i = 0; i < text.size();) {
     const auto first = static_cast<unsigned char>(text[i]);
@@ -527,7 +527,7 @@ std::u16string utf16_of(const std::string &text) {
   return made;
 }
 
-std::string utf8_of(const std::u16string &text) {
+std::string utf8_of(const std::u16string& text) {
   std::string made;
   for (std::size_t i = 0; i < text.size(); ++i) {
     std::uint32_t letter = text[i];
@@ -557,21 +557,21 @@ std::string utf8_of(const std::u16string &text) {
 }
 
 template <class Sink, bool is_cdr>
-std::u16string Writer<Sink, is_cdr>::widened(const std::string &text) {
+std::u16string Writer<Sink, is_cdr>::widened(const std::string& text) {
   return utf16_of(text);
 }
 
 template <bool is_cdr>
 class Reader {
  public:
-  Reader(const Layout &whole, const std::uint8_t *bytes, std::size_t size, bool swaps)
+  Reader(const Layout& whole, const std::uint8_t* bytes, std::size_t size, bool swaps)
       : whole_(whole), bytes_(bytes), size_(size), swaps_(swaps) {}
 
   std::size_t at() const { return at_; }
 
-  void message(const Layout &layout, void *to) {
+  void message(const Layout& layout, void* to) {
     const std::uint32_t count = is_cdr ? layout.cdr_count : layout.count;
-    const Member *members = is_cdr ? layout.cdr_members : layout.members;
+    const Member* members = is_cdr ? layout.cdr_members : layout.members;
     if (is_cdr && count == 0) {
       take(1);
     }
@@ -581,12 +581,12 @@ class Reader {
   }
 
  private:
-  void member(const Layout &layout, const Member &member, void *owner) {
+  void member(const Layout& layout, const Member& member, void* owner) {
     if (member.offset == absent) {
       forget(member);
       return;
     }
-    auto *to = static_cast<std::uint8_t *>(owner) + member.offset;
+    auto* to = static_cast<std::uint8_t*>(owner) + member.offset;
     switch (member.repeat) {
       case Repeat::one:
         repeated(layout, member, to, 1);
@@ -601,13 +601,13 @@ class Reader {
   }
 
   // Into `count` elements that follow each other in memory.
-  void repeated(const Layout &layout, const Member &member, std::uint8_t *to, std::size_t count) {
+  void repeated(const Layout& layout, const Member& member, std::uint8_t* to, std::size_t count) {
     if (count == 0) {
       return;
     }
     switch (member.kind) {
       case Kind::message: {
-        const Layout &child = member.child();
+        const Layout& child = member.child();
         if (count >= many && !swaps_) {
           const Plain plain = plain_of(child);
           if (plain.number != 0) {
@@ -623,12 +623,12 @@ class Reader {
       }
       case Kind::string:
         for (std::size_t i = 0; i < count; ++i) {
-          string(*reinterpret_cast<std::string *>(to + i * sizeof(std::string)));
+          string(*reinterpret_cast<std::string*>(to + i * sizeof(std::string)));
         }
         return;
       case Kind::wide_on_wire:
         for (std::size_t i = 0; i < count; ++i) {
-          auto &text = *reinterpret_cast<std::string *>(to + i * sizeof(std::string));
+          auto& text = *reinterpret_cast<std::string*>(to + i * sizeof(std::string));
           if (is_cdr) {
             std::u16string wide_text;
             wide(wide_text);
@@ -640,18 +640,18 @@ class Reader {
         return;
       case Kind::wstring:
         for (std::size_t i = 0; i < count; ++i) {
-          wide(*reinterpret_cast<std::u16string *>(to + i * sizeof(std::u16string)));
+          wide(*reinterpret_cast<std::u16string*>(to + i * sizeof(std::u16string)));
         }
         return;
       case Kind::boolean: {
-        const std::uint8_t *from = take(count);
+        const std::uint8_t* from = take(count);
         for (std::size_t i = 0; i < count; ++i) {
           to[i] = layout.is_ros1 ? from[i] : from[i] != 0;
         }
         return;
       }
       case Kind::log_level: {
-        const std::uint8_t *from = take(count);
+        const std::uint8_t* from = take(count);
         for (std::size_t i = 0; i < count; ++i) {
           to[i] = is_cdr ? level_from_wire(from[i]) : from[i];
         }
@@ -662,7 +662,7 @@ class Reader {
     }
   }
 
-  void numbers(Kind kind, std::uint8_t *to, std::size_t count) {
+  void numbers(Kind kind, std::uint8_t* to, std::size_t count) {
     const std::size_t size = number_size(kind);
     const std::size_t words = is_time(kind) ? 2 * count : count;
     align(size);
@@ -676,7 +676,7 @@ class Reader {
     }
   }
 
-  void sequence(const Layout &layout, const Member &member, std::uint8_t *to) {
+  void sequence(const Layout& layout, const Member& member, std::uint8_t* to) {
     const std::size_t count = length();
     if (member.size != 0 && count > member.size) {
       fail(layout, member,
@@ -685,41 +685,41 @@ class Reader {
     }
     switch (member.kind) {
       case Kind::message: {
-        const Layout &child = member.child();
+        const Layout& child = member.child();
         const bool is_nothing = !is_cdr && child.count == 0;
         check(count, is_nothing ? 0 : 1);
-        const Sequence &access = member.sequence();
+        const Sequence& access = member.sequence();
         access.resize(to, count);
-        repeated(layout, member, static_cast<std::uint8_t *>(access.data(to)), count);
+        repeated(layout, member, static_cast<std::uint8_t*>(access.data(to)), count);
         return;
       }
       case Kind::string:
       case Kind::wide_on_wire: {
         check(count, 4);
-        auto &values = *reinterpret_cast<std::vector<std::string> *>(to);
+        auto& values = *reinterpret_cast<std::vector<std::string>*>(to);
         values.resize(count);
-        repeated(layout, member, reinterpret_cast<std::uint8_t *>(values.data()), count);
+        repeated(layout, member, reinterpret_cast<std::uint8_t*>(values.data()), count);
         return;
       }
       case Kind::wstring: {
         check(count, 4);
-        auto &values = *reinterpret_cast<std::vector<std::u16string> *>(to);
+        auto& values = *reinterpret_cast<std::vector<std::u16string>*>(to);
         values.resize(count);
-        repeated(layout, member, reinterpret_cast<std::uint8_t *>(values.data()), count);
+        repeated(layout, member, reinterpret_cast<std::uint8_t*>(values.data()), count);
         return;
       }
       case Kind::time:
       case Kind::duration: {
         check(count, 8);
-        auto &values = *reinterpret_cast<std::vector<TwoWords> *>(to);
+        auto& values = *reinterpret_cast<std::vector<TwoWords>*>(to);
         values.resize(count);
-        repeated(layout, member, reinterpret_cast<std::uint8_t *>(values.data()), count);
+        repeated(layout, member, reinterpret_cast<std::uint8_t*>(values.data()), count);
         return;
       }
       case Kind::boolean:
         if (!layout.is_ros1) {
-          const std::uint8_t *from = take(count);
-          auto &values = *reinterpret_cast<std::vector<bool> *>(to);
+          const std::uint8_t* from = take(count);
+          auto& values = *reinterpret_cast<std::vector<bool>*>(to);
           values.resize(count);
           for (std::size_t i = 0; i < count; ++i) {
             values[i] = from[i] != 0;
@@ -728,14 +728,14 @@ class Reader {
         }
         [[fallthrough]];
       default:
-        with_vector(member.kind, [&](auto *kind) {
+        with_vector(member.kind, [&](auto* kind) {
           using Vector = std::remove_pointer_t<decltype(kind)>;
           constexpr std::size_t size = sizeof(typename Vector::value_type);
           check(count, size);
-          auto &values = *reinterpret_cast<Vector *>(to);
+          auto& values = *reinterpret_cast<Vector*>(to);
           if (swaps_) {
             values.resize(count);
-            repeated(layout, member, reinterpret_cast<std::uint8_t *>(values.data()), count);
+            repeated(layout, member, reinterpret_cast<std::uint8_t*>(values.data()), count);
             return;
           }
           // Built from the bytes, without a first pass of zeros.
@@ -748,9 +748,9 @@ class Reader {
   }
 
   template <class T>
-  static void assign(std::vector<T> &values, const std::uint8_t *from, std::size_t count) {
+  static void assign(std::vector<T>& values, const std::uint8_t* from, std::size_t count) {
     if (reinterpret_cast<std::uintptr_t>(from) % alignof(T) == 0) {
-      const auto *start = reinterpret_cast<const T *>(from);
+      const auto* start = reinterpret_cast<const T*>(from);
       values.assign(start, start + count);
     } else {
       values.resize(count);
@@ -760,26 +760,26 @@ class Reader {
     }
   }
 
-  void string(std::string &text) {
+  void string(std::string& text) {
     const std::size_t count = length();
-    const auto *from = reinterpret_cast<const char *>(take(count));
+    const auto* from = reinterpret_cast<const char*>(take(count));
     text.assign(from, is_cdr && count != 0 ? count - 1 : count);
   }
 
-  void wide(std::u16string &text) {
+  void wide(std::u16string& text) {
     const std::size_t count = length();
     check(count, sizeof(char16_t));
     text.resize(count);
-    copy(reinterpret_cast<std::uint8_t *>(text.data()), sizeof(char16_t), count);
+    copy(reinterpret_cast<std::uint8_t*>(text.data()), sizeof(char16_t), count);
     if (swaps_) {
-      for (char16_t &letter : text) {
+      for (char16_t& letter : text) {
         letter = static_cast<char16_t>((letter >> 8) | (letter << 8));
       }
     }
   }
 
   // What the class has no place for.
-  void forget(const Member &member) {
+  void forget(const Member& member) {
     std::size_t count = member.repeat == Repeat::fixed ? member.size : 1;
     if (member.repeat == Repeat::sequence) {
       count = length();
@@ -819,7 +819,7 @@ class Reader {
   std::size_t length() {
     std::uint32_t count = 0;
     align(4);
-    copy(reinterpret_cast<std::uint8_t *>(&count), 4, 1);
+    copy(reinterpret_cast<std::uint8_t*>(&count), 4, 1);
     if (swaps_) {
       count = (count >> 24) | ((count >> 8) & 0xff00u) | ((count << 8) & 0xff0000u) | (count << 24);
     }
@@ -833,19 +833,19 @@ class Reader {
     }
   }
 
-  void copy(std::uint8_t *to, std::size_t size, std::size_t count) {
+  void copy(std::uint8_t* to, std::size_t size, std::size_t count) {
     check(count, size);
-    const std::uint8_t *from = take(size * count);
+    const std::uint8_t* from = take(size * count);
     if (size * count != 0) {
       std::memcpy(to, from, size * count);
     }
   }
 
-  const std::uint8_t *take(std::size_t size) {
+  const std::uint8_t* take(std::size_t size) {
     if (size > size_ - at_) {
       cut_short(whole_, size_);
     }
-    const std::uint8_t *from = bytes_ + at_;
+    const std::uint8_t* from = bytes_ + at_;
     at_ += size;
     return from;
   }
@@ -859,8 +859,8 @@ class Reader {
     }
   }
 
-  const Layout &whole_;
-  const std::uint8_t *bytes_;
+  const Layout& whole_;
+  const std::uint8_t* bytes_;
   std::size_t size_;
   std::size_t at_ = 0;
   bool swaps_;
@@ -868,13 +868,13 @@ class Reader {
 
 }  // namespace
 
-void encode_cdr(const Layout &layout, const void *message, std::vector<std::uint8_t> &cdr) {
+void encode_cdr(const Layout& layout, const void* message, std::vector<std::uint8_t>& cdr) {
   cdr.assign({0, 1, 0, 0});
   Growing sink{cdr};
   Writer<Growing, true>(sink).message(layout, message);
 }
 
-void decode_cdr(const Layout &layout, void *message, const std::uint8_t *cdr, std::size_t size) {
+void decode_cdr(const Layout& layout, void* message, const std::uint8_t* cdr, std::size_t size) {
   if (size < header_size) {
     cut_short(layout, size);
   }
@@ -886,26 +886,26 @@ void decode_cdr(const Layout &layout, void *message, const std::uint8_t *cdr, st
   Reader<true>(layout, cdr + header_size, size - header_size, cdr[1] == 0).message(layout, message);
 }
 
-void encode_ros1(const Layout &layout, const void *message, std::vector<std::uint8_t> &bytes) {
+void encode_ros1(const Layout& layout, const void* message, std::vector<std::uint8_t>& bytes) {
   bytes.clear();
   Growing sink{bytes};
   Writer<Growing, false>(sink).message(layout, message);
 }
 
-std::size_t ros1_size(const Layout &layout, const void *message) {
+std::size_t ros1_size(const Layout& layout, const void* message) {
   Counter sink;
   Writer<Counter, false>(sink).message(layout, message);
   return sink.at;
 }
 
-std::size_t encode_ros1(const Layout &layout, const void *message, std::uint8_t *bytes,
+std::size_t encode_ros1(const Layout& layout, const void* message, std::uint8_t* bytes,
                         std::size_t size) {
   Bounded sink{bytes, size};
   Writer<Bounded, false>(sink).message(layout, message);
   return sink.at;
 }
 
-std::size_t decode_ros1(const Layout &layout, void *message, const std::uint8_t *bytes,
+std::size_t decode_ros1(const Layout& layout, void* message, const std::uint8_t* bytes,
                         std::size_t size) {
   Reader<false> reader(layout, bytes, size, false);
   reader.message(layout, message);

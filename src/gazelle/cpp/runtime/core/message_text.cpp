@@ -19,23 +19,23 @@ const std::string rule = std::string(80, '=') + "\n";
 
 // The messages inside one, in the order in which its text tells of them: fields of ROS 1 as they
 // come, those of ROS 2 by name.
-std::vector<const Layout *> children(const Layout &layout) {
-  std::vector<const Layout *> found;
+std::vector<const Layout*> children(const Layout& layout) {
+  std::vector<const Layout*> found;
   for (std::uint32_t i = 0; i < layout.count; ++i) {
     if (layout.members[i].kind == Kind::message) {
       found.push_back(&layout.members[i].child());
     }
   }
   if (!layout.is_ros1) {
-    std::stable_sort(found.begin(), found.end(), [](const Layout *l, const Layout *r) {
+    std::stable_sort(found.begin(), found.end(), [](const Layout* l, const Layout* r) {
       return std::strcmp(l->type, r->type) < 0;
     });
   }
   return found;
 }
 
-void add_inner(const Layout &layout, std::set<std::string> &seen, std::string &text) {
-  for (const Layout *child : children(layout)) {
+void add_inner(const Layout& layout, std::set<std::string>& seen, std::string& text) {
+  for (const Layout* child : children(layout)) {
     if (!seen.insert(child->type).second) {
       continue;
     }
@@ -47,8 +47,8 @@ void add_inner(const Layout &layout, std::set<std::string> &seen, std::string &t
 // A member's elements, wherever they lie.
 class Elements {
  public:
-  Elements(const Layout &layout, const Member &member, const void *owner)
-      : member_(member), from_(static_cast<const std::uint8_t *>(owner) + member.offset) {
+  Elements(const Layout& layout, const Member& member, const void* owner)
+      : member_(member), from_(static_cast<const std::uint8_t*>(owner) + member.offset) {
     switch (member.repeat) {
       case Repeat::one:
         count_ = 1;
@@ -65,7 +65,7 @@ class Elements {
   std::size_t count() const { return count_; }
 
   // Of flags in a std::vector<bool>, a byte of ours.
-  const std::uint8_t *at(std::size_t i) const {
+  const std::uint8_t* at(std::size_t i) const {
     if (flags_ != nullptr) {
       static const std::uint8_t values[] = {0, 1};
       return &values[(*flags_)[i] ? 1 : 0];
@@ -101,37 +101,37 @@ class Elements {
     }
   }
 
-  void sequence(const Layout &layout) {
+  void sequence(const Layout& layout) {
     if (member_.kind == Kind::message) {
-      const Sequence &access = member_.sequence();
+      const Sequence& access = member_.sequence();
       count_ = access.size(from_);
-      from_ = static_cast<const std::uint8_t *>(access.data(const_cast<std::uint8_t *>(from_)));
+      from_ = static_cast<const std::uint8_t*>(access.data(const_cast<std::uint8_t*>(from_)));
     } else if (member_.kind == Kind::boolean && !layout.is_ros1) {
-      flags_ = reinterpret_cast<const std::vector<bool> *>(from_);
+      flags_ = reinterpret_cast<const std::vector<bool>*>(from_);
       count_ = flags_->size();
     } else {
       // All vectors of the standard library begin and end by two pointers.
-      const auto &bytes = *reinterpret_cast<const std::vector<std::uint8_t> *>(from_);
+      const auto& bytes = *reinterpret_cast<const std::vector<std::uint8_t>*>(from_);
       count_ = bytes.size() / size();
       from_ = bytes.data();
     }
   }
 
-  const Member &member_;
-  const std::uint8_t *from_;
-  const std::vector<bool> *flags_ = nullptr;
+  const Member& member_;
+  const std::uint8_t* from_;
+  const std::vector<bool>* flags_ = nullptr;
   std::size_t count_ = 0;
 };
 
 template <class T>
-T as(const std::uint8_t *from) {
+T as(const std::uint8_t* from) {
   T value;
   std::memcpy(&value, from, sizeof(value));
   return value;
 }
 
 // Seconds and nanoseconds as ros::Time and ros::Duration print them.
-void print_time(std::ostream &stream, Kind kind, const std::uint8_t *from) {
+void print_time(std::ostream& stream, Kind kind, const std::uint8_t* from) {
   char text[32];
   if (kind == Kind::time) {
     std::snprintf(text, sizeof(text), "%u.%09u", as<std::uint32_t>(from),
@@ -147,7 +147,7 @@ void print_time(std::ostream &stream, Kind kind, const std::uint8_t *from) {
   stream << text;
 }
 
-void print_number(std::ostream &stream, Kind kind, const std::uint8_t *from) {
+void print_number(std::ostream& stream, Kind kind, const std::uint8_t* from) {
   switch (kind) {
     case Kind::int8:
     case Kind::log_level:
@@ -182,11 +182,11 @@ void print_number(std::ostream &stream, Kind kind, const std::uint8_t *from) {
   }
 }
 
-void print_plain(std::ostream &stream, Kind kind, const std::uint8_t *from) {
+void print_plain(std::ostream& stream, Kind kind, const std::uint8_t* from) {
   switch (kind) {
     case Kind::string:
     case Kind::wide_on_wire:
-      stream << *reinterpret_cast<const std::string *>(from);
+      stream << *reinterpret_cast<const std::string*>(from);
       return;
     case Kind::time:
     case Kind::duration:
@@ -197,7 +197,7 @@ void print_plain(std::ostream &stream, Kind kind, const std::uint8_t *from) {
   }
 }
 
-void print_quoted(std::ostream &stream, const std::string &text) {
+void print_quoted(std::ostream& stream, const std::string& text) {
   stream << '"';
   for (const char letter : text) {
     if (letter == '"' || letter == '\\') {
@@ -208,7 +208,7 @@ void print_quoted(std::ostream &stream, const std::string &text) {
   stream << '"';
 }
 
-void print_quoted(std::ostream &stream, const std::u16string &text) {
+void print_quoted(std::ostream& stream, const std::u16string& text) {
   stream << '"';
   for (const char16_t letter : text) {
     char written[8];
@@ -223,14 +223,14 @@ void print_quoted(std::ostream &stream, const std::u16string &text) {
   stream << '"';
 }
 
-void print_value(std::ostream &stream, Kind kind, const std::uint8_t *from) {
+void print_value(std::ostream& stream, Kind kind, const std::uint8_t* from) {
   switch (kind) {
     case Kind::string:
     case Kind::wide_on_wire:
-      print_quoted(stream, *reinterpret_cast<const std::string *>(from));
+      print_quoted(stream, *reinterpret_cast<const std::string*>(from));
       return;
     case Kind::wstring:
-      print_quoted(stream, *reinterpret_cast<const std::u16string *>(from));
+      print_quoted(stream, *reinterpret_cast<const std::u16string*>(from));
       return;
     case Kind::boolean:
       stream << (*from != 0 ? "true" : "false");
@@ -254,9 +254,9 @@ void print_value(std::ostream &stream, Kind kind, const std::uint8_t *from) {
   }
 }
 
-void print_flow(std::ostream &stream, const Layout &layout, const void *message);
+void print_flow(std::ostream& stream, const Layout& layout, const void* message);
 
-void print_flow_value(std::ostream &stream, const Member &member, const std::uint8_t *from) {
+void print_flow_value(std::ostream& stream, const Member& member, const std::uint8_t* from) {
   if (member.kind == Kind::message) {
     print_flow(stream, member.child(), from);
   } else {
@@ -264,14 +264,14 @@ void print_flow_value(std::ostream &stream, const Member &member, const std::uin
   }
 }
 
-void print_flow(std::ostream &stream, const Layout &layout, const void *message) {
+void print_flow(std::ostream& stream, const Layout& layout, const void* message) {
   if (layout.count == 0) {
     stream << "null";
     return;
   }
   stream << '{';
   for (std::uint32_t i = 0; i < layout.count; ++i) {
-    const Member &member = layout.members[i];
+    const Member& member = layout.members[i];
     const Elements elements(layout, member, message);
     stream << (i == 0 ? "" : ", ") << member.name << ": ";
     if (member.repeat == Repeat::one) {
@@ -288,7 +288,7 @@ void print_flow(std::ostream &stream, const Layout &layout, const void *message)
   stream << '}';
 }
 
-void print_block(std::ostream &stream, const Layout &layout, const void *message,
+void print_block(std::ostream& stream, const Layout& layout, const void* message,
                  std::size_t indentation) {
   const std::string indent(indentation, ' ');
   if (layout.count == 0) {
@@ -296,7 +296,7 @@ void print_block(std::ostream &stream, const Layout &layout, const void *message
     return;
   }
   for (std::uint32_t i = 0; i < layout.count; ++i) {
-    const Member &member = layout.members[i];
+    const Member& member = layout.members[i];
     const Elements elements(layout, member, message);
     stream << indent << member.name << ":";
     if (member.repeat == Repeat::one && member.kind != Kind::message) {
@@ -327,11 +327,11 @@ void print_block(std::ostream &stream, const Layout &layout, const void *message
 
 }  // namespace
 
-const char *full_definition(const Layout &layout) {
+const char* full_definition(const Layout& layout) {
   static std::mutex lock;
-  static auto &texts = *new std::map<const Layout *, std::string>;  // kept to the process's end
+  static auto& texts = *new std::map<const Layout*, std::string>;  // kept to the process's end
   const std::lock_guard<std::mutex> guard(lock);
-  std::string &text = texts[&layout];
+  std::string& text = texts[&layout];
   if (text.empty()) {
     text = layout.text;
     std::set<std::string> seen;
@@ -340,10 +340,10 @@ const char *full_definition(const Layout &layout) {
   return text.c_str();
 }
 
-void print_ros1(std::ostream &stream, const Layout &layout, const void *message,
-                const std::string &indent) {
+void print_ros1(std::ostream& stream, const Layout& layout, const void* message,
+                const std::string& indent) {
   for (std::uint32_t i = 0; i < layout.count; ++i) {
-    const Member &member = layout.members[i];
+    const Member& member = layout.members[i];
     const Elements elements(layout, member, message);
     if (member.repeat == Repeat::one) {
       stream << indent << member.name << ": ";
@@ -370,7 +370,7 @@ void print_ros1(std::ostream &stream, const Layout &layout, const void *message,
   }
 }
 
-void print_yaml(std::ostream &stream, const Layout &layout, const void *message,
+void print_yaml(std::ostream& stream, const Layout& layout, const void* message,
                 std::size_t indentation, bool flow_style) {
   if (flow_style) {
     print_flow(stream, layout, message);

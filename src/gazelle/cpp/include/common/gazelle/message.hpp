@@ -7,8 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <typeinfo>
@@ -89,72 +89,72 @@ struct Layout;
 
 // How the codec reaches the elements of a std::vector of messages.
 struct Sequence {
-  std::size_t (*size)(const void *vector);
-  void (*resize)(void *vector, std::size_t size);
-  void *(*data)(void *vector);
+  std::size_t (*size)(const void* vector);
+  void (*resize)(void* vector, std::size_t size);
+  void* (*data)(void* vector);
   std::size_t element;  // bytes of one element
 };
 
 inline constexpr std::uint32_t absent = 0xffffffffu;  // the class has no such member
 
 struct Member {
-  const char *name = "";
+  const char* name = "";
   std::uint32_t offset = 0;  // `absent`: written as its default, read and forgotten
   Kind kind = Kind::uint8;
   Repeat repeat = Repeat::one;
-  std::uint32_t size = 0;                   // length of a fixed array, bound of a sequence (0: none)
-  std::uint32_t string_bound = 0;           // 0: none
-  const Layout &(*child)() = nullptr;       // of a message
-  const Sequence &(*sequence)() = nullptr;  // of a sequence of messages
+  std::uint32_t size = 0;              // length of a fixed array, bound of a sequence (0: none)
+  std::uint32_t string_bound = 0;      // 0: none
+  const Layout& (*child)() = nullptr;  // of a message
+  const Sequence& (*sequence)() = nullptr;  // of a sequence of messages
   std::uint64_t bits = 0;                   // default of an absent number, as it is in memory
-  const char *text = nullptr;               // default of an absent string
+  const char* text = nullptr;               // default of an absent string
 };
 
 // A message class, or one that is only on the wire (`bytes` is 0 then).
 struct Layout {
-  const char *type;
-  const char *ros1_type;
-  const char *md5;
-  const char *hash;
-  const char *text;  // the definition of this message alone
+  const char* type;
+  const char* ros1_type;
+  const char* md5;
+  const char* hash;
+  const char* text;  // the definition of this message alone
   bool is_ros1;
   std::uint32_t bytes;
-  const Member *members;  // in the class's own order, which is ROS 1's wire and the one of texts
+  const Member* members;  // in the class's own order, which is ROS 1's wire and the one of texts
   std::uint32_t count;
-  const Member *cdr_members;  // in the order of CDR
+  const Member* cdr_members;  // in the order of CDR
   std::uint32_t cdr_count;
 };
 
 // The definition of a message and, behind rules, of all that it contains; kept for good.
-const char *full_definition(const Layout &layout);
+const char* full_definition(const Layout& layout);
 
-void encode_cdr(const Layout &layout, const void *message, std::vector<std::uint8_t> &cdr);
-void decode_cdr(const Layout &layout, void *message, const std::uint8_t *cdr, std::size_t size);
-void encode_ros1(const Layout &layout, const void *message, std::vector<std::uint8_t> &bytes);
-std::size_t ros1_size(const Layout &layout, const void *message);
+void encode_cdr(const Layout& layout, const void* message, std::vector<std::uint8_t>& cdr);
+void decode_cdr(const Layout& layout, void* message, const std::uint8_t* cdr, std::size_t size);
+void encode_ros1(const Layout& layout, const void* message, std::vector<std::uint8_t>& bytes);
+std::size_t ros1_size(const Layout& layout, const void* message);
 // Writes into `bytes`, which holds `size`; throws where that is too little. Returns what it took.
-std::size_t encode_ros1(const Layout &layout, const void *message, std::uint8_t *bytes,
+std::size_t encode_ros1(const Layout& layout, const void* message, std::uint8_t* bytes,
                         std::size_t size);
-std::size_t decode_ros1(const Layout &layout, void *message, const std::uint8_t *bytes,
+std::size_t decode_ros1(const Layout& layout, void* message, const std::uint8_t* bytes,
                         std::size_t size);
 
 // As `rostopic echo` of ROS 1's C++ and `ros2 topic echo` print them.
-void print_ros1(std::ostream &stream, const Layout &layout, const void *message,
-                const std::string &indent = "");
-void print_yaml(std::ostream &stream, const Layout &layout, const void *message,
+void print_ros1(std::ostream& stream, const Layout& layout, const void* message,
+                const std::string& indent = "");
+void print_yaml(std::ostream& stream, const Layout& layout, const void* message,
                 std::size_t indentation, bool flow_style);
 
 namespace detail {
 template <class T>
 struct SequenceOf {
-  static std::size_t size(const void *vector) {
-    return static_cast<const std::vector<T> *>(vector)->size();
+  static std::size_t size(const void* vector) {
+    return static_cast<const std::vector<T>*>(vector)->size();
   }
-  static void resize(void *vector, std::size_t size) {
-    static_cast<std::vector<T> *>(vector)->resize(size);
+  static void resize(void* vector, std::size_t size) {
+    static_cast<std::vector<T>*>(vector)->resize(size);
   }
-  static void *data(void *vector) { return static_cast<std::vector<T> *>(vector)->data(); }
-  static const Sequence &table() {
+  static void* data(void* vector) { return static_cast<std::vector<T>*>(vector)->data(); }
+  static const Sequence& table() {
     static const Sequence found{&size, &resize, &data, sizeof(T)};
     return found;
   }
@@ -164,16 +164,16 @@ struct SequenceOf {
 namespace detail {
 template <class M>
 struct TypeOf {
-  static void encode(const void *message, std::vector<std::uint8_t> &cdr) {
+  static void encode(const void* message, std::vector<std::uint8_t>& cdr) {
     encode_cdr(Description<M>::layout(), message, cdr);
   }
   static std::shared_ptr<void> create() { return std::make_shared<M>(); }
-  static std::shared_ptr<void> decode(const std::uint8_t *cdr, std::size_t size) {
+  static std::shared_ptr<void> decode(const std::uint8_t* cdr, std::size_t size) {
     auto made = std::make_shared<M>();
     decode_cdr(Description<M>::layout(), made.get(), cdr, size);
     return made;
   }
-  static const MessageType &get() {
+  static const MessageType& get() {
     static const MessageType found{Description<M>::type,
                                    Description<M>::ros1_type,
                                    Description<M>::md5,
@@ -192,12 +192,12 @@ struct TypeOf {
 
 // May be specialised for classes that describe themselves otherwise, by `detail::TypeOf`.
 template <class M>
-const MessageType &message_type() {
+const MessageType& message_type() {
   return detail::TypeOf<std::remove_cv_t<M>>::get();
 }
 
 template <class S>
-const ServiceType &service_type() {
+const ServiceType& service_type() {
   using Of = Description<std::remove_cv_t<S>>;
   static const ServiceType found{Of::type,
                                  Of::ros1_type,

@@ -6,17 +6,17 @@
 namespace gazelle {
 
 template <class M>
-void to_ros1(const M &message, std::vector<std::uint8_t> &bytes) {
+void to_ros1(const M& message, std::vector<std::uint8_t>& bytes) {
   encode_ros1(Description<M>::layout(), &message, bytes);
 }
 
 template <class M>
-std::size_t from_ros1(M &message, const std::uint8_t *bytes, std::size_t size) {
+std::size_t from_ros1(M& message, const std::uint8_t* bytes, std::size_t size) {
   return decode_ros1(Description<M>::layout(), &message, bytes, size);
 }
 
 template <class M>
-std::size_t ros1_size(const M &message) {
+std::size_t ros1_size(const M& message) {
   return ros1_size(Description<M>::layout(), &message);
 }
 

@@ -18,14 +18,14 @@ namespace dynamic_reconfigure {
 template <class ConfigType>
 class Client {
  public:
-  typedef boost::function<void(const ConfigType &)> ConfigurationCallback;
-  typedef boost::function<void(const ConfigDescription &)> DescriptionCallback;
+  typedef boost::function<void(const ConfigType&)> ConfigurationCallback;
+  typedef boost::function<void(const ConfigDescription&)> DescriptionCallback;
 
-  explicit Client(const std::string &name,
+  explicit Client(const std::string& name,
                   const ConfigurationCallback config_callback = ConfigurationCallback(),
                   const DescriptionCallback description_callback = DescriptionCallback())
       : Client(name, ros::NodeHandle(name), config_callback, description_callback) {}
-  Client(const std::string &name, const ros::NodeHandle &nh,
+  Client(const std::string& name, const ros::NodeHandle& nh,
          const ConfigurationCallback config_callback = ConfigurationCallback(),
          const DescriptionCallback description_callback = DescriptionCallback())
       : name_(name),
@@ -39,17 +39,17 @@ class Client {
         node_handle_.subscribe("parameter_descriptions", 1, &Client::descriptionCallback, this);
   }
 
-  void setConfigurationCallback(const ConfigurationCallback &callback) {
+  void setConfigurationCallback(const ConfigurationCallback& callback) {
     std::unique_lock<std::mutex> lock(mutex_);
     config_callback_ = callback;
   }
-  void setDescriptionCallback(const DescriptionCallback &callback) {
+  void setDescriptionCallback(const DescriptionCallback& callback) {
     std::unique_lock<std::mutex> lock(mutex_);
     description_callback_ = callback;
   }
 
   // Replaces the values by those that the server took over.
-  bool setConfiguration(ConfigType &configuration) {
+  bool setConfiguration(ConfigType& configuration) {
     {
       // Who asks for the values afterwards gets those that the change leads to.
       std::unique_lock<std::mutex> lock(mutex_);
@@ -64,29 +64,29 @@ class Client {
     configuration.__fromMessage__(service.response.config);
     return true;
   }
-  bool setConfiguration(const ConfigType &configuration) {
+  bool setConfiguration(const ConfigType& configuration) {
     ConfigType copy = configuration;
     return setConfiguration(copy);
   }
 
   // Waits for the first values for that long, for ever where it is zero.
-  bool getCurrentConfiguration(ConfigType &configuration,
-                               const ros::Duration &timeout = ros::Duration(0)) {
+  bool getCurrentConfiguration(ConfigType& configuration,
+                               const ros::Duration& timeout = ros::Duration(0)) {
     if (!wait(has_config_, timeout)) return false;
     std::unique_lock<std::mutex> lock(mutex_);
     configuration = config_;
     return true;
   }
-  bool getDefaultConfiguration(ConfigType &configuration,
-                               const ros::Duration &timeout = ros::Duration(0)) {
+  bool getDefaultConfiguration(ConfigType& configuration,
+                               const ros::Duration& timeout = ros::Duration(0)) {
     return described(configuration, &ConfigDescription::dflt, timeout);
   }
-  bool getMinConfiguration(ConfigType &configuration,
-                           const ros::Duration &timeout = ros::Duration(0)) {
+  bool getMinConfiguration(ConfigType& configuration,
+                           const ros::Duration& timeout = ros::Duration(0)) {
     return described(configuration, &ConfigDescription::min, timeout);
   }
-  bool getMaxConfiguration(ConfigType &configuration,
-                           const ros::Duration &timeout = ros::Duration(0)) {
+  bool getMaxConfiguration(ConfigType& configuration,
+                           const ros::Duration& timeout = ros::Duration(0)) {
     return described(configuration, &ConfigDescription::max, timeout);
   }
 
@@ -94,14 +94,14 @@ class Client {
 
  private:
   template <class Part>
-  bool described(ConfigType &configuration, Part part, const ros::Duration &timeout) {
+  bool described(ConfigType& configuration, Part part, const ros::Duration& timeout) {
     if (!wait(has_description_, timeout)) return false;
     std::unique_lock<std::mutex> lock(mutex_);
     configuration.__fromMessage__(description_.*part);
     return true;
   }
 
-  bool wait(const bool &is_there, const ros::Duration &timeout) {
+  bool wait(const bool& is_there, const ros::Duration& timeout) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(timeout.toSec());
     std::unique_lock<std::mutex> lock(mutex_);
     while (!is_there) {
@@ -111,7 +111,7 @@ class Client {
     return true;
   }
 
-  void configurationCallback(const Config &message) {
+  void configurationCallback(const Config& message) {
     std::unique_lock<std::mutex> lock(mutex_);
     has_config_ = true;
     config_.__fromMessage__(message);
@@ -122,7 +122,7 @@ class Client {
     if (callback) callback(config);
   }
 
-  void descriptionCallback(const ConfigDescription &message) {
+  void descriptionCallback(const ConfigDescription& message) {
     std::unique_lock<std::mutex> lock(mutex_);
     has_description_ = true;
     description_ = message;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <memory>
 #include <string>
 
 #include <boost/function.hpp>
@@ -12,25 +13,26 @@
 #include <ros/console.h>
 #include <ros/node_handle.h>
 
+#include <gazelle/reconfigure.hpp>
+
 namespace dynamic_reconfigure {
 
 template <class ConfigType>
 class Server {
  public:
-  typedef boost::function<void(ConfigType &, uint32_t level)> CallbackType;
+  typedef boost::function<void(ConfigType&, uint32_t level)> CallbackType;
 
-  explicit Server(const ros::NodeHandle &nh = ros::NodeHandle("~"))
+  explicit Server(const ros::NodeHandle& nh = ros::NodeHandle("~"))
       : node_handle_(nh), mutex_(own_mutex_), own_mutex_warn_(true) {
     init();
   }
-  explicit Server(boost::recursive_mutex &mutex,
-                  const ros::NodeHandle &nh = ros::NodeHandle("~"))
+  explicit Server(boost::recursive_mutex& mutex, const ros::NodeHandle& nh = ros::NodeHandle("~"))
       : node_handle_(nh), mutex_(mutex), own_mutex_warn_(false) {
     init();
   }
 
   // The callback hears the present values at once, with every level.
-  void setCallback(const CallbackType &callback) {
+  void setCallback(const CallbackType& callback) {
     boost::recursive_mutex::scoped_lock lock(mutex_);
     callback_ = callback;
     callCallback(config_, ~static_cast<uint32_t>(0));
@@ -42,7 +44,7 @@ class Server {
   }
 
   // Values that the node has changed by itself; the callback is not called.
-  void updateConfig(const ConfigType &config) {
+  void updateConfig(const ConfigType& config) {
     if (own_mutex_warn_) {
       ROS_WARN(
           "updateConfig() is called on a dynamic_reconfigure::Server that has a mutex of its "
@@ -52,18 +54,18 @@ class Server {
     updateConfigInternal(config);
   }
 
-  void getConfigMax(ConfigType &config) { config = max_; }
-  void getConfigMin(ConfigType &config) { config = min_; }
-  void getConfigDefault(ConfigType &config) { config = default_; }
-  void setConfigMax(const ConfigType &config) {
+  void getConfigMax(ConfigType& config) { config = max_; }
+  void getConfigMin(ConfigType& config) { config = min_; }
+  void getConfigDefault(ConfigType& config) { config = default_; }
+  void setConfigMax(const ConfigType& config) {
     max_ = config;
     publishDescription();
   }
-  void setConfigMin(const ConfigType &config) {
+  void setConfigMin(const ConfigType& config) {
     min_ = config;
     publishDescription();
   }
-  void setConfigDefault(const ConfigType &config) {
+  void setConfigDefault(const ConfigType& config) {
     default_ = config;
     publishDescription();
   }
@@ -74,12 +76,9 @@ class Server {
     max_ = ConfigType::__getMax__();
     default_ = ConfigType::__getDefault__();
     boost::recursive_mutex::scoped_lock lock(mutex_);
-    set_service_ =
-        node_handle_.advertiseService("set_parameters", &Server::setConfigCallback, this);
-    description_publisher_ =
-        node_handle_.advertise<ConfigDescription>("parameter_descriptions", 1, true);
+    endpoints_.reset(new ::gazelle::reconfigure::Endpoints(
+        node_handle_, [this](const Config& request, Config& response) { set(request, response); }));
     publishDescription();
-    update_publisher_ = node_handle_.advertise<Config>("parameter_updates", 1, true);
     ConfigType initial = ConfigType::__getDefault__();
     initial.__fromServer__(node_handle_);
     initial.__clamp__();
@@ -91,57 +90,55 @@ class Server {
     max_.__toMessage__(description.max);
     min_.__toMessage__(description.min);
     default_.__toMessage__(description.dflt);
-    description_publisher_.publish(description);
+    endpoints_->describe(description);
   }
 
-  bool setConfigCallback(Reconfigure::Request &request, Reconfigure::Response &response) {
+  void set(const Config& request, Config& response) {
     boost::recursive_mutex::scoped_lock lock(mutex_);
     ConfigType changed = config_;
-    if (!changed.__fromMessage__(request.config)) {
+    if (!changed.__fromMessage__(request)) {
       ROS_ERROR("set_parameters: the request holds parameters that this node does not have");
     }
     changed.__clamp__();
     callCallback(changed, config_.__level__(changed));
     updateConfigInternal(changed);
-    changed.__toMessage__(response.config);
-    return true;
+    changed.__toMessage__(response);
   }
 
-  void callCallback(ConfigType &config, uint32_t level) {
+  void callCallback(ConfigType& config, uint32_t level) {
     if (!callback_) {
       ROS_DEBUG("setCallback has not been called; a change of parameters is heard by nobody.");
       return;
     }
     try {
       callback_(config, level);
-    } catch (const std::exception &error) {
+    } catch (const std::exception& error) {
       ROS_WARN("Reconfigure callback failed with exception %s", error.what());
     } catch (...) {
       ROS_WARN("Reconfigure callback failed with unprintable exception.");
     }
   }
 
-  void updateConfigInternal(const ConfigType &config) {
+  void updateConfigInternal(const ConfigType& config) {
     boost::recursive_mutex::scoped_lock lock(mutex_);
     config_ = config;
     config_.__toServer__(node_handle_);
     Config message;
     config_.__toMessage__(message);
-    update_publisher_.publish(message);
+    endpoints_->update(message);
   }
 
   ros::NodeHandle node_handle_;
-  ros::ServiceServer set_service_;
-  ros::Publisher update_publisher_;
-  ros::Publisher description_publisher_;
   CallbackType callback_;
   ConfigType config_;
   ConfigType min_;
   ConfigType max_;
   ConfigType default_;
   boost::recursive_mutex own_mutex_;
-  boost::recursive_mutex &mutex_;
+  boost::recursive_mutex& mutex_;
   bool own_mutex_warn_;
+  // Last, so that no request comes while the rest goes.
+  std::unique_ptr<::gazelle::reconfigure::Endpoints> endpoints_;
 };
 
 }  // namespace dynamic_reconfigure

@@ -30,8 +30,7 @@ using String =
                       typename std::allocator_traits<Allocator>::template rebind_alloc<char>>;
 
 template <class T, class Allocator>
-using Vector =
-    std::vector<T, typename std::allocator_traits<Allocator>::template rebind_alloc<T>>;
+using Vector = std::vector<T, typename std::allocator_traits<Allocator>::template rebind_alloc<T>>;
 
 }  // namespace ros1
 }  // namespace gazelle

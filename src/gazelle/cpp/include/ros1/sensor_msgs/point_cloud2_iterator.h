@@ -9,9 +9,10 @@
 
 namespace sensor_msgs {
 
-class PointCloud2Modifier : public ::gazelle::clouds::Modifier<::sensor_msgs::PointCloud2, ::sensor_msgs::PointField> {
+class PointCloud2Modifier
+    : public ::gazelle::clouds::Modifier<::sensor_msgs::PointCloud2, ::sensor_msgs::PointField> {
  public:
-  explicit PointCloud2Modifier(::sensor_msgs::PointCloud2 &cloud_msg) : Modifier(cloud_msg) {}
+  explicit PointCloud2Modifier(::sensor_msgs::PointCloud2& cloud_msg) : Modifier(cloud_msg) {}
 };
 
 template <typename T>
@@ -19,7 +20,7 @@ class PointCloud2Iterator
     : public ::gazelle::clouds::Iterator<T, ::sensor_msgs::PointCloud2, PointCloud2Iterator<T>> {
  public:
   PointCloud2Iterator() = default;
-  PointCloud2Iterator(::sensor_msgs::PointCloud2 &cloud_msg, const std::string &field_name)
+  PointCloud2Iterator(::sensor_msgs::PointCloud2& cloud_msg, const std::string& field_name)
       : PointCloud2Iterator::Iterator(cloud_msg, field_name) {}
 };
 
@@ -29,7 +30,8 @@ class PointCloud2ConstIterator
                                          PointCloud2ConstIterator<T>> {
  public:
   PointCloud2ConstIterator() = default;
-  PointCloud2ConstIterator(const ::sensor_msgs::PointCloud2 &cloud_msg, const std::string &field_name)
+  PointCloud2ConstIterator(const ::sensor_msgs::PointCloud2& cloud_msg,
+                           const std::string& field_name)
       : PointCloud2ConstIterator::Iterator(cloud_msg, field_name) {}
 };
 

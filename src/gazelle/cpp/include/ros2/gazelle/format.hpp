@@ -23,8 +23,8 @@ namespace detail {
 template <class T, class = void>
 struct IsRange : std::false_type {};
 template <class T>
-struct IsRange<T, std::void_t<decltype(std::declval<const T &>().begin()),
-                              decltype(std::declval<const T &>().end())>> : std::true_type {};
+struct IsRange<T, std::void_t<decltype(std::declval<const T&>().begin()),
+                              decltype(std::declval<const T&>().end())>> : std::true_type {};
 
 // "[fill][<>^][+][0][width][.precision][type]"
 struct Spec {
@@ -71,7 +71,7 @@ struct Spec {
 };
 
 template <class T>
-void write(std::ostream &out, const T &value, const Spec &spec) {
+void write(std::ostream& out, const T& value, const Spec& spec) {
   if constexpr (std::is_same<T, bool>::value) {
     out << (value ? "true" : "false");
   } else if constexpr (std::is_same<T, char>::value) {
@@ -104,13 +104,13 @@ void write(std::ostream &out, const T &value, const Spec &spec) {
       }
     }
     out << value;
-  } else if constexpr (std::is_convertible<const T &, std::string_view>::value) {
+  } else if constexpr (std::is_convertible<const T&, std::string_view>::value) {
     const std::string_view text = value;
     out << (spec.precision < 0 ? text : text.substr(0, static_cast<std::size_t>(spec.precision)));
   } else if constexpr (IsRange<T>::value) {
     out << '[';
     bool is_first = true;
-    for (const auto &item : value) {
+    for (const auto& item : value) {
       if (!std::exchange(is_first, false)) out << ", ";
       if constexpr (std::is_convertible<decltype(item), std::string_view>::value) {
         out << '"' << std::string_view(item) << '"';
@@ -125,7 +125,7 @@ void write(std::ostream &out, const T &value, const Spec &spec) {
 }
 
 template <class T>
-std::string padded(const T &value, std::string_view words) {
+std::string padded(const T& value, std::string_view words) {
   const Spec spec(words);
   std::ostringstream out;
   write(out, value, spec);
@@ -141,7 +141,7 @@ std::string padded(const T &value, std::string_view words) {
 }  // namespace detail
 
 template <class... Arguments>
-std::string format(std::string_view pattern, const Arguments &...arguments) {
+std::string format(std::string_view pattern, const Arguments&... arguments) {
   std::string made;
   std::size_t next = 0;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -172,26 +172,26 @@ std::string format(std::string_view pattern, const Arguments &...arguments) {
 }
 
 template <class... Arguments>
-void print(std::string_view pattern, const Arguments &...arguments) {
+void print(std::string_view pattern, const Arguments&... arguments) {
   std::fputs(format(pattern, arguments...).c_str(), stdout);
 }
 template <class... Arguments>
-void print(std::FILE *file, std::string_view pattern, const Arguments &...arguments) {
+void print(std::FILE* file, std::string_view pattern, const Arguments&... arguments) {
   std::fputs(format(pattern, arguments...).c_str(), file);
 }
 
 template <class T>
-std::string to_string(const T &value) {
+std::string to_string(const T& value) {
   return format("{}", value);
 }
 
 template <class Range>
 struct Joined {
-  const Range &range;
+  const Range& range;
   std::string_view between;
-  friend std::ostream &operator<<(std::ostream &out, const Joined &joined) {
+  friend std::ostream& operator<<(std::ostream& out, const Joined& joined) {
     bool is_first = true;
-    for (const auto &item : joined.range) {
+    for (const auto& item : joined.range) {
       if (!std::exchange(is_first, false)) out << joined.between;
       detail::write(out, item, detail::Spec(""));
     }
@@ -199,7 +199,7 @@ struct Joined {
   }
 };
 template <class Range>
-Joined<Range> join(const Range &range, std::string_view between) {
+Joined<Range> join(const Range& range, std::string_view between) {
   return {range, between};
 }
 

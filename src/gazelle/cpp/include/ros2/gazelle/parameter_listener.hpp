@@ -43,26 +43,26 @@ using Checked = tl::expected<void, std::string>;
 // What a file says of one parameter.
 struct Spec {
   std::string name;
-  const char *description;
-  const char *additional_constraints;
+  const char* description;
+  const char* additional_constraints;
   bool is_read_only;
   bool has_default;
-  void (*limit)(Descriptor &);                     // null without limits
-  Checked (*validate)(const rclcpp::Parameter &);  // null where every value is right
+  void (*limit)(Descriptor&);                     // null without limits
+  Checked (*validate)(const rclcpp::Parameter&);  // null where every value is right
 };
 
-inline void limit(Descriptor &descriptor, double lower, double upper) {
+inline void limit(Descriptor& descriptor, double lower, double upper) {
   descriptor.floating_point_range.resize(1);
   descriptor.floating_point_range[0].from_value = lower;
   descriptor.floating_point_range[0].to_value = upper;
 }
-inline void limit(Descriptor &descriptor, std::int64_t lower, std::int64_t upper) {
+inline void limit(Descriptor& descriptor, std::int64_t lower, std::int64_t upper) {
   descriptor.integer_range.resize(1);
   descriptor.integer_range[0].from_value = lower;
   descriptor.integer_range[0].to_value = upper;
 }
 
-inline bool holds(const std::vector<std::string> &keys, const std::string &key) {
+inline bool holds(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
@@ -70,19 +70,17 @@ inline bool holds(const std::vector<std::string> &keys, const std::string &key) 
 template <class T>
 struct Stored {
   using type = T;
-  static const T &out(const T &value) { return value; }
+  static const T& out(const T& value) { return value; }
 };
 template <std::size_t capacity>
 struct Stored<rsl::StaticString<capacity>> {
   using type = std::string;
-  static std::string out(const rsl::StaticString<capacity> &value) {
-    return rsl::to_string(value);
-  }
+  static std::string out(const rsl::StaticString<capacity>& value) { return rsl::to_string(value); }
 };
 template <class T, std::size_t capacity>
 struct Stored<rsl::StaticVector<T, capacity>> {
   using type = std::vector<T>;
-  static std::vector<T> out(const rsl::StaticVector<T, capacity> &value) {
+  static std::vector<T> out(const rsl::StaticVector<T, capacity>& value) {
     return rsl::to_vector(value);
   }
 };
@@ -98,23 +96,23 @@ template <class Parameters, class Stack, class Visit>
 class Listener {
  public:
   using Interface = std::shared_ptr<rclcpp::node_interfaces::NodeParametersInterface>;
-  using userParameterUpdateCB = std::function<void(const Parameters &)>;
+  using userParameterUpdateCB = std::function<void(const Parameters&)>;
 
-  Listener(const Interface &interface, rclcpp::Logger logger, const std::string &prefix)
+  Listener(const Interface& interface, rclcpp::Logger logger, const std::string& prefix)
       : prefix_(prefix), interface_(interface), logger_(std::move(logger)) {
     if (!prefix_.empty() && prefix_.back() != '.') {
       prefix_ += '.';
     }
     declare_params();
     handle_ = interface_->add_on_set_parameters_callback(
-        [this](const std::vector<rclcpp::Parameter> &changed) { return update(changed); });
+        [this](const std::vector<rclcpp::Parameter>& changed) { return update(changed); });
   }
 
   Parameters get_params() const {
     const std::lock_guard<std::mutex> guard(lock_);
     return parameters_;
   }
-  bool try_update_params(Parameters &parameters) const {
+  bool try_update_params(Parameters& parameters) const {
     const std::unique_lock<std::mutex> guard(lock_, std::try_to_lock);
     if (!guard.owns_lock() || parameters.__stamp == parameters_.__stamp) {
       return false;
@@ -122,20 +120,20 @@ class Listener {
     parameters = parameters_;
     return true;
   }
-  bool try_get_params(Parameters &parameters) const {
+  bool try_get_params(Parameters& parameters) const {
     const std::unique_lock<std::mutex> guard(lock_, std::try_to_lock);
     if (guard.owns_lock() && parameters.__stamp != parameters_.__stamp) {
       parameters = parameters_;
     }
     return guard.owns_lock();
   }
-  bool is_old(const Parameters &other) const {
+  bool is_old(const Parameters& other) const {
     const std::lock_guard<std::mutex> guard(lock_);
     return parameters_.__stamp != other.__stamp;
   }
   Stack get_stack_params() const { return Visit::stack(get_params()); }
 
-  void setUserCallback(const userParameterUpdateCB &callback) { callback_ = callback; }
+  void setUserCallback(const userParameterUpdateCB& callback) { callback_ = callback; }
   void clearUserCallback() { callback_ = {}; }
 
   void declare_params() {
@@ -153,12 +151,12 @@ class Listener {
     take(parameters);
   }
 
-  rcl_interfaces::msg::SetParametersResult update(const std::vector<rclcpp::Parameter> &changed) {
+  rcl_interfaces::msg::SetParametersResult update(const std::vector<rclcpp::Parameter>& changed) {
     Parameters parameters = get_params();
     Checked checked;
-    Visit::visit(parameters, [&](const Spec &spec, auto &member) {
+    Visit::visit(parameters, [&](const Spec& spec, auto& member) {
       const std::string name = prefix_ + spec.name;
-      for (const rclcpp::Parameter &parameter : changed) {
+      for (const rclcpp::Parameter& parameter : changed) {
         if (checked && parameter.get_name() == name) {
           checked = assign(spec, parameter, member);
         }
@@ -172,12 +170,12 @@ class Listener {
   }
 
  private:
-  void declare_all(Parameters &parameters) {
-    Visit::visit(parameters, [&](const Spec &spec, auto &member) { declare(spec, member); });
+  void declare_all(Parameters& parameters) {
+    Visit::visit(parameters, [&](const Spec& spec, auto& member) { declare(spec, member); });
   }
 
   template <class T>
-  void declare(const Spec &spec, T &member) {
+  void declare(const Spec& spec, T& member) {
     const std::string name = prefix_ + spec.name;
     if (!interface_->has_parameter(name)) {
       Descriptor descriptor;
@@ -202,7 +200,7 @@ class Listener {
   }
 
   template <class T>
-  static Checked assign(const Spec &spec, const rclcpp::Parameter &parameter, T &member) {
+  static Checked assign(const Spec& spec, const rclcpp::Parameter& parameter, T& member) {
     if (spec.validate != nullptr) {
       if (Checked checked = spec.validate(parameter); !checked) return checked;
     }
@@ -210,7 +208,7 @@ class Listener {
     return {};
   }
 
-  void take(Parameters &parameters) {
+  void take(Parameters& parameters) {
     parameters.__stamp = clock_.now();
     const std::lock_guard<std::mutex> guard(lock_);
     parameters_ = parameters;

@@ -31,29 +31,27 @@ class BoundedVector : protected std::vector<Tp, Alloc> {
   using typename Base::value_type;
 
   BoundedVector() = default;
-  explicit BoundedVector(const allocator_type &a) : Base(a) {}
-  explicit BoundedVector(size_type n, const allocator_type &a = allocator_type())
+  explicit BoundedVector(const allocator_type& a) : Base(a) {}
+  explicit BoundedVector(size_type n, const allocator_type& a = allocator_type())
       : Base(checked(n), a) {}
-  BoundedVector(size_type n, const value_type &value, const allocator_type &a = allocator_type())
+  BoundedVector(size_type n, const value_type& value, const allocator_type& a = allocator_type())
       : Base(checked(n), value, a) {}
   BoundedVector(std::initializer_list<value_type> values,
-                const allocator_type &a = allocator_type())
+                const allocator_type& a = allocator_type())
       : Base((checked(values.size()), values), a) {}
-  template <typename Input,
-            typename = typename std::iterator_traits<Input>::iterator_category>
-  BoundedVector(Input first, Input last, const allocator_type &a = allocator_type())
+  template <typename Input, typename = typename std::iterator_traits<Input>::iterator_category>
+  BoundedVector(Input first, Input last, const allocator_type& a = allocator_type())
       : Base(first, last, a) {
     checked(Base::size());
   }
-  BoundedVector &operator=(std::initializer_list<value_type> values) {
+  BoundedVector& operator=(std::initializer_list<value_type> values) {
     checked(values.size());
     Base::operator=(values);
     return *this;
   }
 
-  void assign(size_type n, const value_type &value) { Base::assign(checked(n), value); }
-  template <typename Input,
-            typename = typename std::iterator_traits<Input>::iterator_category>
+  void assign(size_type n, const value_type& value) { Base::assign(checked(n), value); }
+  template <typename Input, typename = typename std::iterator_traits<Input>::iterator_category>
   void assign(Input first, Input last) {
     Base values(first, last);
     checked(values.size());
@@ -86,34 +84,34 @@ class BoundedVector : protected std::vector<Tp, Alloc> {
   size_type max_size() const noexcept { return std::min(UpperBound, Base::max_size()); }
   void reserve(size_type n) { Base::reserve(checked(n)); }
   void resize(size_type n) { Base::resize(checked(n)); }
-  void resize(size_type n, const value_type &value) { Base::resize(checked(n), value); }
-  void push_back(const value_type &value) {
+  void resize(size_type n, const value_type& value) { Base::resize(checked(n), value); }
+  void push_back(const value_type& value) {
     checked(Base::size() + 1);
     Base::push_back(value);
   }
-  void push_back(value_type &&value) {
+  void push_back(value_type&& value) {
     checked(Base::size() + 1);
     Base::push_back(std::move(value));
   }
   template <typename... Arguments>
-  decltype(auto) emplace_back(Arguments &&...arguments) {
+  decltype(auto) emplace_back(Arguments&&... arguments) {
     checked(Base::size() + 1);
     return Base::emplace_back(std::forward<Arguments>(arguments)...);
   }
   template <typename... Arguments>
-  iterator emplace(const_iterator where, Arguments &&...arguments) {
+  iterator emplace(const_iterator where, Arguments&&... arguments) {
     checked(Base::size() + 1);
     return Base::emplace(where, std::forward<Arguments>(arguments)...);
   }
-  iterator insert(const_iterator where, const value_type &value) {
+  iterator insert(const_iterator where, const value_type& value) {
     checked(Base::size() + 1);
     return Base::insert(where, value);
   }
-  iterator insert(const_iterator where, value_type &&value) {
+  iterator insert(const_iterator where, value_type&& value) {
     checked(Base::size() + 1);
     return Base::insert(where, std::move(value));
   }
-  iterator insert(const_iterator where, size_type n, const value_type &value) {
+  iterator insert(const_iterator where, size_type n, const value_type& value) {
     checked(Base::size() + n);
     return Base::insert(where, n, value);
   }
@@ -121,25 +119,24 @@ class BoundedVector : protected std::vector<Tp, Alloc> {
     checked(Base::size() + values.size());
     return Base::insert(where, values);
   }
-  template <typename Input,
-            typename = typename std::iterator_traits<Input>::iterator_category>
+  template <typename Input, typename = typename std::iterator_traits<Input>::iterator_category>
   iterator insert(const_iterator where, Input first, Input last) {
     checked(Base::size() + static_cast<size_type>(std::distance(first, last)));
     return Base::insert(where, first, last);
   }
-  void swap(BoundedVector &other) noexcept { Base::swap(other); }
+  void swap(BoundedVector& other) noexcept { Base::swap(other); }
 
-  friend bool operator==(const BoundedVector &l, const BoundedVector &r) {
-    return static_cast<const Base &>(l) == static_cast<const Base &>(r);
+  friend bool operator==(const BoundedVector& l, const BoundedVector& r) {
+    return static_cast<const Base&>(l) == static_cast<const Base&>(r);
   }
-  friend bool operator!=(const BoundedVector &l, const BoundedVector &r) { return !(l == r); }
-  friend bool operator<(const BoundedVector &l, const BoundedVector &r) {
-    return static_cast<const Base &>(l) < static_cast<const Base &>(r);
+  friend bool operator!=(const BoundedVector& l, const BoundedVector& r) { return !(l == r); }
+  friend bool operator<(const BoundedVector& l, const BoundedVector& r) {
+    return static_cast<const Base&>(l) < static_cast<const Base&>(r);
   }
-  friend bool operator>(const BoundedVector &l, const BoundedVector &r) { return r < l; }
-  friend bool operator<=(const BoundedVector &l, const BoundedVector &r) { return !(r < l); }
-  friend bool operator>=(const BoundedVector &l, const BoundedVector &r) { return !(l < r); }
-  friend void swap(BoundedVector &l, BoundedVector &r) noexcept { l.swap(r); }
+  friend bool operator>(const BoundedVector& l, const BoundedVector& r) { return r < l; }
+  friend bool operator<=(const BoundedVector& l, const BoundedVector& r) { return !(r < l); }
+  friend bool operator>=(const BoundedVector& l, const BoundedVector& r) { return !(l < r); }
+  friend void swap(BoundedVector& l, BoundedVector& r) noexcept { l.swap(r); }
 
  private:
   static size_type checked(size_type n) {

@@ -16,8 +16,7 @@ struct is_service : std::bool_constant<gazelle::is_service_v<T>> {};
 template <typename T, typename = void>
 struct is_action : std::false_type {};
 template <typename T>
-struct is_action<T, std::void_t<decltype(gazelle::ActionDescription<T>::type)>> : std::true_type {
-};
+struct is_action<T, std::void_t<decltype(gazelle::ActionDescription<T>::type)>> : std::true_type {};
 
 namespace detail {
 template <typename T, typename = void>
@@ -53,14 +52,14 @@ struct has_bounded_size : std::bool_constant<gazelle::Description<T>::is_bounded
 
 // "std_msgs/msg/String"
 template <typename T>
-const char *name() {
+const char* name() {
   static const std::string found = detail::name_of<T>();
   return found.c_str();
 }
 
 // "std_msgs::msg::String"
 template <typename T>
-const char *data_type() {
+const char* data_type() {
   static const std::string found = [] {
     std::string text;
     for (char letter : detail::name_of<T>()) {
@@ -72,17 +71,17 @@ const char *data_type() {
 }
 
 template <typename T, typename = std::enable_if_t<gazelle::is_message_v<T>>>
-void to_block_style_yaml(const T &message, std::ostream &out, std::size_t indentation = 0) {
+void to_block_style_yaml(const T& message, std::ostream& out, std::size_t indentation = 0) {
   gazelle::print_yaml(out, gazelle::Description<T>::layout(), &message, indentation, false);
 }
 
 template <typename T, typename = std::enable_if_t<gazelle::is_message_v<T>>>
-void to_flow_style_yaml(const T &message, std::ostream &out) {
+void to_flow_style_yaml(const T& message, std::ostream& out) {
   gazelle::print_yaml(out, gazelle::Description<T>::layout(), &message, 0, true);
 }
 
 template <typename T, typename = std::enable_if_t<gazelle::is_message_v<T>>>
-std::string to_yaml(const T &message, bool use_flow_style = false) {
+std::string to_yaml(const T& message, bool use_flow_style = false) {
   std::ostringstream out;
   gazelle::print_yaml(out, gazelle::Description<T>::layout(), &message, 0, use_flow_style);
   return out.str();

@@ -6,10 +6,10 @@
 
 namespace rosidl_typesupport_cpp {
 
-inline constexpr const char *typesupport_identifier = "rosidl_typesupport_cpp";
+inline constexpr const char* typesupport_identifier = "rosidl_typesupport_cpp";
 
 template <typename T>
-const rosidl_message_type_support_t *get_message_type_support_handle() {
+const rosidl_message_type_support_t* get_message_type_support_handle() {
   static const rosidl_message_type_support_t found{typesupport_identifier,
                                                    &gazelle::message_type<T>(), nullptr};
   return &found;

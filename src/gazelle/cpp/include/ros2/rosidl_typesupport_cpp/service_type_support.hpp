@@ -8,7 +8,7 @@
 namespace rosidl_typesupport_cpp {
 
 template <typename T>
-const rosidl_service_type_support_t *get_service_type_support_handle() {
+const rosidl_service_type_support_t* get_service_type_support_handle() {
   static const rosidl_service_type_support_t found{typesupport_identifier,
                                                    &gazelle::service_type<T>(), nullptr};
   return &found;

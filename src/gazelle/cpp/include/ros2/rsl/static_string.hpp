@@ -14,8 +14,8 @@ template <std::size_t capacity>
 class StaticString {
  public:
   StaticString() = default;
-  StaticString(const std::string &text) : StaticString(std::string_view(text)) {}
-  StaticString(const char *text) : StaticString(std::string_view(text)) {}
+  StaticString(const std::string& text) : StaticString(std::string_view(text)) {}
+  StaticString(const char* text) : StaticString(std::string_view(text)) {}
   StaticString(std::string_view text) : size_(text.size()) {
     if (size_ > capacity) {
       throw std::invalid_argument("the text has " + std::to_string(size_) +
@@ -38,7 +38,7 @@ class StaticString {
 };
 
 template <std::size_t capacity>
-std::string to_string(const StaticString<capacity> &text) {
+std::string to_string(const StaticString<capacity>& text) {
   return std::string(std::string_view(text));
 }
 

@@ -17,7 +17,7 @@ template <class T, std::size_t capacity>
 class StaticVector {
  public:
   StaticVector() = default;
-  StaticVector(const std::vector<T> &values) : size_(checked(values.size())) {
+  StaticVector(const std::vector<T>& values) : size_(checked(values.size())) {
     std::copy(values.begin(), values.end(), values_.begin());
   }
   StaticVector(std::initializer_list<T> values) : size_(checked(values.size())) {
@@ -30,10 +30,10 @@ class StaticVector {
   auto end() { return values_.begin() + static_cast<std::ptrdiff_t>(size_); }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  T *data() { return values_.data(); }
-  const T *data() const { return values_.data(); }
-  T &operator[](std::size_t i) { return values_[i]; }
-  const T &operator[](std::size_t i) const { return values_[i]; }
+  T* data() { return values_.data(); }
+  const T* data() const { return values_.data(); }
+  T& operator[](std::size_t i) { return values_[i]; }
+  const T& operator[](std::size_t i) const { return values_[i]; }
   operator tcb::span<T>() { return {values_.data(), size_}; }
   operator tcb::span<const T>() const { return {values_.data(), size_}; }
 
@@ -51,7 +51,7 @@ class StaticVector {
 };
 
 template <class T, std::size_t capacity>
-std::vector<T> to_vector(const StaticVector<T, capacity> &values) {
+std::vector<T> to_vector(const StaticVector<T, capacity>& values) {
   return std::vector<T>(values.begin(), values.end());
 }
 

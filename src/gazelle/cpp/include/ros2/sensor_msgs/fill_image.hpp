@@ -1,7 +1,7 @@
 #pragma once
 
-#include <sensor_msgs/msg/image.hpp>
 #include <sensor_msgs/image_encodings.hpp>
+#include <sensor_msgs/msg/image.hpp>
 
 #include <gazelle/clouds/point_cloud2.hpp>
 
@@ -9,12 +9,12 @@
 
 namespace sensor_msgs {
 
-inline bool fillImage(::sensor_msgs::msg::Image &image, const std::string &encoding_arg, uint32_t rows_arg,
-                      uint32_t cols_arg, uint32_t step_arg, const void *data_arg) {
-  return ::gazelle::clouds::fill_image(image, encoding_arg, rows_arg, cols_arg, step_arg,
-                                       data_arg);
+inline bool fillImage(::sensor_msgs::msg::Image& image, const std::string& encoding_arg,
+                      uint32_t rows_arg, uint32_t cols_arg, uint32_t step_arg,
+                      const void* data_arg) {
+  return ::gazelle::clouds::fill_image(image, encoding_arg, rows_arg, cols_arg, step_arg, data_arg);
 }
 
-inline void clearImage(::sensor_msgs::msg::Image &image) { image.data.clear(); }
+inline void clearImage(::sensor_msgs::msg::Image& image) { image.data.clear(); }
 
 }  // namespace sensor_msgs

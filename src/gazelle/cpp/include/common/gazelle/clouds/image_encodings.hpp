@@ -64,28 +64,26 @@ inline const std::string NV24 = "nv24";
 inline const std::string ABSTRACT_ENCODING_PREFIXES[] = {"8UC",  "8SC",  "16UC", "16SC",
                                                          "32SC", "32FC", "64FC"};
 
-inline bool isColor(const std::string &encoding) {
-  static const std::set<std::string> known = {RGB8,  RGBA8,  RGB16,  RGBA16, BGR8, BGRA8,
-                                              BGR16, BGRA16, UYVY,   YUYV,   NV21, NV24,
-                                              YUV422, YUV422_YUY2};
+inline bool isColor(const std::string& encoding) {
+  static const std::set<std::string> known = {RGB8,  RGBA8, RGB16,  RGBA16,     BGR8,
+                                              BGRA8, BGR16, BGRA16, UYVY,       YUYV,
+                                              NV21,  NV24,  YUV422, YUV422_YUY2};
   return known.count(encoding) != 0;
 }
 
-inline bool isMono(const std::string &encoding) {
-  return encoding == MONO8 || encoding == MONO16;
-}
+inline bool isMono(const std::string& encoding) { return encoding == MONO8 || encoding == MONO16; }
 
-inline bool isBayer(const std::string &encoding) { return encoding.compare(0, 6, "bayer_") == 0; }
+inline bool isBayer(const std::string& encoding) { return encoding.compare(0, 6, "bayer_") == 0; }
 
-inline bool hasAlpha(const std::string &encoding) {
+inline bool hasAlpha(const std::string& encoding) {
   return encoding == RGBA8 || encoding == BGRA8 || encoding == RGBA16 || encoding == BGRA16;
 }
 
 namespace detail {
 // "16SC3" as bits and channels, zeros where a text is no such name. Without a number: one channel.
-inline void matrix(const std::string &encoding, int &bits, int &channels) {
+inline void matrix(const std::string& encoding, int& bits, int& channels) {
   bits = channels = 0;
-  for (const std::string &prefix : ABSTRACT_ENCODING_PREFIXES) {
+  for (const std::string& prefix : ABSTRACT_ENCODING_PREFIXES) {
     if (encoding.compare(0, prefix.size(), prefix) == 0) {
       bits = std::atoi(prefix.c_str());
       const std::string number = encoding.substr(prefix.size());
@@ -95,7 +93,7 @@ inline void matrix(const std::string &encoding, int &bits, int &channels) {
 }
 }  // namespace detail
 
-inline int numChannels(const std::string &encoding) {
+inline int numChannels(const std::string& encoding) {
   if (encoding == RGBA8 || encoding == BGRA8 || encoding == RGBA16 || encoding == BGRA16) {
     return 4;
   }
@@ -119,7 +117,7 @@ inline int numChannels(const std::string &encoding) {
   return channels;
 }
 
-inline int bitDepth(const std::string &encoding) {
+inline int bitDepth(const std::string& encoding) {
   int bits = 0;
   int channels = 0;
   detail::matrix(encoding, bits, channels);

@@ -36,7 +36,7 @@ inline int size_of_kind(int kind) {
 }
 
 template <class Field, class Cloud>
-int add_field(Cloud &cloud, const std::string &name, int count, int kind, int offset) {
+int add_field(Cloud& cloud, const std::string& name, int count, int kind, int offset) {
   Field field;
   field.name = name;
   field.count = static_cast<std::uint32_t>(count);
@@ -50,7 +50,7 @@ int add_field(Cloud &cloud, const std::string &name, int count, int kind, int of
 template <class Cloud, class Field>
 class Modifier {
  public:
-  explicit Modifier(Cloud &cloud) : cloud_(cloud) {}
+  explicit Modifier(Cloud& cloud) : cloud_(cloud) {}
 
   std::size_t size() const {
     return cloud_.point_step == 0 ? 0 : cloud_.data.size() / cloud_.point_step;
@@ -76,7 +76,7 @@ class Modifier {
     va_start(words, n_fields);
     int offset = 0;
     for (int i = 0; i < n_fields; ++i) {
-      const std::string name(va_arg(words, char *));
+      const std::string name(va_arg(words, char*));
       const int count = va_arg(words, int);
       const int kind = va_arg(words, int);
       offset = add_field<Field>(cloud_, name, count, kind, offset);
@@ -92,7 +92,7 @@ class Modifier {
     va_start(words, n_fields);
     int offset = 0;
     for (int i = 0; i < n_fields; ++i) {
-      const std::string name(va_arg(words, char *));
+      const std::string name(va_arg(words, char*));
       if (name == "xyz") {
         offset = add_field<Field>(cloud_, "x", 1, float32, offset);
         offset = add_field<Field>(cloud_, "y", 1, float32, offset);
@@ -114,7 +114,7 @@ class Modifier {
     cloud_.row_step = cloud_.width * cloud_.point_step;
     cloud_.data.resize(static_cast<std::size_t>(cloud_.height) * cloud_.row_step);
   }
-  Cloud &cloud_;
+  Cloud& cloud_;
 };
 
 // Steps from point to point over one field, whose bytes are taken for a `Number`.
@@ -124,53 +124,54 @@ class Iterator {
 
  public:
   Iterator() = default;
-  Iterator(Cloud &cloud, const std::string &field) { begin(cloud, field); }
+  Iterator(Cloud& cloud, const std::string& field) { begin(cloud, field); }
 
-  Number &operator*() const { return *data_; }
-  Number &operator[](std::size_t i) const { return *(data_ + i); }
-  Derived &operator++() {
-    data_ = reinterpret_cast<Number *>(bytes() + step_);
-    return static_cast<Derived &>(*this);
+  Number& operator*() const { return *data_; }
+  Number& operator[](std::size_t i) const { return *(data_ + i); }
+  Derived& operator++() {
+    data_ = reinterpret_cast<Number*>(bytes() + step_);
+    return static_cast<Derived&>(*this);
   }
   Derived operator++(int) {
-    Derived before = static_cast<Derived &>(*this);
+    Derived before = static_cast<Derived&>(*this);
     ++*this;
     return before;
   }
   Derived operator+(int count) const {
-    Derived moved = static_cast<const Derived &>(*this);
+    Derived moved = static_cast<const Derived&>(*this);
     moved += count;
     return moved;
   }
-  Derived &operator+=(int count) {
-    data_ = reinterpret_cast<Number *>(bytes() + static_cast<std::ptrdiff_t>(step_) * count);
-    return static_cast<Derived &>(*this);
+  Derived& operator+=(int count) {
+    data_ = reinterpret_cast<Number*>(bytes() + static_cast<std::ptrdiff_t>(step_) * count);
+    return static_cast<Derived&>(*this);
   }
-  bool operator==(const Derived &other) const { return data_ == other.data_; }
-  bool operator!=(const Derived &other) const { return data_ != other.data_; }
+  bool operator==(const Derived& other) const { return data_ == other.data_; }
+  bool operator!=(const Derived& other) const { return data_ != other.data_; }
   Derived end() const {
-    Derived found = static_cast<const Derived &>(*this);
+    Derived found = static_cast<const Derived&>(*this);
     found.data_ = end_;
     return found;
   }
 
  private:
-  Byte *bytes() const { return reinterpret_cast<Byte *>(data_); }
+  Byte* bytes() const { return reinterpret_cast<Byte*>(data_); }
 
-  void begin(Cloud &cloud, const std::string &name) {
+  void begin(Cloud& cloud, const std::string& name) {
     step_ = cloud.point_step;
     std::size_t offset = 0;
     bool is_there = false;
-    for (const auto &field : cloud.fields) {
+    for (const auto& field : cloud.fields) {
       if (field.name == name) {
         offset = field.offset;
         is_there = true;
       }
     }
-    // The parts of a colour, which is one number of four bytes: blue first where it is little-endian.
+    // The parts of a colour, which is one number of four bytes: blue first where it is
+    // little-endian.
     const std::string parts = "bgra";
     if (!is_there && name.size() == 1 && parts.find(name) != std::string::npos) {
-      for (const auto &field : cloud.fields) {
+      for (const auto& field : cloud.fields) {
         if (field.name == "rgb" || field.name == "rgba") {
           const std::size_t place = parts.find(name);
           offset = field.offset + (cloud.is_bigendian ? 3 - place : place);
@@ -179,21 +180,21 @@ class Iterator {
       }
     }
     if (!is_there) throw std::runtime_error("Field " + name + " does not exist");
-    Byte *start = cloud.data.data();
+    Byte* start = cloud.data.data();
     const std::size_t points =
         step_ == 0 ? 0 : static_cast<std::size_t>(cloud.width) * cloud.height;
-    data_ = reinterpret_cast<Number *>(start + offset);
-    end_ = reinterpret_cast<Number *>(start + offset + points * step_);
+    data_ = reinterpret_cast<Number*>(start + offset);
+    end_ = reinterpret_cast<Number*>(start + offset + points * step_);
   }
 
   std::size_t step_ = 0;
-  Number *data_ = nullptr;
-  Number *end_ = nullptr;
+  Number* data_ = nullptr;
+  Number* end_ = nullptr;
 };
 
 // A number of any kind of a point's field.
 template <class T>
-T read_number(const unsigned char *from, int kind) {
+T read_number(const unsigned char* from, int kind) {
   const auto as = [from](auto zero) {
     auto value = zero;
     __builtin_memcpy(&value, from, sizeof(value));
@@ -222,7 +223,7 @@ T read_number(const unsigned char *from, int kind) {
 }
 
 template <class T>
-void write_number(unsigned char *to, int kind, T number) {
+void write_number(unsigned char* to, int kind, T number) {
   const auto as = [to, number](auto zero) {
     const auto value = static_cast<decltype(zero)>(number);
     __builtin_memcpy(to, &value, sizeof(value));
@@ -251,16 +252,16 @@ void write_number(unsigned char *to, int kind, T number) {
 
 // sensor_msgs/PointCloud as PointCloud2: x, y, z and the channels as 32-bit floats.
 template <class Field, class Cloud, class Cloud2>
-bool to_cloud2(const Cloud &input, Cloud2 &output) {
+bool to_cloud2(const Cloud& input, Cloud2& output) {
   output.header = input.header;
   output.width = static_cast<std::uint32_t>(input.points.size());
   output.height = 1;
   output.fields.clear();
   int offset = 0;
-  for (const char *name : {"x", "y", "z"}) {
+  for (const char* name : {"x", "y", "z"}) {
     offset = add_field<Field>(output, name, 1, float32, offset);
   }
-  for (const auto &channel : input.channels) {
+  for (const auto& channel : input.channels) {
     offset = add_field<Field>(output, channel.name, 1, float32, offset);
   }
   output.point_step = static_cast<std::uint32_t>(offset);
@@ -269,7 +270,7 @@ bool to_cloud2(const Cloud &input, Cloud2 &output) {
   output.is_bigendian = false;
   output.is_dense = false;
   for (std::size_t i = 0; i < input.points.size(); ++i) {
-    unsigned char *to = output.data.data() + i * output.point_step;
+    unsigned char* to = output.data.data() + i * output.point_step;
     write_number(to, float32, input.points[i].x);
     write_number(to + 4, float32, input.points[i].y);
     write_number(to + 8, float32, input.points[i].z);
@@ -283,7 +284,7 @@ bool to_cloud2(const Cloud &input, Cloud2 &output) {
 }
 
 template <class Cloud2>
-int field_index(const Cloud2 &cloud, const std::string &name) {
+int field_index(const Cloud2& cloud, const std::string& name) {
   for (std::size_t i = 0; i < cloud.fields.size(); ++i) {
     if (cloud.fields[i].name == name) return static_cast<int>(i);
   }
@@ -291,7 +292,7 @@ int field_index(const Cloud2 &cloud, const std::string &name) {
 }
 
 template <class Cloud2, class Cloud>
-bool from_cloud2(const Cloud2 &input, Cloud &output) {
+bool from_cloud2(const Cloud2& input, Cloud& output) {
   output.header = input.header;
   const std::size_t count = static_cast<std::size_t>(input.width) * input.height;
   const int x = field_index(input, "x");
@@ -309,14 +310,14 @@ bool from_cloud2(const Cloud2 &input, Cloud &output) {
       output.channels.back().values.resize(count);
     }
   }
-  const auto value = [&input](const unsigned char *point, int index) {
-    const auto &field = input.fields[static_cast<std::size_t>(index)];
+  const auto value = [&input](const unsigned char* point, int index) {
+    const auto& field = input.fields[static_cast<std::size_t>(index)];
     return read_number<float>(point + field.offset, field.datatype);
   };
   for (std::uint32_t row = 0; row < input.height; ++row) {
     for (std::uint32_t column = 0; column < input.width; ++column) {
       const std::size_t i = static_cast<std::size_t>(row) * input.width + column;
-      const unsigned char *point = input.data.data() +
+      const unsigned char* point = input.data.data() +
                                    static_cast<std::size_t>(row) * input.row_step +
                                    static_cast<std::size_t>(column) * input.point_step;
       output.points[i].x = value(point, x);
@@ -331,13 +332,13 @@ bool from_cloud2(const Cloud2 &input, Cloud &output) {
 }
 
 template <class Image>
-bool fill_image(Image &image, const std::string &encoding, std::uint32_t rows,
-                std::uint32_t columns, std::uint32_t step, const void *data) {
+bool fill_image(Image& image, const std::string& encoding, std::uint32_t rows,
+                std::uint32_t columns, std::uint32_t step, const void* data) {
   image.encoding = encoding;
   image.height = rows;
   image.width = columns;
   image.step = step;
-  const auto *start = static_cast<const unsigned char *>(data);
+  const auto* start = static_cast<const unsigned char*>(data);
   image.data.assign(start, start + static_cast<std::size_t>(step) * rows);
   image.is_bigendian = 0;
   return true;
