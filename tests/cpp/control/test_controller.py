@@ -195,6 +195,6 @@ def test_a_type_that_nobody_declares_is_told_with_what_was_looked_for(tmp_path: 
     (tmp_path / "src").mkdir()
     with (
         world(tmp_path / "src", robot, parameters) as sim,
-        pytest.raises(ControllerError, match="no plug-in description declares it"),
+        pytest.raises(ControllerError, match="nor does a plug-in description declare one"),
     ):
         sim.controller_manager().spawn(name)

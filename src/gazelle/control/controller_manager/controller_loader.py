@@ -159,9 +159,9 @@ class ControllerMaker:
     def _searched(self, type_name: str) -> str:
         word = type_name.replace("::", "/").rpartition("/")[2]
         return (
-            f", no Python file of the workspace has a class '{word}', and no plug-in description "
-            "declares it for pr2_controller_interface (other controllers of C++ do not run here; "
-            "one of your own is a Python class with init, starting, update, stopping)"
+            f", and no Python file of the workspace has a class '{word}' (nor does a plug-in "
+            "description declare one for pr2_controller_interface; other controllers of C++ do not "
+            "run here; one of your own is a Python class with init, starting, update, stopping)"
         )
 
 
