@@ -19,9 +19,10 @@ from gazelle.cli.ros2.verbs import (
 )
 from gazelle.cli.ros_tool import ToolError, hint
 from gazelle.cli.text.fill_message import yaml_words
+from gazelle.errors import GraphError
 from gazelle.graph import Graph, Node
 from gazelle.graph.ros2_parameter_values import value_message
-from gazelle.interfaces import message_type
+from gazelle.interfaces import message_type, service_type
 from gazelle.node_specs.registry import builtin_executables, executable_of_component
 from gazelle.workspace import Workspace
 
@@ -84,7 +85,7 @@ def run_types(options: argparse.Namespace) -> int:
             print("\n".join([name, *(f"  {one}" for one in types)]))
     if not registered:
         print(
-            "no prefix of AMENT_PREFIX_PATH registers components; Gazelle runs nodes as processes",
+            "no prefix of AMENT_PREFIX_PATH registers components",
             file=sys.stderr,
         )
     return 0
@@ -115,11 +116,15 @@ def add_arguments_standalone(parser: argparse.ArgumentParser) -> None:
 
 
 def run_standalone(options: argparse.Namespace) -> int:
-    """Say what does the component's work: compiled code cannot be loaded here."""
+    """Say what does the component's work, or how a container of its own is started."""
     return fail(
         f"Failed to load component: '{options.plugin_name}' of package '{options.package_name}' "
-        "is compiled code, and Gazelle has no container that loads it"
+        "needs a container of its own"
         + instead_of(options.package_name, options.plugin_name, _words(options))
+        + "\n  ros2 run rclcpp_components component_container --ros-args "
+        f"-r __node:={options.container_node_name}"
+        + f"\n  ros2 component load /{options.container_node_name} "
+        f"{options.package_name} {options.plugin_name}"
     )
 
 
@@ -130,7 +135,7 @@ def instead_of(package: str, plugin: str, arguments: str = "") -> str:
         return f"\n  the built-in node does the same: ros2 run {package} {found}{arguments}"
     if types:
         return f"\n  built-in nodes of the package: {', '.join(types)}"
-    return "\n  write the node in Python and start it with ros2 run"
+    return ""
 
 
 def add_arguments_list(parser: _Parser) -> None:
@@ -173,10 +178,9 @@ def run_load(options: argparse.Namespace) -> int:
         except ToolError as error:
             return fail(f"{error}{instead_of(options.package_name, options.plugin_name)}")
         node, _ = cli_node(graph, options)
-        answer = _call(
+        answer = _load(
             node,
             name,
-            "load_node",
             package_name=options.package_name,
             plugin_name=options.plugin_name,
             node_name=options.node_name,
@@ -262,6 +266,16 @@ def _components(node: Node, container: str) -> list[str]:
     answer = _call(node, container, "list_nodes")
     pairs = zip(answer.unique_ids, answer.full_node_names, strict=False)
     return [f"{uid}  {name}" for uid, name in pairs]
+
+
+def _load(node: Node, container: str, **fields: Any) -> Any:
+    """Have a container load a component, however long it takes to compile it."""
+    short = "_container/load_node"
+    kind = service_type(_KINDS[short])
+    try:
+        return node.create_client(f"{container}/{short}", kind).call(kind.Request(**fields))
+    except GraphError as error:
+        raise ToolError(str(error)) from None
 
 
 def _call(node: Node, container: str, name: str, **fields: Any) -> Any:
