@@ -274,8 +274,8 @@ def _environment(environ: Mapping[str, str], unit: Unit) -> dict[str, str]:
         )
     variables["LC_ALL"] = "C"
     variables["NINJA_STATUS"] = "[%f/%t] "
-    for name in ("CXXFLAGS", "CFLAGS", "LDFLAGS", "CMAKE_GENERATOR", "CXX", "CC"):
-        variables.pop(name, None)
+    variables.pop("CMAKE_GENERATOR", None)
+    variables.pop("CMAKE_TOOLCHAIN_FILE", None)
     return variables
 
 
