@@ -246,6 +246,8 @@ _ROWS = (
     _ros1("interactive_markers"),
     _ros2("interactive_markers"),
     ProvidedPackage("urdf", ("urdf",)),
+    ProvidedPackage("kdl_parser", ("urdf", "kdl")),
+    ProvidedPackage("resource_retriever", ("core",)),
     *(
         ProvidedPackage(name, ("urdf",), targets=(f"{name}::{name}", "urdfdom_model"))
         for name in ("urdfdom", "urdfdom_headers", "urdf_parser_plugin")

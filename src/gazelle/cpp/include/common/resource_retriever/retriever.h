@@ -1,0 +1,3 @@
+#pragma once
+
+#include "resource_retriever/retriever.hpp"

@@ -1,0 +1,3 @@
+#pragma once
+
+#include "ament_index_cpp/get_resource.hpp"
