@@ -76,6 +76,10 @@ macro(gazelle_provide name)
   foreach(gazelle_script IN LISTS GAZELLE_SCRIPTS_OF_${name})
     gazelle_load("${gazelle_script}")
   endforeach()
+  if("${name}" MATCHES "^(cv_bridge|image_geometry)$")
+    include("${GAZELLE_CMAKE_FOLDER}/opencv.cmake")
+    gazelle_with_opencv("${name}")
+  endif()
 endmacro()
 
 # Names of targets that a package's messages have while it is built itself.

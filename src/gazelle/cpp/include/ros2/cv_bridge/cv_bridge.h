@@ -1,0 +1,2 @@
+#pragma once
+#include "cv_bridge/cv_bridge.hpp"
