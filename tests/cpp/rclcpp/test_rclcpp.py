@@ -10,6 +10,7 @@ from tests.cpp.rclcpp.conftest import Probe
 from tests.patience import eventually
 
 from gazelle.graph import Graph
+from gazelle.graph.actions import ActionClient, ActionServer, Ros2Status, ServerGoal
 from gazelle.interfaces import message_type, service_type
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="nodes of C++ run on Linux for now")
@@ -87,4 +88,61 @@ def test_a_managed_node_is_changed_by_others(graph: Graph, probe: Probe) -> None
     current = node.create_client("/managed/get_state", state)
     assert current.call(state.Request(), timeout_s=10.0).current_state.label == "unconfigured"
     assert not change_to(3)
+    assert running.stop(signal.SIGINT) == 0
+
+
+def test_a_client_of_python_sends_goals_to_a_server_of_cpp(graph: Graph, probe: Probe) -> None:
+    running = probe("serve_action")
+    running.wait_for_line("ready")
+    client = ActionClient(
+        graph.create_node("tester"), "fibonacci", "example_interfaces/Fibonacci", ros_version=2
+    )
+    assert client.wait_for_server(20.0)
+    goal = client.send_goal({"order": 5})
+    assert goal.wait(20.0)
+    assert (goal.status, list(goal.result.sequence)) == (Ros2Status.SUCCEEDED, [0, 1, 1, 2, 3, 5])
+    endless = client.send_goal({"order": 40})
+    eventually(lambda: endless.feedback is not None)
+    endless.cancel()
+    assert endless.wait(20.0)
+    assert endless.status is Ros2Status.CANCELED
+    assert not client.send_goal({"order": 41}).is_accepted
+    assert running.stop(signal.SIGINT) == 0
+
+
+def test_a_client_of_cpp_sends_goals_to_a_server_of_python(graph: Graph, probe: Probe) -> None:
+    def take(goal: ServerGoal) -> None:
+        goal.accept()
+        goal.publish_feedback({"sequence": [0, 1]})
+        goal.succeed({"sequence": [0, 1, 1]})
+
+    node = graph.create_node("tester")
+    ActionServer(node, "fibonacci", "example_interfaces/Fibonacci", on_goal=take, ros_version=2)
+    running = probe("act")
+    assert running.wait() == 0
+    assert "result 4 3" in running.lines
+
+
+def test_timers_follow_simulated_time(graph: Graph, probe: Probe) -> None:
+    clock = message_type("rosgraph_msgs/msg/Clock")
+    publisher = graph.create_node("world").create_publisher("/clock", clock)
+
+    def show(milliseconds: int) -> None:
+        message = clock()
+        message.clock.sec, rest = divmod(milliseconds, 1000)
+        message.clock.nanosec = rest * 1_000_000
+        publisher.publish(message)
+
+    running = probe("sim_time", "--ros-args", "-p", "use_sim_time:=true")
+    running.wait_for_line("simulated")
+    running.wait_for_line("ready")
+    eventually(lambda: publisher.matched)
+    show(500)
+    eventually(lambda: (show(1500), any(line.startswith("tick 1") for line in running.lines))[1])
+    show(2500)
+    running.wait_for_line("tick 2 at 2500000000")
+    # Time goes back: the next call is a period later.
+    show(100)
+    show(1200)
+    running.wait_for_line("tick 3 at 1200000000")
     assert running.stop(signal.SIGINT) == 0
