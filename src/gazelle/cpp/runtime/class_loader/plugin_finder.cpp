@@ -25,8 +25,7 @@ std::string name_without_package(const std::string& lookup_name) {
 }
 
 PluginFinder::PluginFinder(const std::string& package, const std::string& base_class,
-                           const std::string& attribute,
-                           const std::vector<std::string>& xml_paths)
+                           const std::string& attribute, const std::vector<std::string>& xml_paths)
     : package_(package), base_class_(base_class), attribute_(attribute), given_paths_(xml_paths) {
   refresh();
 }
@@ -128,12 +127,12 @@ void* PluginFinder::create(const std::string& lookup_name, const char* base, boo
   const std::string library = gazelle::library_identity(path);
   void* made = registry.create(desc.derived_class_, base, library);
   if (made != nullptr) return made;
-  throw CreateClassException(
-      "Failed to create an instance of " + lookup_name + ": library " + path +
-      " has registered no class " + desc.derived_class_ + " with base class " + base_class_ +
-      " (it has: " + joined(registry.names(base, library)) +
-      "); see the macro PLUGINLIB_EXPORT_CLASS and attribute type of " +
-      desc.plugin_manifest_path_);
+  throw CreateClassException("Failed to create an instance of " + lookup_name + ": library " +
+                             path + " has registered no class " + desc.derived_class_ +
+                             " with base class " + base_class_ +
+                             " (it has: " + joined(registry.names(base, library)) +
+                             "); see the macro PLUGINLIB_EXPORT_CLASS and attribute type of " +
+                             desc.plugin_manifest_path_);
 }
 
 }  // namespace detail

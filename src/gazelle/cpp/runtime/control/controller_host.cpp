@@ -181,8 +181,8 @@ GAZELLE_EXPORT int gazelle_control_init(gazelle_controller* controller, const ch
     controller->commands = commands;
     const std::string description = json["description"].as_string();
     std::string problem;
-    if (!description.empty() && !gazelle::model_from_text(
-                                    description, controller->robot.robot_model_, problem)) {
+    if (!description.empty() &&
+        !gazelle::model_from_text(description, controller->robot.robot_model_, problem)) {
       gazelle::log(gazelle::Level::kError, problem);
     }
     const auto index = [](const Json& value) { return static_cast<int>(value.as_int(-1)); };

@@ -79,8 +79,8 @@ dynamic_reconfigure::ConfigDescription description(const Pid::Gains& gains) {
 
 LiveGains::LiveGains(const ros::NodeHandle& node, const Pid::Gains& gains)
     : node_(node), gains_(gains) {
-  descriptions_ = node_.advertise<dynamic_reconfigure::ConfigDescription>(
-      "parameter_descriptions", 1, true);
+  descriptions_ =
+      node_.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true);
   descriptions_.publish(description(gains));
   updates_ = node_.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
   updates_.publish(current(gains));

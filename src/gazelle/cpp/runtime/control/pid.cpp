@@ -88,14 +88,12 @@ bool Pid::init(const ros::NodeHandle& n, const bool quiet) {
 }
 
 void Pid::initDynamicReconfig(ros::NodeHandle& node) {
-  ROS_DEBUG_STREAM_NAMED("pid", "Initializing dynamic reconfigure in namespace "
-                                    << node.getNamespace());
+  ROS_DEBUG_STREAM_NAMED("pid",
+                         "Initializing dynamic reconfigure in namespace " << node.getNamespace());
   live_.reset(new detail::LiveGains(node, gains_));
 }
 
-void Pid::reset() {
-  p_error_last_ = p_error_ = i_error_ = d_error_ = cmd_ = 0.0;
-}
+void Pid::reset() { p_error_last_ = p_error_ = i_error_ = d_error_ = cmd_ = 0.0; }
 
 void Pid::getGains(double& p, double& i, double& d, double& i_max, double& i_min) const {
   bool antiwindup;

@@ -108,9 +108,8 @@ class Link {
                  std::map<std::string, double>& found) {
     std::unique_lock<std::mutex> lock(mutex_);
     const bool complete = changed_.wait_for(lock, std::chrono::duration<double>(wait_s), [&]() {
-      return std::all_of(needed.begin(), needed.end(), [this](const std::string& name) {
-        return positions_.count(name) != 0;
-      });
+      return std::all_of(needed.begin(), needed.end(),
+                         [this](const std::string& name) { return positions_.count(name) != 0; });
     });
     found = positions_;
     return complete;

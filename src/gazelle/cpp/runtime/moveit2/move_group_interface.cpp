@@ -115,9 +115,8 @@ class Link {
                  std::map<std::string, double>& found) {
     std::unique_lock<std::mutex> lock(mutex_);
     const bool complete = changed_.wait_for(lock, std::chrono::duration<double>(wait_s), [&]() {
-      return std::all_of(needed.begin(), needed.end(), [this](const std::string& name) {
-        return positions_.count(name) != 0;
-      });
+      return std::all_of(needed.begin(), needed.end(),
+                         [this](const std::string& name) { return positions_.count(name) != 0; });
     });
     found = positions_;
     return complete;
@@ -268,8 +267,8 @@ PlanningSceneInterface::PlanningSceneInterface(const std::string& ns, bool /*wai
   options.arguments({"--ros-args", "-r",
                      "__node:=planning_scene_interface_" +
                          std::to_string(reinterpret_cast<std::uintptr_t>(this))});
-  impl_->link = std::make_shared<Link>(
-      rclcpp::Node::make_shared("planning_scene_interface", options), ns);
+  impl_->link =
+      std::make_shared<Link>(rclcpp::Node::make_shared("planning_scene_interface", options), ns);
 }
 
 }  // namespace planning_interface

@@ -107,8 +107,7 @@ std::vector<std::string> RobotModel::getJointModelNames() const {
 const JointModelGroup* RobotModel::getJointModelGroup(const std::string& group) const {
   const auto found = groups_.find(group);
   if (found != groups_.end()) return &found->second;
-  gazelle::log(gazelle::Level::kError,
-               "Group '" + group + "' not found in model '" + name_ + "'");
+  gazelle::log(gazelle::Level::kError, "Group '" + group + "' not found in model '" + name_ + "'");
   return nullptr;
 }
 
@@ -134,8 +133,8 @@ int RobotModel::getVariableIndex(const std::string& variable) const {
 }
 
 void RobotState::setToRandomPositions(const JointModelGroup* group) {
-  const Json found = gazelle::call(
-      "moveit/random", Json::object({{"key", model_->key()}, {"group", group->name}}));
+  const Json found = gazelle::call("moveit/random",
+                                   Json::object({{"key", model_->key()}, {"group", group->name}}));
   std::vector<double> values;
   for (const Json& value : found.items()) values.push_back(value.as_double());
   setJointGroupPositions(group, values);
@@ -147,14 +146,13 @@ bool RobotState::setFromIK(const JointModelGroup* group, const Eigen::Isometry3d
   const Eigen::Vector3d place = pose.translation();
   const std::string link = tip.empty() ? group->end_effector_link() : tip;
   const Json found = gazelle::call(
-      "moveit/ik",
-      Json::object({{"key", model_->key()},
-                    {"group", group->name},
-                    {"link", link},
-                    {"positions", Json(positions_)},
-                    {"timeout_s", timeout},
-                    {"pose", Json::array({place.x(), place.y(), place.z(), turn.x(), turn.y(),
-                                          turn.z(), turn.w()})}}));
+      "moveit/ik", Json::object({{"key", model_->key()},
+                                 {"group", group->name},
+                                 {"link", link},
+                                 {"positions", Json(positions_)},
+                                 {"timeout_s", timeout},
+                                 {"pose", Json::array({place.x(), place.y(), place.z(), turn.x(),
+                                                       turn.y(), turn.z(), turn.w()})}}));
   if (found.is_null()) return false;
   std::vector<double> values;
   for (const Json& value : found.items()) values.push_back(value.as_double());
@@ -206,8 +204,8 @@ bool RobotState::satisfiesBounds(double margin) const { return satisfiesBounds(n
 bool RobotState::satisfiesBounds(const JointModelGroup* group, double margin) const {
   return for_bounds(*model_, group, [&](int index, const VariableBounds& bounds) {
     const double value = positions_[index];
-    return !bounds.position_bounded_ || (value >= bounds.min_position_ - margin &&
-                                         value <= bounds.max_position_ + margin);
+    return !bounds.position_bounded_ ||
+           (value >= bounds.min_position_ - margin && value <= bounds.max_position_ + margin);
   });
 }
 

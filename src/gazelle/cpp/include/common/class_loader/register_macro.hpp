@@ -16,11 +16,12 @@
 #define CLASS_LOADER_REGISTER_CLASS(Derived, Base) \
   GAZELLE_CLASS_LOADER_REGISTER_2(Derived, Base, __COUNTER__)
 
-#define CLASS_LOADER_REGISTER_CLASS_WITH_MESSAGE(Derived, Base, Message) \
-  CLASS_LOADER_REGISTER_CLASS(Derived, Base)                             \
-  namespace {                                                            \
-  const int GAZELLE_CLASS_LOADER_UNIQUE(g_gazelle_class_message_) =      \
-      (std::fprintf(stderr, "%s\n", Message), 0);                        \
+#define CLASS_LOADER_REGISTER_CLASS_WITH_MESSAGE(Derived, Base, Message)                          \
+  CLASS_LOADER_REGISTER_CLASS(Derived, Base)                                                      \
+  namespace {                                                                                     \
+  const int GAZELLE_CLASS_LOADER_UNIQUE(g_gazelle_class_message_) = (std::fprintf(stderr, "%s\n", \
+                                                                                  Message),       \
+                                                                     0);                          \
   }
 #define GAZELLE_CLASS_LOADER_JOIN_2(a, b) a##b
 #define GAZELLE_CLASS_LOADER_JOIN(a, b) GAZELLE_CLASS_LOADER_JOIN_2(a, b)

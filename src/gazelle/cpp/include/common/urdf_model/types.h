@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#define GAZELLE_URDF_POINTERS(Class)                  \
-  class Class;                                        \
-  using Class##SharedPtr = std::shared_ptr<Class>;    \
+#define GAZELLE_URDF_POINTERS(Class)                          \
+  class Class;                                                \
+  using Class##SharedPtr = std::shared_ptr<Class>;            \
   using Class##ConstSharedPtr = std::shared_ptr<const Class>; \
   using Class##WeakPtr = std::weak_ptr<Class>
 

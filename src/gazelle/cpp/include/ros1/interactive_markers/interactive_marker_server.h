@@ -19,7 +19,8 @@
 
 namespace interactive_markers {
 
-using FeedbackCallback = boost::function<void(const visualization_msgs::InteractiveMarkerFeedbackConstPtr&)>;
+using FeedbackCallback =
+    boost::function<void(const visualization_msgs::InteractiveMarkerFeedbackConstPtr&)>;
 using FeedbackConstPtr = visualization_msgs::InteractiveMarkerFeedbackConstPtr;
 using HeaderMsg = std_msgs::Header;
 using InteractiveMarkerFeedback = visualization_msgs::InteractiveMarkerFeedback;
@@ -43,8 +44,8 @@ class InteractiveMarkerServer : boost::noncopyable {
       : node_handle_(topic_ns) {
     if (spin_thread) node_handle_.setCallbackQueue(&queue_);
     server_id_ = ros::this_node::getName() + (server_id.empty() ? "" : "/" + server_id);
-    init_ = node_handle_.advertise<visualization_msgs::InteractiveMarkerInit>("update_full", 100,
-                                                                              true);
+    init_ =
+        node_handle_.advertise<visualization_msgs::InteractiveMarkerInit>("update_full", 100, true);
     update_ = node_handle_.advertise<visualization_msgs::InteractiveMarkerUpdate>("update", 100);
     feedback_ = node_handle_.subscribe("feedback", 100, &InteractiveMarkerServer::take, this);
     keep_alive_ = node_handle_.createTimer(ros::Duration(0.5),

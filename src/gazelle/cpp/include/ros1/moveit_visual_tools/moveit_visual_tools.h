@@ -16,8 +16,8 @@ class MoveItVisualTools : public TrajectoryTools {
   explicit MoveItVisualTools(const std::string& base_frame,
                              const std::string& marker_topic = "/rviz_visual_tools",
                              moveit::core::RobotModelConstPtr = nullptr)
-      : TrajectoryTools(base_frame, std::make_shared<rviz_visual_tools::Outlet>(
-                                        ros::NodeHandle(), marker_topic)) {}
+      : TrajectoryTools(base_frame, std::make_shared<rviz_visual_tools::Outlet>(ros::NodeHandle(),
+                                                                                marker_topic)) {}
 };
 
 }  // namespace moveit_visual_tools

@@ -17,8 +17,10 @@ class PackageNotFoundError : public std::out_of_range {
 
 namespace detail {
 inline std::string of_package(const char* verb, const std::string& package_name) {
-  if (package_name.empty()) throw std::runtime_error("get_package_prefix() package name must not be empty");
-  const gazelle::Json found = gazelle::call(verb, gazelle::Json::object({{"package", package_name}}));
+  if (package_name.empty())
+    throw std::runtime_error("get_package_prefix() package name must not be empty");
+  const gazelle::Json found =
+      gazelle::call(verb, gazelle::Json::object({{"package", package_name}}));
   if (found.is_null()) throw PackageNotFoundError(package_name);
   return found.as_string();
 }

@@ -45,8 +45,8 @@ class InteractiveMarkerServer {
       : InteractiveMarkerServer(
             topic_namespace, node->get_node_base_interface(), node->get_node_clock_interface(),
             node->get_node_logging_interface(), node->get_node_timers_interface(),
-            node->get_node_topics_interface(), node->get_node_services_interface(),
-            update_pub_qos, feedback_sub_qos) {}
+            node->get_node_topics_interface(), node->get_node_services_interface(), update_pub_qos,
+            feedback_sub_qos) {}
 
   InteractiveMarkerServer(
       const std::string& topic_namespace,

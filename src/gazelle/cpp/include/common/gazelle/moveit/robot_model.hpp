@@ -201,7 +201,9 @@ class RobotState {
   const JointModelGroup* getJointModelGroup(const std::string& group) const {
     return model_->getJointModelGroup(group);
   }
-  const LinkModel* getLinkModel(const std::string& link) const { return model_->getLinkModel(link); }
+  const LinkModel* getLinkModel(const std::string& link) const {
+    return model_->getLinkModel(link);
+  }
   const JointModel* getJointModel(const std::string& joint) const {
     return model_->getJointModel(joint);
   }
