@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from typing import TYPE_CHECKING, Any
 
 from gazelle.cpp.raw_messages import RawMessageBase, know_type, raw_message_type
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from gazelle.graph.key_expressions import Entity
 
 __all__ = ["HostPublisher", "HostSubscription", "qos_of"]
+
+_SETTLED_S = 1.0
 
 
 class HostPublisher:
@@ -42,7 +45,9 @@ class HostPublisher:
         know_type(self.type_name, request.get("definition", ""), is_ros1=_is_ros1(request))
         qos = qos_of(request["qos"])
         latch = bool(request.get("latch")) or qos.latched
-        self._is_wanted: bool | None = None
+        # Until then a publisher takes it that somebody may listen.
+        self._settles_s = time.monotonic() + _SETTLED_S
+        self._is_settled = False
         self._subscribers: set[Entity] = set()
         self._telling = threading.Lock()
         self._raw: type[RawMessageBase] | None = None
@@ -84,7 +89,9 @@ class HostPublisher:
         except GraphError:
             # A thread of C++ publishes while another one closes it.
             return
-        if self._is_wanted and not self._publisher.wanted:
+        if not self._is_settled and time.monotonic() > self._settles_s:
+            # From now on whoever comes or goes is told of.
+            self._is_settled = True
             self._tell()
 
     def on_entity(self, entity: Entity, *, is_there: bool) -> None:
@@ -114,9 +121,8 @@ class HostPublisher:
             return
         # Of two threads that look, the one that looked last has the last word.
         with self._telling:
-            self._is_wanted = self._publisher.wanted
-            count = self._publisher.subscription_count
-            self._core.on_matched(self._number, count, int(self._is_wanted))
+            wanted, count = self._publisher.wanted, self._publisher.subscription_count
+            self._core.on_matched(self._number, count, int(wanted))
 
 
 class HostSubscription:

@@ -40,10 +40,10 @@ def test_a_message_goes_from_python_to_cpp_and_back(graph: Graph, probe: Probe) 
 def test_the_ends_of_a_node_are_seen_as_those_of_any_other(graph: Graph, probe: Probe) -> None:
     running = probe("echo")
     running.wait_for_line("ready")
-    info = graph.node_info("/probe")
-    assert ("/out", "std_msgs/msg/String") in info.publications
-    assert ("/in", "std_msgs/msg/String") in info.subscriptions
-    assert info.pid == running.popen.pid
+    out, heard = ("/out", "std_msgs/msg/String"), ("/in", "std_msgs/msg/String")
+    eventually(lambda: out in graph.node_info("/probe").publications)
+    eventually(lambda: heard in graph.node_info("/probe").subscriptions)
+    assert graph.node_info("/probe").pid == running.popen.pid
 
 
 def test_a_node_is_shut_down_by_one_of_its_name(graph: Graph, probe: Probe) -> None:
