@@ -69,7 +69,7 @@ def _said(cfg: Path) -> dict[str, Any]:
 def _header(namespace: str, name: str, said: dict[str, Any]) -> str:
     config = f"{name}Config"
     root = said["group"]
-    groups = list(_numbered(root, ()))
+    groups = list(_numbered(root))
     rows = [
         _row(config, parameter, number)
         for number, (group, _) in enumerate(groups)
@@ -108,7 +108,7 @@ def _header(namespace: str, name: str, said: dict[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _numbered(group: dict[str, Any], above: tuple[str, ...]) -> Iterator[tuple[Any, str]]:
+def _numbered(group: dict[str, Any]) -> Iterator[tuple[Any, str]]:
     """Yield groups in order of their numbers, with the member of the class that each is."""
     found: list[tuple[dict[str, Any], str]] = []
 

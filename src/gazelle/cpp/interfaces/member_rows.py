@@ -10,7 +10,6 @@ import struct
 from typing import Any, NamedTuple
 
 from gazelle.cpp.interfaces.field_types import element_type, literal
-from gazelle.cpp.interfaces.header_names import class_name
 from gazelle.interfaces import Definition, Field, RosVersion, TypeStore
 from gazelle.interfaces.definition import Array, attribute_name
 from gazelle.interfaces.wire_layout import Slot, Wire, bind
@@ -165,8 +164,3 @@ class _Absent:
 def _bits(letter: str, value: Any) -> str:
     packed = struct.pack("<" + letter, value).ljust(8, b"\0")
     return f"{int.from_bytes(packed, 'little')}ull"
-
-
-def layout_class(definition: Definition) -> str:
-    """Return the class that rows of a definition call ``Self``."""
-    return class_name(definition.name, definition.ros_version, "ContainerAllocator")
