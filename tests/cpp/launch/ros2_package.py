@@ -1,4 +1,4 @@
-"""A package of ROS 2 with C++ that answers, a component, and a node that does not compile."""
+"""A package of ROS 2 with C++ that answers and a component, and one that does not compile."""
 
 from __future__ import annotations
 
@@ -12,8 +12,6 @@ find_package(rclcpp_components REQUIRED)
 find_package(std_msgs REQUIRED)
 add_executable(replier src/replier.cpp)
 ament_target_dependencies(replier rclcpp std_msgs)
-add_executable(bad src/bad.cpp)
-ament_target_dependencies(bad rclcpp)
 add_library(doubler SHARED src/doubler.cpp)
 ament_target_dependencies(doubler rclcpp rclcpp_components std_msgs)
 rclcpp_components_register_nodes(doubler "replies::Doubler")
@@ -95,6 +93,15 @@ int main() {
   return no_such_name;
 }
 """
+_BROKEN = """cmake_minimum_required(VERSION 3.8)
+project(broken)
+find_package(ament_cmake REQUIRED)
+find_package(rclcpp REQUIRED)
+add_executable(bad src/bad.cpp)
+ament_target_dependencies(bad rclcpp)
+install(TARGETS bad DESTINATION lib/${PROJECT_NAME})
+ament_package()
+"""
 _ASKER = """#!/usr/bin/env python3
 import sys
 
@@ -123,10 +130,12 @@ FILES = {
     "replies/package.xml": _MANIFEST,
     "replies/src/replier.cpp": _REPLIER,
     "replies/src/doubler.cpp": _DOUBLER,
-    "replies/src/bad.cpp": _BAD,
+    "broken/CMakeLists.txt": _BROKEN,
+    "broken/package.xml": _MANIFEST.replace("replies", "broken"),
+    "broken/src/bad.cpp": _BAD,
     "replies/scripts/asker.py": _ASKER,
 }
-"""Every file of the package, by its path below ``src``."""
+"""Every file of the package, and of one that does not compile, by its path below ``src``."""
 
 LAUNCH = """from launch import LaunchDescription
 from launch.actions import EmitEvent, RegisterEventHandler
@@ -139,7 +148,7 @@ from launch_ros.descriptions import ComposableNode
 def generate_launch_description():
     asker = Node(package="replies", executable="asker.py", arguments=["twice"], output="screen")
     return LaunchDescription([
-        Node(package="replies", executable="bad"),
+        Node(package="broken", executable="bad"),
         Node(package="replies", executable="replier", output="screen",
              parameters=[{"sign": "!"}]),
         ComposableNodeContainer(

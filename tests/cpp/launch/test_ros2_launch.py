@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import subprocess
 
 import pytest
@@ -13,10 +12,8 @@ from tests.patience import stretched
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="node files are ELF")
 
-_GOOD = {name: text for name, text in FILES.items() if "bad" not in name}
-_GOOD["replies/CMakeLists.txt"] = re.sub(
-    r"\n[^\n]*\(bad [^\n]*", "", FILES["replies/CMakeLists.txt"]
-)
+_GOOD = {name: text for name, text in FILES.items() if name.startswith("replies/")}
+_BROKEN = {name: text for name, text in FILES.items() if name.startswith("broken/")}
 _SHORT = _GOOD | {
     "replies/src/replier.cpp": "#include <rclcpp/rclcpp.hpp>\n#include <cstdio>\n"
     "int main(int argc, char** argv) {\n  auto rest = rclcpp::init_and_remove_ros_arguments(argc,"
@@ -31,7 +28,7 @@ def test_launch_compiles_nodes_and_components_and_goes_on_without_what_fails(
     ran = gazelle("ros2", "launch", "replies", "all.launch.py", folder=top)
     told = ran.stdout + ran.stderr
     assert ran.returncode == 1, told
-    assert f"{top}/src/replies/src/bad.cpp:4" in told, told
+    assert f"{top}/src/broken/src/bad.cpp:4" in told, told
     assert "no_such_name" in told
     assert "it does not compile; the others go on" in told
     assert "ready to reply" in told
@@ -72,11 +69,11 @@ def test_colcon_build_installs_programs_that_run_by_themselves(
 
 
 def test_mistake_fails_colcon_build_and_ros2_run(workspace: Workspace, gazelle: Gazelle) -> None:
-    top = workspace(FILES)
+    top = workspace(_BROKEN)
     built = gazelle("colcon", "build", folder=top)
     assert built.returncode != 0
-    assert "Failed   <<< replies" in built.stderr
-    assert f"{top}/src/replies/src/bad.cpp:4" in built.stderr
-    ran = gazelle("ros2", "run", "replies", "bad", folder=top)
+    assert "Failed   <<< broken" in built.stderr
+    assert f"{top}/src/broken/src/bad.cpp:4" in built.stderr
+    ran = gazelle("ros2", "run", "broken", "bad", folder=top)
     assert ran.returncode == 1
     assert "no_such_name" in ran.stderr and "'bad' does not compile" in ran.stderr

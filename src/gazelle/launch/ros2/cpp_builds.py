@@ -7,32 +7,35 @@ all was built before.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
-from gazelle.diagnostics import Diagnostics
-from gazelle.launch.cpp_nodes import compiled_ahead
-from gazelle.launch.node_commands import Executable
-from gazelle.workspace.ament_index import known_workspace
+from gazelle.diagnostics import Diagnostic, Diagnostics
 
 if TYPE_CHECKING:
-    from gazelle.launch.ros2.launch_context import LaunchContext
+    from gazelle.launch.node_commands import Executable
 
-__all__ = ["CppBuilds", "builds_of"]
-
-
-def builds_of(context: LaunchContext) -> CppBuilds:
-    """Return what compiles for a launch."""
-    if context.cpp_builds is None:
-        context.cpp_builds = CppBuilds(context)
-    return context.cpp_builds
+__all__ = ["CppBuilds"]
 
 
 class CppBuilds:
-    """Compiles what nodes want, in a thread, batch by batch."""
+    """Compiles what nodes want, in a thread, batch by batch.
 
-    def __init__(self, context: LaunchContext) -> None:
-        self._context = context
+    Args:
+        loop: gives the event loop of the running launch.
+        report: told each finding.
+        is_over: tells whether the launch ends.
+    """
+
+    def __init__(
+        self,
+        loop: Callable[[], Any],
+        report: Callable[[Diagnostic], None],
+        is_over: Callable[[], bool],
+    ) -> None:
+        self._loop = loop
+        self._report = report
+        self._is_over = is_over
         self._wanted: list[Executable] = []
         self._made: dict[Executable, Executable | None] = {}
         self._task: asyncio.Task[None] | None = None
@@ -43,12 +46,15 @@ class CppBuilds:
             return
         self._wanted.append(found)
         if self._task is None or self._task.done():
-            self._task = self._context.asyncio_loop.create_task(self._compile())
+            self._task = self._loop().create_task(self._compile())
 
-    async def finished(self) -> None:
-        """Wait until nothing is left to compile."""
-        while self._task is not None and not self._task.done():
+    async def finished(self) -> bool:
+        """Wait until nothing is left to compile; False when the launch has come to its end then."""
+        if self._task is None:
+            return True
+        while not self._task.done():
             await asyncio.shield(self._task)
+        return not self._is_over()
 
     def made_of(self, found: Executable) -> Executable | None:
         """Return how something is run that was compiled; None where that failed."""
@@ -58,17 +64,20 @@ class CppBuilds:
         while self._wanted:
             batch, self._wanted = self._wanted, []
             diagnostics = Diagnostics()
-            loop = self._context.asyncio_loop
             try:
-                made = await loop.run_in_executor(None, _compiled, batch, diagnostics)
+                made = await self._loop().run_in_executor(None, _compiled, batch, diagnostics)
             finally:
                 self._made |= dict.fromkeys(batch)
             self._made |= dict(zip(batch, made, strict=True))
-            if self._context.is_shutdown:
+            if self._is_over():
                 return
             for one in diagnostics:
-                self._context.report(one)
+                self._report(one)
 
 
 def _compiled(batch: Sequence[Executable], diagnostics: Diagnostics) -> list[Executable | None]:
+    # Only here: a launch without C++ looks for none.
+    from gazelle.launch.cpp_nodes import compiled_ahead
+    from gazelle.workspace.ament_index import known_workspace
+
     return compiled_ahead(batch, workspace=known_workspace(), diagnostics=diagnostics)

@@ -6,18 +6,16 @@ import asyncio
 import collections
 import os
 from collections.abc import Iterable, MutableMapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from gazelle.diagnostics import Diagnostic, Diagnostics, render
 from gazelle.launch.ros2.child_process import WatchedGroups
+from gazelle.launch.ros2.cpp_builds import CppBuilds
 from gazelle.launch.ros2.event import Event
 from gazelle.launch.ros2.event_handler import BaseEventHandler
 from gazelle.launch.ros2.substitution import Substitution
 from gazelle.launch.ros2.user_spans import keep_span
 from gazelle.launch.watchdog import Watchdog
-
-if TYPE_CHECKING:
-    from gazelle.launch.ros2.cpp_builds import CppBuilds
 
 __all__ = ["LaunchContext"]
 
@@ -49,7 +47,7 @@ class LaunchContext:
     Attributes:
         diagnostics: what is wrong with the user's files, everything so far.
         watched_groups: the processes, which end when the launcher does; None before the first.
-        cpp_builds: C++ that is compiled before processes start; None before the first of it.
+        cpp_builds: C++ that is compiled before processes start.
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
@@ -57,7 +55,9 @@ class LaunchContext:
         self.__noninteractive = noninteractive
         self.diagnostics = Diagnostics()
         self.watched_groups: WatchedGroups | None = None
-        self.cpp_builds: CppBuilds | None = None
+        self.cpp_builds = CppBuilds(
+            lambda: self.asyncio_loop, self.report, lambda: self.is_shutdown
+        )
         self._event_queue: asyncio.Queue[Event] = asyncio.Queue()
         self._event_handlers: collections.deque[BaseEventHandler] = collections.deque()
         self._completion_futures: list[asyncio.Future[Any]] = []

@@ -346,10 +346,7 @@ class ExecuteLocal(Action):
             context: of the launch.
             details: of the process; its command may change.
         """
-        if context.cpp_builds is not None:
-            await context.cpp_builds.finished()
-            return not context.is_shutdown
-        return True
+        return await context.cpp_builds.finished()
 
     async def __run_once(self, context: LaunchContext) -> bool:
         """Run the process to its end; False when it cannot be started."""

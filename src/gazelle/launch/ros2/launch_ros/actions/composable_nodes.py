@@ -13,7 +13,6 @@ from gazelle.interfaces import message_type, service_type
 from gazelle.launch.cpp_nodes import all_of_package
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.action import Action
-from gazelle.launch.ros2.cpp_builds import builds_of
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
 from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.launch_ros.actions.node import Node
@@ -207,7 +206,7 @@ def _want_cpp(context: LaunchContext, request: Any) -> None:
     plugin = request.plugin_name
     if executable_of_component(package.name, plugin) and not prefers_cpp(context.environment):
         return
-    builds_of(context).want(all_of_package(package))
+    context.cpp_builds.want(all_of_package(package))
 
 
 def _is_wanted(node: ComposableNode, context: LaunchContext) -> bool:

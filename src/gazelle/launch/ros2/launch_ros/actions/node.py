@@ -12,7 +12,6 @@ from gazelle.documents.files import is_file, is_folder
 from gazelle.documents.yaml import MESSAGE_STYLE, PYTHON_STYLE, Layout, Writer, dump_yaml
 from gazelle.launch.ros2 import logging as launch_logging
 from gazelle.launch.ros2.actions import ExecuteProcess
-from gazelle.launch.ros2.cpp_builds import builds_of
 from gazelle.launch.ros2.frontend import Entity, Parser, expose_action
 from gazelle.launch.ros2.launch_description_entity import LaunchDescriptionEntity
 from gazelle.launch.ros2.launch_ros.actions.node_keywords import (
@@ -263,7 +262,7 @@ class Node(ExecuteProcess):
         what.add_arguments([*self.__own_arguments(context), *(self.__ros_arguments or ())])
         carry_graph()
         if what.command is not None and what.command.has_to_be_compiled:
-            builds_of(context).want(what.command.executable)
+            context.cpp_builds.want(what.command.executable)
         found = super().execute(context)
         self.__count_name(context)
         return found
@@ -274,7 +273,6 @@ class Node(ExecuteProcess):
         assert isinstance(what, NodeExecutable)
         if not may_start or what.command is None or not what.command.has_to_be_compiled:
             return may_start
-        assert context.cpp_builds is not None
         made = context.cpp_builds.made_of(what.command.executable)
         if made is None:
             self.is_absent = True
