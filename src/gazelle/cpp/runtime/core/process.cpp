@@ -40,11 +40,13 @@ Life &life() {
 // What a signal handler may touch.
 std::atomic<int> signal_pipe{-1};
 std::atomic<bool> *is_ending_flag = nullptr;
+std::atomic<int> last_signal{0};
 struct sigaction previous_actions[NSIG];
 std::atomic<bool> is_installed[NSIG];
 
 void on_signal(int number, siginfo_t *info, void *context) {
   const int error = errno;
+  last_signal.store(number);
   is_ending_flag->store(true);
   const auto word = static_cast<unsigned char>(number);
   if (write(signal_pipe.load(), &word, 1) < 0) {
@@ -110,6 +112,10 @@ void request_shutdown(const std::string &reason) {
 
 std::string shutdown_reason() {
   std::lock_guard lock(life().mutex);
+  // Whoever sees that the process is to end may be faster than the thread that tells of it.
+  if (life().is_ending && !life().was_told && last_signal != 0) {
+    return "signal-" + std::to_string(last_signal);
+  }
   return life().reason;
 }
 
@@ -123,6 +129,7 @@ void reset_shutdown() {
   std::lock_guard lock(life().mutex);
   life().is_ending = false;
   life().was_told = false;
+  last_signal = 0;
   life().reason.clear();
 }
 
