@@ -1,10 +1,11 @@
-"""A program of C++ over roscpp, compiled once a session."""
+"""Programs of C++ over roscpp, compiled once a session."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,10 @@ _PROGRAMS = Path(__file__).parent / "programs"
 
 
 @pytest.fixture(scope="session")
-def roscpp_probe_file(tmp_path_factory: pytest.TempPathFactory, shared_cpp_cache: Path) -> Path:
-    """The node file of ``roscpp_probe.cpp``."""
+def compiled(
+    tmp_path_factory: pytest.TempPathFactory, shared_cpp_cache: Path
+) -> Callable[[str, str], Path]:
+    """Compiles a program here by its name, with a library beside roscpp, once a session."""
     del shared_cpp_cache
     if sys.platform != "linux":
         pytest.skip("nodes of C++ run on Linux for now")
@@ -28,22 +31,40 @@ def roscpp_probe_file(tmp_path_factory: pytest.TempPathFactory, shared_cpp_cache
         find_toolchain()
     except NoToolchainError as error:
         pytest.skip(str(error))
-    file = tmp_path_factory.mktemp("roscpp") / "probe"
-    source = str(_PROGRAMS / "roscpp_probe.cpp")
-    command = [sys.executable, "-m", "gazelle.cpp.compile", source, "-o", str(file), "--ros", "1"]
-    outcome = subprocess.run(
-        [*command, "--lib", "rosbag", "-f=-Werror"], check=False, capture_output=True
-    )
-    assert outcome.returncode == 0, outcome.stderr.decode()
-    return file
+
+    @cache
+    def compiled_file(name: str, library: str) -> Path:
+        file = tmp_path_factory.mktemp("roscpp") / name
+        source = str(_PROGRAMS / f"{name}.cpp")
+        words = ["-m", "gazelle.cpp.compile", source, "-o", str(file), "--ros", "1"]
+        outcome = subprocess.run(
+            [sys.executable, *words, "--lib", library, "-f=-Werror"],
+            check=False,
+            capture_output=True,
+        )
+        assert outcome.returncode == 0, outcome.stderr.decode()
+        return file
+
+    return compiled_file
 
 
 @pytest.fixture
-def probe(gazelle: Run, roscpp_probe_file: Path) -> Probe:
+def probe(gazelle: Run, compiled: Callable[[str, str], Path]) -> Probe:
     """Runs ``roscpp_probe WORDS…`` on the test's own graph."""
+    return runner(gazelle, compiled("roscpp_probe", "rosbag"))
+
+
+@pytest.fixture
+def camera(gazelle: Run, compiled: Callable[[str, str], Path]) -> Probe:
+    """Runs ``camera_probe WORDS…`` on the test's own graph."""
+    return runner(gazelle, compiled("camera_probe", "camera_info_manager"))
+
+
+def runner(gazelle: Run, file: Path) -> Probe:
+    """Return what runs a node file."""
 
     def run(*words: str, **options: Any) -> Launched:
-        return gazelle(str(roscpp_probe_file), *words, module="gazelle.cpp.host", **options)
+        return gazelle(str(file), *words, module="gazelle.cpp.host", **options)
 
     return run
 
