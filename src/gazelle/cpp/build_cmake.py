@@ -82,7 +82,7 @@ def configure(
         CppBuildError: a runtime library does not compile.
     """
     cmake, ninja = _programs(environ)
-    write_settings(unit, toolchain, _libraries_named(unit))
+    write_settings(unit, toolchain, _libraries_named(unit, toolchain))
     command = [
         str(cmake), "-S", str(unit.path), "-B", str(unit.build), "-G", "Ninja",
         f"-DCMAKE_MAKE_PROGRAM={ninja}",
@@ -236,7 +236,7 @@ def _same(file: Path, text: str) -> bool:
         return False
 
 
-def _libraries_named(unit: Unit) -> list[str]:
+def _libraries_named(unit: Unit, toolchain: Toolchain) -> list[str]:
     """Return the runtime libraries of the packages that a package's CMake files name."""
     words: set[str] = {*unit.build_depends}
     for file in (unit.path / "CMakeLists.txt", *unit.path.glob("cmake/*.cmake")):
@@ -246,15 +246,10 @@ def _libraries_named(unit: Unit) -> list[str]:
             continue
         words |= set(re.findall(r"[A-Za-z][\w-]*", re.sub(r"#.*", "", text)))
     known = provided(unit.generation) if unit.generation else {}
-    return sorted(
-        {
-            library
-            for name in words
-            if name in known
-            for library in known[name].libraries
-            if library in LIBRARIES
-        }
-    )
+    found = {library for name in words if name in known for library in known[name].libraries}
+    if {"Boost", "thread"} <= words and "thread" not in toolchain.boost_libraries:
+        found.add("boost_thread")
+    return sorted(found & set(LIBRARIES))
 
 
 def _environment(environ: Mapping[str, str], unit: Unit) -> dict[str, str]:

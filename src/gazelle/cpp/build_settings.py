@@ -240,8 +240,6 @@ def _of_boost(toolchain: Toolchain) -> dict[str, Iterable[str] | str]:
     }
     for name, file in toolchain.boost_libraries.items():
         rows[f"GAZELLE_BOOST_FILES_{name}"] = str(file)
-    if "boost_thread" in LIBRARIES:
-        for name in ("thread", "chrono", "system", "filesystem"):
-            if name not in toolchain.boost_libraries:
-                rows[f"GAZELLE_BOOST_LIBRARIES_{name}"] = "boost_thread"
+    if "thread" not in toolchain.boost_libraries:
+        rows["GAZELLE_BOOST_LIBRARIES_thread"] = "boost_thread"
     return rows
