@@ -26,7 +26,6 @@ from gazelle.workspace import Workspace
 __all__ = ["EmbeddedHost", "EmbeddingWorld", "NodeOfWorld", "embedded_host"]
 
 _LEVELS = {10: "debug", 20: "info", 30: "warn", 40: "error", 50: "fatal"}
-_REQUIRED = object()
 _ANSWER_S = 10.0
 # Every process offers them once, for its own node.
 _OF_EVERY_NODE = ("/get_loggers", "/set_logger_level")
@@ -108,12 +107,17 @@ class EmbeddedHost:
         self._time_ns = time_ns
         self.core.on_clock(sim_time=True, page=0, now_ns=time_ns, jump_ns=jump_ns)
 
+    @property
+    def parameters(self) -> Any:
+        """The parameter store of the world, for the verbs of parameters."""
+        return self._of_world().node.parameters
+
     def call(self, verb: str, request: dict[str, Any]) -> Any:
         """Do what a verb says."""
         own = _OWN_VERBS.get(verb)
         if own is not None:
             return own(self, request)
-        return verb_named(verb)(self, request)  # type: ignore[arg-type]
+        return verb_named(verb)(self, request)
 
     def publish(self, publisher: int, data: bytes) -> None:
         """Send a message."""
@@ -243,31 +247,6 @@ class EmbeddedHost:
         text = f"{request['topic']}: messages of type {request['type']} are not taken, "
         self._of_world().node.log("warn", f"{text}{request['wanted']} is")
 
-    def _get_parameter(self, request: dict[str, Any]) -> dict[str, Any]:
-        store = self._of_world().node.parameters
-        value = store.get(request["name"], _REQUIRED)
-        found = value is not _REQUIRED
-        return {"found": found, "value": value if found else None}
-
-    def _set_parameter(self, request: dict[str, Any]) -> None:
-        self._of_world().node.parameters.set(request["name"], request["value"])
-
-    def _has_parameter(self, request: dict[str, Any]) -> bool:
-        return bool(self._of_world().node.parameters.has(request["name"]))
-
-    def _search_parameter(self, request: dict[str, Any]) -> str | None:
-        store, name = self._of_world().node.parameters, request["name"]
-        if name.startswith("/"):
-            return name if store.has(name) else None
-        parts = [part for part in request.get("namespace", "/").split("/") if part]
-        first = name.partition("/")[0]
-        for count in range(len(parts), -1, -1):
-            place = "/" + "/".join((*parts[:count], ""))
-            place = place.replace("//", "/")
-            if store.has(f"{place}{first}"):
-                return f"{place}{name}"
-        return None
-
 
 class _Answer:
     """The answer of C++ to one request."""
@@ -289,10 +268,6 @@ _OWN_VERBS: dict[str, Callable[[EmbeddedHost, dict[str, Any]], Any]] = {
     "node/create": EmbeddedHost._create_node,
     "node/resolve": lambda host, request: request["name"],
     "node/shutdown": lambda host, request: None,
-    "param/get": EmbeddedHost._get_parameter,
-    "param/has": EmbeddedHost._has_parameter,
-    "param/search": EmbeddedHost._search_parameter,
-    "param/set": EmbeddedHost._set_parameter,
     "process/leave": lambda host, request: None,
     "service/client": EmbeddedHost._client,
     "service/is_ready": lambda host, request: False,
