@@ -332,8 +332,22 @@ def _missing_packages(
                 continue
             seen.add(name)
             is_ours = name in known or name in messages or bool(refusal(name, generation))
+            is_ours = is_ours or _toolchain_has(name)
             if not is_ours and name not in workspace.packages and not _cmake_has(name):
                 yield MissingPackage(name, step.span)
+
+
+def _toolchain_has(name: str) -> bool:
+    """Tell whether the headers of a library come with the compiler, from a wheel or the system."""
+    from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
+
+    try:
+        toolchain = find_toolchain()
+    except NoToolchainError:  # told by who asks for a compiler
+        return name in {"Boost", "Eigen", "Eigen3"}
+    if name == "Boost":
+        return toolchain.has_boost
+    return name in {"Eigen", "Eigen3"} and toolchain.eigen is not None
 
 
 @cache

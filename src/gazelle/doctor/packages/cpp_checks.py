@@ -15,6 +15,11 @@ from gazelle.workspace.building.cmake_plan import has_compiled_targets
 __all__ = ["check_cpp"]
 
 _SHOWN = 5
+_OF_SYSTEM = {
+    "OpenCV": "apt install libopencv-dev",
+    "PCL": "apt install libpcl-dev",
+    "yaml-cpp": "apt install libyaml-cpp-dev",
+}
 
 
 def check_cpp(source: SourcePackage, workspace: Workspace, diagnostics: Diagnostics) -> None:
@@ -28,6 +33,7 @@ def check_cpp(source: SourcePackage, workspace: Workspace, diagnostics: Diagnost
     for package in needs.packages:
         text = f"package '{package.name}', which CMakeLists.txt requires, is not here"
         _, fix = package_advice(package.name, needs.generation)
+        fix = _OF_SYSTEM.get(package.name, fix)
         diagnostics.report("package.cpp-package", text, package.span, fix=fix)
     for target, headers in _by_target(needs.headers):
         names = ", ".join(f"'{item.name}'" for item in headers[:_SHOWN])
