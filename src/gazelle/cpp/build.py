@@ -162,7 +162,10 @@ def ensure_installed(
     diagnostics: Diagnostics,
     environ: Mapping[str, str] | None = None,
 ) -> Path | None:
-    """Return a prefix with everything that C++ makes of a package: for catkin its devel space."""
+    """Return a prefix with all that C++ makes of a package: for catkin its devel space.
+
+    What of it does not compile is told and absent.
+    """
     work = _Work(workspace, diagnostics, os.environ if environ is None else environ)
     work.want(package, "", None)
     work.done()
@@ -511,12 +514,10 @@ class _Work:
         if not whole and not names:
             return
         run = self._ninja(unit, toolchain, names, found)
-        if whole and run.code == 0 and unit.install is not None:
-            done = install(unit, self._environ)
+        if whole and unit.install is not None:
+            done = install(unit, self._environ, is_partial=run.code != 0)
             if done.code:
                 report_failures(unit, done, found)
-        if run.code and whole:
-            self.failed.add(unit.name)
         for request, target in chosen.items():
             if target.file.is_file() and _is_current(target, unit, run):
                 self._found[request.package.name, request.name] = target.file

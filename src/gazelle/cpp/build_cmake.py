@@ -32,6 +32,8 @@ _TRIES = 4
 _SOURCES = (".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".hxx", ".inl", ".ipp")
 _LEFT_OUT = re.compile(r"(?<=\s)-(?:m(?:arch|tune|cpu)=native|Werror(?:=[\w-]+)?)(?=[\s\"])")
 
+_INSTALLED = re.compile(r"(file\(INSTALL DESTINATION \"[^\"]*\" TYPE \w+)(?! OPTIONAL)")
+
 Said = Callable[[str], object]
 
 
@@ -180,8 +182,27 @@ def left_out_flags(unit: Unit) -> set[str]:
     return set(_LEFT_OUT.findall(text))
 
 
-def install(unit: Unit, environ: Mapping[str, str], said: Said | None = None) -> CMakeRun:
-    """Do what ``cmake --install`` does."""
+def install(
+    unit: Unit,
+    environ: Mapping[str, str],
+    said: Said | None = None,
+    *,
+    is_partial: bool = False,
+) -> CMakeRun:
+    """Do what ``cmake --install`` does.
+
+    Args:
+        unit: the package.
+        environ: environment variables.
+        said: gets each line.
+        is_partial: install what there is of it; otherwise the first file that is absent ends it.
+    """
+    if is_partial:
+        for script in unit.build.rglob("cmake_install.cmake"):
+            text = script.read_text(encoding="utf-8")
+            changed = _INSTALLED.sub(r"\1 OPTIONAL", text)
+            if changed != text:
+                script.write_text(changed, encoding="utf-8")
     cmake, _ = _programs(environ)
     return _run([str(cmake), "--install", str(unit.build)], environ, unit, said)
 

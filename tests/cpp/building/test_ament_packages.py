@@ -129,6 +129,17 @@ def test_a_workspace_is_installed_package_by_package(packages: Packages, tmp_pat
     assert (tmp_path / "install" / "shapes" / "lib" / "libarea.so").is_file()
 
 
+def test_what_compiles_of_a_package_is_installed(packages: Packages) -> None:
+    broken = {**DRAWER, "drawer/src/draw.cpp": "int main() { return nowhere; }\n"}
+    workspace, found = opened(packages(SHAPES | broken)), Diagnostics()
+    prefix = ensure_installed(workspace.package("drawer"), workspace=workspace, diagnostics=found)
+    assert {item.code for item in found} == {"cpp.compile-error"}
+    assert prefix is not None
+    assert (prefix / "lib" / "libcomponent.so").is_file()
+    assert not (prefix / "lib" / "drawer" / "draw").exists()
+    assert (prefix / "share" / "ament_index" / "resource_index" / "rclcpp_components").is_dir()
+
+
 AUTO = {
     "auto/package.xml": manifest("auto", "ament_cmake_auto", "rclcpp", "geometry_msgs"),
     "auto/CMakeLists.txt": """
