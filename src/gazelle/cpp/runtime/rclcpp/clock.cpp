@@ -54,7 +54,7 @@ void Clock::Impl::use_sim_time(bool use) {
   count_simulated(use ? 1 : -1);
   if (use && !jump_listener_) {
     std::weak_ptr<Impl> weak = weak_from_this();
-    jump_listener_ = gazelle::clock::on_jump([weak](const gazelle::clock::Jump &jump) {
+    jump_listener_ = gazelle::clock::on_jump([weak](const gazelle::clock::Jump& jump) {
       const auto self = weak.lock();
       if (!self || !self->sim || jump.clock_changed) return;
       self->tell_jump({RCL_ROS_TIME_NO_CHANGE, {jump.delta_ns}});
@@ -64,31 +64,31 @@ void Clock::Impl::use_sim_time(bool use) {
   gazelle::clock::notify_waiters();
 }
 
-void Clock::Impl::tell_jump(const rcl_time_jump_t &jump) {
+void Clock::Impl::tell_jump(const rcl_time_jump_t& jump) {
   std::vector<std::shared_ptr<JumpHandler>> strong;
   {
     std::lock_guard<std::mutex> lock(handlers_mutex);
-    for (const auto &one : handlers) {
+    for (const auto& one : handlers) {
       if (auto found = one.lock()) strong.push_back(std::move(found));
     }
     handlers.assign(strong.begin(), strong.end());
   }
-  const bool changed = jump.clock_change == RCL_ROS_TIME_ACTIVATED ||
-                       jump.clock_change == RCL_ROS_TIME_DEACTIVATED;
-  for (const auto &one : strong) {
-    const auto &threshold = one->notice_threshold;
+  const bool changed =
+      jump.clock_change == RCL_ROS_TIME_ACTIVATED || jump.clock_change == RCL_ROS_TIME_DEACTIVATED;
+  for (const auto& one : strong) {
+    const auto& threshold = one->notice_threshold;
     const auto delta = jump.delta.nanoseconds;
-    const bool forward = threshold.min_forward.nanoseconds > 0 &&
-                         delta >= threshold.min_forward.nanoseconds;
-    const bool backward = threshold.min_backward.nanoseconds < 0 &&
-                          delta <= threshold.min_backward.nanoseconds;
+    const bool forward =
+        threshold.min_forward.nanoseconds > 0 && delta >= threshold.min_forward.nanoseconds;
+    const bool backward =
+        threshold.min_backward.nanoseconds < 0 && delta <= threshold.min_backward.nanoseconds;
     if (!((threshold.on_clock_change && changed) || forward || backward)) continue;
     if (one->pre_callback) one->pre_callback();
     if (one->post_callback) one->post_callback(jump);
   }
 }
 
-bool Clock::Impl::wait(std::int64_t until_ns, const std::function<bool()> &stop) {
+bool Clock::Impl::wait(std::int64_t until_ns, const std::function<bool()>& stop) {
   const std::uint64_t count = cancelled;
   const bool simulated = is_simulated();
   const auto ended = [&]() { return stop() || cancelled != count || is_simulated() != simulated; };
@@ -130,8 +130,8 @@ bool Clock::wait_until_started(Context::SharedPtr context) {
   return wait_until_started(Duration::max(), std::move(context));
 }
 
-bool Clock::wait_until_started(const Duration &timeout, Context::SharedPtr context,
-                               const Duration &wait_tick_ns) {
+bool Clock::wait_until_started(const Duration& timeout, Context::SharedPtr context,
+                               const Duration& wait_tick_ns) {
   if (!context || !context->is_valid()) {
     throw std::runtime_error("context cannot be slept with because it's invalid");
   }
@@ -152,13 +152,13 @@ void Clock::cancel_sleep_or_wait() {
 }
 
 bool Clock::ros_time_is_active() { return impl_->is_simulated(); }
-rcl_clock_t *Clock::get_clock_handle() noexcept { return &impl_->handle; }
+rcl_clock_t* Clock::get_clock_handle() noexcept { return &impl_->handle; }
 rcl_clock_type_t Clock::get_clock_type() const noexcept { return impl_->type; }
-std::mutex &Clock::get_clock_mutex() noexcept { return impl_->mutex; }
+std::mutex& Clock::get_clock_mutex() noexcept { return impl_->mutex; }
 
 JumpHandler::SharedPtr Clock::create_jump_callback(JumpHandler::pre_callback_t before,
                                                    JumpHandler::post_callback_t after,
-                                                   const rcl_jump_threshold_t &threshold) {
+                                                   const rcl_jump_threshold_t& threshold) {
   auto handler = std::make_shared<JumpHandler>(std::move(before), std::move(after), threshold);
   std::lock_guard<std::mutex> lock(impl_->handlers_mutex);
   impl_->handlers.push_back(handler);
@@ -173,7 +173,7 @@ Rate::Rate(double rate, Clock::SharedPtr clock)
   period_ = Duration::from_seconds(1.0 / rate);
 }
 
-Rate::Rate(const Duration &period, Clock::SharedPtr clock)
+Rate::Rate(const Duration& period, Clock::SharedPtr clock)
     : clock_(std::move(clock)), period_(period), last_interval_(clock_->now()) {
   if (period <= Duration(0, 0)) throw std::invalid_argument("period must be greater than 0");
 }
@@ -203,14 +203,14 @@ std::chrono::nanoseconds Rate::period() const {
 
 class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
  public:
-  void attach(const std::shared_ptr<Node> &node) {
+  void attach(const std::shared_ptr<Node>& node) {
     node_ = node;
     if (!node->has_parameter("use_sim_time")) node->declare_parameter("use_sim_time", false);
     bool use = false;
     node->get_parameter("use_sim_time", use);
     std::weak_ptr<Impl> weak = shared_from_this();
-    handle_ = node->add_post_set_parameters_callback([weak](const std::vector<Parameter> &changed) {
-      for (const auto &one : changed) {
+    handle_ = node->add_post_set_parameters_callback([weak](const std::vector<Parameter>& changed) {
+      for (const auto& one : changed) {
         if (one.get_name() != "use_sim_time" || one.get_type() != PARAMETER_BOOL) continue;
         if (const auto self = weak.lock()) self->use(one.as_bool());
       }
@@ -225,7 +225,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
     node_.reset();
     use(false);
   }
-  void add(const Clock::SharedPtr &clock) {
+  void add(const Clock::SharedPtr& clock) {
     if (clock->get_clock_type() != RCL_ROS_TIME) {
       throw std::invalid_argument("Cannot attach a clock that's not ROS_TIME to a time source");
     }
@@ -233,7 +233,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
     clocks_.push_back(clock);
     clock->impl().use_sim_time(use_);
   }
-  void remove(const Clock::SharedPtr &clock) {
+  void remove(const Clock::SharedPtr& clock) {
     std::lock_guard<std::mutex> lock(mutex_);
     const auto found = std::find(clocks_.begin(), clocks_.end(), clock);
     if (found != clocks_.end()) clocks_.erase(found);
@@ -241,7 +241,7 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
   void use(bool sim) {
     std::lock_guard<std::mutex> lock(mutex_);
     use_ = sim;
-    for (const auto &one : clocks_) one->impl().use_sim_time(sim);
+    for (const auto& one : clocks_) one->impl().use_sim_time(sim);
   }
   bool use_clock_thread = true;
 
@@ -253,12 +253,12 @@ class TimeSource::Impl : public std::enable_shared_from_this<TimeSource::Impl> {
   bool use_ = false;
 };
 
-TimeSource::TimeSource(std::shared_ptr<Node> node, const QoS &qos, bool use_clock_thread)
+TimeSource::TimeSource(std::shared_ptr<Node> node, const QoS& qos, bool use_clock_thread)
     : TimeSource(qos, use_clock_thread) {
   attachNode(std::move(node));
 }
 
-TimeSource::TimeSource(const QoS &, bool use_clock_thread) : impl_(std::make_shared<Impl>()) {
+TimeSource::TimeSource(const QoS&, bool use_clock_thread) : impl_(std::make_shared<Impl>()) {
   impl_->use_clock_thread = use_clock_thread;
 }
 
@@ -275,7 +275,7 @@ namespace detail {
 
 bool ThrottledPlace::is_first() { return !seen.exchange(true); }
 
-bool ThrottledPlace::may_speak(const Clock &clock, double duration_ms) {
+bool ThrottledPlace::may_speak(const Clock& clock, double duration_ms) {
   const std::int64_t now = clock.impl().now_ns();
   std::int64_t last = last_ns.load();
   const bool first = !spoken.exchange(true);
@@ -287,8 +287,8 @@ bool ThrottledPlace::may_speak(const Clock &clock, double duration_ms) {
 }  // namespace detail
 }  // namespace rclcpp
 
-extern "C" rcl_ret_t rcl_clock_get_now(rcl_clock_t *clock, rcl_time_point_value_t *now) {
+extern "C" rcl_ret_t rcl_clock_get_now(rcl_clock_t* clock, rcl_time_point_value_t* now) {
   if (!clock || !clock->data || !now) return RCL_RET_INVALID_ARGUMENT;
-  *now = static_cast<rclcpp::Clock::Impl *>(clock->data)->now_ns();
+  *now = static_cast<rclcpp::Clock::Impl*>(clock->data)->now_ns();
   return RCL_RET_OK;
 }

@@ -20,8 +20,8 @@ class Clock::Impl : public std::enable_shared_from_this<Clock::Impl> {
   /// Follow simulated time, or the wall's again.
   void use_sim_time(bool use);
   bool is_simulated() const { return type == RCL_ROS_TIME && sim.load(); }
-  bool wait(std::int64_t until_ns, const std::function<bool()> &stop);
-  void tell_jump(const rcl_time_jump_t &jump);
+  bool wait(std::int64_t until_ns, const std::function<bool()>& stop);
+  void tell_jump(const rcl_time_jump_t& jump);
 
   const rcl_clock_type_t type;
   rcl_clock_t handle{};

@@ -30,13 +30,13 @@ bool EventWork::do_work() {
   return true;
 }
 
-EndpointEvents::EndpointEvents(const PublisherEventCallbacks &callbacks, const QoS &qos)
+EndpointEvents::EndpointEvents(const PublisherEventCallbacks& callbacks, const QoS& qos)
     : is_publisher_(true), publisher_(callbacks), qos_(qos), work_(std::make_shared<EventWork>()) {
   any_ = callbacks.deadline_callback || callbacks.liveliness_callback ||
          callbacks.incompatible_qos_callback || callbacks.matched_callback;
 }
 
-EndpointEvents::EndpointEvents(const SubscriptionEventCallbacks &callbacks, const QoS &qos)
+EndpointEvents::EndpointEvents(const SubscriptionEventCallbacks& callbacks, const QoS& qos)
     : is_publisher_(false),
       subscription_(callbacks),
       qos_(qos),
@@ -93,31 +93,30 @@ void EndpointEvents::stop() {
   if (lease_alarm_) gazelle::Alarms::cancel(lease_alarm_);
 }
 
-void EndpointEvents::watch(std::atomic<std::int64_t> &last, std::int64_t period_ns,
-                           std::uint64_t &alarm, std::function<void()> missed) {
+void EndpointEvents::watch(std::atomic<std::int64_t>& last, std::int64_t period_ns,
+                           std::uint64_t& alarm, std::function<void()> missed) {
   std::lock_guard<std::mutex> lock(mutex_);
   if (stopped_) return;
   std::weak_ptr<EndpointEvents> weak = weak_from_this();
   const std::int64_t due = last.load() + period_ns;
-  alarm = gazelle::Alarms::at(
-      gazelle::Alarms::Base::kSteady, due,
-      [weak, &last, period_ns, &alarm, missed](gazelle::clock::Wake how) {
-        const auto self = weak.lock();
-        if (!self || how == gazelle::clock::Wake::kStopped) return;
-        const std::int64_t now = gazelle::clock::steady_ns();
-        if (last.load() + period_ns <= now) {
-          last.store(now);
-          self->work_->push(missed);
-        }
-        self->watch(last, period_ns, alarm, missed);
-      });
+  alarm = gazelle::Alarms::at(gazelle::Alarms::Base::kSteady, due,
+                              [weak, &last, period_ns, &alarm, missed](gazelle::clock::Wake how) {
+                                const auto self = weak.lock();
+                                if (!self || how == gazelle::clock::Wake::kStopped) return;
+                                const std::int64_t now = gazelle::clock::steady_ns();
+                                if (last.load() + period_ns <= now) {
+                                  last.store(now);
+                                  self->work_->push(missed);
+                                }
+                                self->watch(last, period_ns, alarm, missed);
+                              });
 }
 
 void EndpointEvents::on_matched(std::size_t count) {
   if (!any_) return;
-  const bool wants_clashes =
-      is_publisher_ ? static_cast<bool>(publisher_.incompatible_qos_callback)
-                    : static_cast<bool>(subscription_.incompatible_qos_callback);
+  const bool wants_clashes = is_publisher_
+                                 ? static_cast<bool>(publisher_.incompatible_qos_callback)
+                                 : static_cast<bool>(subscription_.incompatible_qos_callback);
   MatchedInfo info{};
   QOSLivelinessChangedInfo alive{};
   {
@@ -133,7 +132,7 @@ void EndpointEvents::on_matched(std::size_t count) {
     alive.alive_count = static_cast<std::int32_t>(count);
     alive.alive_count_change = change;
   }
-  const auto &told = is_publisher_ ? publisher_.matched_callback : subscription_.matched_callback;
+  const auto& told = is_publisher_ ? publisher_.matched_callback : subscription_.matched_callback;
   if (told) {
     work_->push([told, info]() {
       MatchedInfo copy = info;
@@ -161,7 +160,7 @@ void EndpointEvents::look_for_clashes() {
                                            {"name", topic ? topic() : std::string()},
                                            {"known", true}}));
   std::map<std::string, bool> found;
-  for (const auto &end : ends.items()) {
+  for (const auto& end : ends.items()) {
     const QoS other = qos_of_end(end["qos"]);
     const auto policy = is_publisher_ ? clashing_policy(qos_, other) : clashing_policy(other, qos_);
     if (policy == RMW_QOS_POLICY_INVALID) continue;
@@ -178,10 +177,10 @@ void EndpointEvents::look_for_clashes() {
   clashing_ = std::move(found);
 }
 
-void EndpointEvents::on_sequence(const gazelle::MessageInfo &info) {
+void EndpointEvents::on_sequence(const gazelle::MessageInfo& info) {
   if (!info.sequence) return;
   std::lock_guard<std::mutex> lock(mutex_);
-  std::uint64_t &last = sequences_[info.gid];
+  std::uint64_t& last = sequences_[info.gid];
   const std::uint64_t missed = last && info.sequence > last + 1 ? info.sequence - last - 1 : 0;
   last = info.sequence;
   if (!missed) return;
@@ -194,7 +193,7 @@ void EndpointEvents::on_sequence(const gazelle::MessageInfo &info) {
   });
 }
 
-rmw_qos_policy_kind_t clashing_policy(const QoS &offered, const QoS &wanted) {
+rmw_qos_policy_kind_t clashing_policy(const QoS& offered, const QoS& wanted) {
   const auto a = offered.to_graph();
   const auto b = wanted.to_graph();
   if (!a.transient_local && b.transient_local) return RMW_QOS_POLICY_DURABILITY;
@@ -207,12 +206,12 @@ rmw_qos_policy_kind_t clashing_policy(const QoS &offered, const QoS &wanted) {
   return RMW_QOS_POLICY_INVALID;
 }
 
-QoS qos_of_end(const gazelle::Json &json) {
+QoS qos_of_end(const gazelle::Json& json) {
   QoS qos(KeepLast(static_cast<std::size_t>(json["depth"].as_int(10))));
   if (json["depth"].as_int(10) <= 0) qos.keep_all();
   if (!json["reliable"].as_bool(true)) qos.best_effort();
   if (json["latched"].as_bool()) qos.transient_local();
-  const auto limit = [](const gazelle::Json &ns) {
+  const auto limit = [](const gazelle::Json& ns) {
     return ns.as_int() > 0 ? rmw_time_from_nsec(ns.as_int()) : rmw_time_t RMW_DURATION_INFINITE;
   };
   qos.deadline(limit(json["deadline_ns"]));

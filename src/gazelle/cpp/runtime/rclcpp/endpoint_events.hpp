@@ -35,8 +35,8 @@ class EventWork : public Waitable {
 /// What happens to one end of a topic.
 class EndpointEvents : public std::enable_shared_from_this<EndpointEvents> {
  public:
-  EndpointEvents(const PublisherEventCallbacks &callbacks, const QoS &qos);
-  EndpointEvents(const SubscriptionEventCallbacks &callbacks, const QoS &qos);
+  EndpointEvents(const PublisherEventCallbacks& callbacks, const QoS& qos);
+  EndpointEvents(const SubscriptionEventCallbacks& callbacks, const QoS& qos);
   ~EndpointEvents();
 
   /// Whether anybody wants to know anything.
@@ -47,14 +47,14 @@ class EndpointEvents : public std::enable_shared_from_this<EndpointEvents> {
   /// A message was sent, or came.
   void on_activity() { last_activity_ns_.store(gazelle::clock::steady_ns()); }
   void on_alive() { last_alive_ns_.store(gazelle::clock::steady_ns()); }
-  void on_sequence(const gazelle::MessageInfo &info);
+  void on_sequence(const gazelle::MessageInfo& info);
   bool counts_lost() const { return static_cast<bool>(subscription_.message_lost_callback); }
   std::unordered_map<int, std::shared_ptr<Waitable>> handlers() const;
 
   std::function<std::string()> topic;  // its name, once it is known
 
  private:
-  void watch(std::atomic<std::int64_t> &last, std::int64_t period_ns, std::uint64_t &alarm,
+  void watch(std::atomic<std::int64_t>& last, std::int64_t period_ns, std::uint64_t& alarm,
              std::function<void()> missed);
   void look_for_clashes();
 
@@ -81,10 +81,10 @@ class EndpointEvents : public std::enable_shared_from_this<EndpointEvents> {
 };
 
 /// The first policy in which a publisher offers less than a subscription wants, invalid for none.
-rmw_qos_policy_kind_t clashing_policy(const QoS &offered, const QoS &wanted);
+rmw_qos_policy_kind_t clashing_policy(const QoS& offered, const QoS& wanted);
 
 /// What the graph says of an end's quality of service.
-QoS qos_of_end(const gazelle::Json &qos);
+QoS qos_of_end(const gazelle::Json& qos);
 
 }  // namespace detail
 }  // namespace rclcpp

@@ -10,7 +10,7 @@
 
 namespace {
 
-rcutils_error_string_t &last_error() {
+rcutils_error_string_t& last_error() {
   thread_local rcutils_error_string_t text{};
   return text;
 }
@@ -28,11 +28,11 @@ rcutils_error_string_t rcutils_get_error_string(void) {
 bool rcutils_error_is_set(void) { return last_error().str[0] != '\0'; }
 void rcutils_reset_error(void) { last_error().str[0] = '\0'; }
 
-void rcutils_set_error_state(const char *text, const char *file, size_t line) {
+void rcutils_set_error_state(const char* text, const char* file, size_t line) {
   std::snprintf(last_error().str, sizeof(last_error().str), "%s, at %s:%zu", text ? text : "",
                 file ? file : "", line);
 }
 
-const char *rmw_get_implementation_identifier(void) { return "rmw_gazelle_cpp"; }
+const char* rmw_get_implementation_identifier(void) { return "rmw_gazelle_cpp"; }
 
 }  // extern "C"

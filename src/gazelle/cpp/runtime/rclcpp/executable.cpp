@@ -49,7 +49,7 @@ void Waker::wait(std::uint64_t seen, std::optional<std::chrono::steady_clock::ti
 }
 
 namespace {
-std::atomic<std::uint64_t> &version() {
+std::atomic<std::uint64_t>& version() {
   static std::atomic<std::uint64_t> count{1};
   return count;
 }
@@ -61,21 +61,21 @@ std::uint64_t entities_version() { return version().load(); }
 Executable::Executable() = default;
 Executable::~Executable() = default;
 
-void Executable::add_waker(const std::shared_ptr<Waker> &waker) {
+void Executable::add_waker(const std::shared_ptr<Waker>& waker) {
   std::lock_guard<std::mutex> lock(wakers_mutex_);
-  for (const auto &one : wakers_) {
+  for (const auto& one : wakers_) {
     if (one.lock() == waker) return;
   }
-  wakers_.erase(std::remove_if(wakers_.begin(), wakers_.end(),
-                               [](const auto &one) { return one.expired(); }),
-                wakers_.end());
+  wakers_.erase(
+      std::remove_if(wakers_.begin(), wakers_.end(), [](const auto& one) { return one.expired(); }),
+      wakers_.end());
   wakers_.push_back(waker);
 }
 
-void Executable::remove_waker(const Waker *waker) {
+void Executable::remove_waker(const Waker* waker) {
   std::lock_guard<std::mutex> lock(wakers_mutex_);
   wakers_.erase(std::remove_if(wakers_.begin(), wakers_.end(),
-                               [waker](const auto &one) {
+                               [waker](const auto& one) {
                                  const auto strong = one.lock();
                                  return !strong || strong.get() == waker;
                                }),
@@ -100,7 +100,7 @@ void Executable::announce_work() {
   std::function<void(std::size_t)> told;
   {
     std::lock_guard<std::mutex> lock(wakers_mutex_);
-    for (const auto &one : wakers_) {
+    for (const auto& one : wakers_) {
       if (const auto waker = one.lock()) waker->ring();
     }
     if (on_new_work_) {
@@ -112,9 +112,9 @@ void Executable::announce_work() {
   if (told) told(1);
 }
 
-void add_guard_condition_to_rcl_wait_set(rcl_wait_set_t &wait_set,
-                                         const GuardCondition &guard_condition) {
-  const_cast<GuardCondition &>(guard_condition).add_to_wait_set(wait_set);
+void add_guard_condition_to_rcl_wait_set(rcl_wait_set_t& wait_set,
+                                         const GuardCondition& guard_condition) {
+  const_cast<GuardCondition&>(guard_condition).add_to_wait_set(wait_set);
 }
 
 }  // namespace detail
@@ -133,7 +133,7 @@ void GuardCondition::trigger() {
   announce_work();
 }
 
-void GuardCondition::add_to_wait_set(rcl_wait_set_t &wait_set) {
+void GuardCondition::add_to_wait_set(rcl_wait_set_t& wait_set) {
   rcl_wait_set_add_guard_condition(&wait_set, &handle_, nullptr);
 }
 
@@ -143,7 +143,7 @@ namespace {
 
 /// What a waitable's `add_to_wait_set` fills.
 struct Conditions {
-  std::vector<const rcl_guard_condition_t *> list;
+  std::vector<const rcl_guard_condition_t*> list;
   rcl_wait_set_t set{};
   Conditions() { set.impl = this; }
 };
@@ -152,10 +152,10 @@ struct Conditions {
 
 }  // namespace rclcpp
 
-extern "C" rcl_ret_t rcl_wait_set_add_guard_condition(rcl_wait_set_t *wait_set,
-                                                      const rcl_guard_condition_t *guard_condition,
-                                                      size_t *index) {
-  auto *conditions = static_cast<rclcpp::Conditions *>(wait_set->impl);
+extern "C" rcl_ret_t rcl_wait_set_add_guard_condition(rcl_wait_set_t* wait_set,
+                                                      const rcl_guard_condition_t* guard_condition,
+                                                      size_t* index) {
+  auto* conditions = static_cast<rclcpp::Conditions*>(wait_set->impl);
   if (!conditions) return RCL_RET_WAIT_SET_INVALID;
   if (index) *index = conditions->list.size();
   conditions->list.push_back(guard_condition);
@@ -164,9 +164,9 @@ extern "C" rcl_ret_t rcl_wait_set_add_guard_condition(rcl_wait_set_t *wait_set,
   return RCL_RET_OK;
 }
 
-extern "C" rcl_ret_t rcl_trigger_guard_condition(rcl_guard_condition_t *guard_condition) {
+extern "C" rcl_ret_t rcl_trigger_guard_condition(rcl_guard_condition_t* guard_condition) {
   if (!guard_condition || !guard_condition->impl) return RCL_RET_INVALID_ARGUMENT;
-  static_cast<rclcpp::GuardCondition *>(guard_condition->impl)->trigger();
+  static_cast<rclcpp::GuardCondition*>(guard_condition->impl)->trigger();
   return RCL_RET_OK;
 }
 
@@ -175,26 +175,26 @@ namespace rclcpp {
 bool Waitable::has_work() {
   Conditions conditions;
   add_to_wait_set(conditions.set);
-  for (auto &one : conditions.list) {
-    auto *condition = one ? static_cast<GuardCondition *>(one->impl) : nullptr;
+  for (auto& one : conditions.list) {
+    auto* condition = one ? static_cast<GuardCondition*>(one->impl) : nullptr;
     // A guard condition is spent by looking at it, as rcl_wait does.
     if (!condition || !condition->do_work()) one = nullptr;
   }
-  return is_ready(static_cast<const rcl_wait_set_t &>(conditions.set));
+  return is_ready(static_cast<const rcl_wait_set_t&>(conditions.set));
 }
 
 bool Waitable::do_work() {
   std::shared_ptr<void> data = take_data();
-  execute(static_cast<const std::shared_ptr<void> &>(data));
+  execute(static_cast<const std::shared_ptr<void>&>(data));
   return true;
 }
 
-void Waitable::add_waker(const std::shared_ptr<detail::Waker> &waker) {
+void Waitable::add_waker(const std::shared_ptr<detail::Waker>& waker) {
   Executable::add_waker(waker);
   Conditions conditions;
   add_to_wait_set(conditions.set);
-  for (const auto *one : conditions.list) {
-    if (one && one->impl) static_cast<GuardCondition *>(one->impl)->add_waker(waker);
+  for (const auto* one : conditions.list) {
+    if (one && one->impl) static_cast<GuardCondition*>(one->impl)->add_waker(waker);
   }
 }
 
@@ -217,7 +217,7 @@ std::vector<std::shared_ptr<detail::Executable>> CallbackGroup::executables() co
   std::vector<std::shared_ptr<detail::Executable>> strong;
   std::lock_guard<std::mutex> lock(mutex_);
   strong.reserve(executables_.size());
-  for (const auto &one : executables_) {
+  for (const auto& one : executables_) {
     if (auto found = one.lock()) strong.push_back(std::move(found));
   }
   if (strong.size() != executables_.size()) {
@@ -228,7 +228,7 @@ std::vector<std::shared_ptr<detail::Executable>> CallbackGroup::executables() co
 
 std::size_t CallbackGroup::size() const { return executables().size(); }
 
-void CallbackGroup::add(const std::shared_ptr<detail::Executable> &executable) {
+void CallbackGroup::add(const std::shared_ptr<detail::Executable>& executable) {
   std::vector<std::weak_ptr<detail::Waker>> wakers;
   {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -236,16 +236,16 @@ void CallbackGroup::add(const std::shared_ptr<detail::Executable> &executable) {
     wakers = wakers_;
   }
   detail::entities_changed();
-  for (const auto &one : wakers) {
+  for (const auto& one : wakers) {
     if (const auto waker = one.lock()) waker->ring();
   }
 }
 
-void CallbackGroup::remove(const detail::Executable *executable) {
+void CallbackGroup::remove(const detail::Executable* executable) {
   {
     std::lock_guard<std::mutex> lock(mutex_);
     executables_.erase(std::remove_if(executables_.begin(), executables_.end(),
-                                      [executable](const auto &one) {
+                                      [executable](const auto& one) {
                                         const auto strong = one.lock();
                                         return !strong || strong.get() == executable;
                                       }),
@@ -254,18 +254,18 @@ void CallbackGroup::remove(const detail::Executable *executable) {
   detail::entities_changed();
 }
 
-void CallbackGroup::add_waker(const std::shared_ptr<detail::Waker> &waker) {
+void CallbackGroup::add_waker(const std::shared_ptr<detail::Waker>& waker) {
   std::lock_guard<std::mutex> lock(mutex_);
-  for (const auto &one : wakers_) {
+  for (const auto& one : wakers_) {
     if (one.lock() == waker) return;
   }
   wakers_.push_back(waker);
 }
 
-void CallbackGroup::remove_waker(const detail::Waker *waker) {
+void CallbackGroup::remove_waker(const detail::Waker* waker) {
   std::lock_guard<std::mutex> lock(mutex_);
   wakers_.erase(std::remove_if(wakers_.begin(), wakers_.end(),
-                               [waker](const auto &one) {
+                               [waker](const auto& one) {
                                  const auto strong = one.lock();
                                  return !strong || strong.get() == waker;
                                }),
@@ -273,12 +273,12 @@ void CallbackGroup::remove_waker(const detail::Waker *waker) {
 }
 
 void CallbackGroup::collect_all_ptrs(
-    std::function<void(const std::shared_ptr<SubscriptionBase> &)> subscription,
-    std::function<void(const std::shared_ptr<ServiceBase> &)> service,
-    std::function<void(const std::shared_ptr<ClientBase> &)> client,
-    std::function<void(const std::shared_ptr<TimerBase> &)> timer,
-    std::function<void(const std::shared_ptr<Waitable> &)> waitable) const {
-  for (const auto &one : executables()) {
+    std::function<void(const std::shared_ptr<SubscriptionBase>&)> subscription,
+    std::function<void(const std::shared_ptr<ServiceBase>&)> service,
+    std::function<void(const std::shared_ptr<ClientBase>&)> client,
+    std::function<void(const std::shared_ptr<TimerBase>&)> timer,
+    std::function<void(const std::shared_ptr<Waitable>&)> waitable) const {
+  for (const auto& one : executables()) {
     switch (one->kind()) {
       case detail::WorkKind::kTimer:
         timer(std::static_pointer_cast<TimerBase>(one));

@@ -46,10 +46,10 @@ class Executor::Impl {
   std::atomic<bool> cancelled{false};
   OnShutdownCallbackHandle shutdown_handle;
 
-  void take_in(const Group &group, std::vector<Member> &found) {
+  void take_in(const Group& group, std::vector<Member>& found) {
     const auto strong = group.group.lock();
     if (!strong) return;
-    for (const auto &one : strong->executables()) {
+    for (const auto& one : strong->executables()) {
       one->add_waker(waker);
       found.push_back({one, group.group, group.node, one->kind()});
     }
@@ -62,9 +62,9 @@ class Executor::Impl {
     version = now;
     adopt_groups();
     std::vector<Member> found;
-    for (const auto &one : manual) take_in(one, found);
-    for (const auto &one : automatic) take_in(one, found);
-    std::stable_sort(found.begin(), found.end(), [](const Member &a, const Member &b) {
+    for (const auto& one : manual) take_in(one, found);
+    for (const auto& one : automatic) take_in(one, found);
+    std::stable_sort(found.begin(), found.end(), [](const Member& a, const Member& b) {
       return static_cast<int>(a.kind) < static_cast<int>(b.kind);
     });
     members = std::move(found);
@@ -72,10 +72,10 @@ class Executor::Impl {
 
   // Groups that nodes made since.
   void adopt_groups() {
-    const auto gone = [](const Group &one) { return one.group.expired() || one.node.expired(); };
+    const auto gone = [](const Group& one) { return one.group.expired() || one.node.expired(); };
     manual.erase(std::remove_if(manual.begin(), manual.end(), gone), manual.end());
     automatic.erase(std::remove_if(automatic.begin(), automatic.end(), gone), automatic.end());
-    for (const auto &weak : nodes) {
+    for (const auto& weak : nodes) {
       const auto node = weak.lock();
       if (!node) continue;
       node->for_each_callback_group([&](CallbackGroup::SharedPtr group) {
@@ -92,7 +92,7 @@ class Executor::Impl {
     std::lock_guard<std::mutex> lock(mutex);
     collect();
     std::optional<Nanoseconds> until;
-    for (const auto &one : members) {
+    for (const auto& one : members) {
       const auto group = one.group.lock();
       if (!group || !group->can_be_taken_from().load()) continue;
       const auto work = one.work.lock();
@@ -119,7 +119,7 @@ AnyExecutable::~AnyExecutable() {
   }
 }
 
-Executor::Executor(const ExecutorOptions &options)
+Executor::Executor(const ExecutorOptions& options)
     : context_(options.context), impl_(std::make_unique<Impl>()) {
   std::weak_ptr<detail::Waker> weak = impl_->waker;
   impl_->shutdown_handle = context_->add_on_shutdown_callback([weak]() {
@@ -130,15 +130,15 @@ Executor::Executor(const ExecutorOptions &options)
 Executor::~Executor() {
   context_->remove_on_shutdown_callback(impl_->shutdown_handle);
   std::lock_guard<std::mutex> lock(impl_->mutex);
-  for (const auto *groups : {&impl_->manual, &impl_->automatic}) {
-    for (const auto &one : *groups) {
+  for (const auto* groups : {&impl_->manual, &impl_->automatic}) {
+    for (const auto& one : *groups) {
       if (const auto group = one.group.lock()) {
         group->remove_waker(impl_->waker.get());
         group->get_associated_with_executor_atomic().store(false);
       }
     }
   }
-  for (const auto &weak : impl_->nodes) {
+  for (const auto& weak : impl_->nodes) {
     if (const auto node = weak.lock()) {
       node->remove_waker(impl_->waker.get());
       node->get_associated_with_executor_atomic().store(false);
@@ -166,8 +166,8 @@ void Executor::remove_callback_group(CallbackGroup::SharedPtr group, bool notify
   {
     std::lock_guard<std::mutex> lock(impl_->mutex);
     bool found = false;
-    for (auto *groups : {&impl_->manual, &impl_->automatic}) {
-      const auto end = std::remove_if(groups->begin(), groups->end(), [&group](const auto &one) {
+    for (auto* groups : {&impl_->manual, &impl_->automatic}) {
+      const auto end = std::remove_if(groups->begin(), groups->end(), [&group](const auto& one) {
         return one.group.lock() == group;
       });
       found = found || end != groups->end();
@@ -184,7 +184,7 @@ void Executor::remove_callback_group(CallbackGroup::SharedPtr group, bool notify
 std::vector<CallbackGroup::WeakPtr> Executor::get_manually_added_callback_groups() {
   std::vector<CallbackGroup::WeakPtr> groups;
   std::lock_guard<std::mutex> lock(impl_->mutex);
-  for (const auto &one : impl_->manual) groups.push_back(one.group);
+  for (const auto& one : impl_->manual) groups.push_back(one.group);
   return groups;
 }
 
@@ -192,7 +192,7 @@ std::vector<CallbackGroup::WeakPtr> Executor::get_automatically_added_callback_g
   std::vector<CallbackGroup::WeakPtr> groups;
   std::lock_guard<std::mutex> lock(impl_->mutex);
   impl_->adopt_groups();
-  for (const auto &one : impl_->automatic) groups.push_back(one.group);
+  for (const auto& one : impl_->automatic) groups.push_back(one.group);
   return groups;
 }
 
@@ -228,29 +228,29 @@ void Executor::remove_node(NodeBase::SharedPtr node, bool notify) {
   }
   {
     std::lock_guard<std::mutex> lock(impl_->mutex);
-    auto &nodes = impl_->nodes;
+    auto& nodes = impl_->nodes;
     const auto end = std::remove_if(nodes.begin(), nodes.end(),
-                                    [&node](const auto &one) { return one.lock() == node; });
+                                    [&node](const auto& one) { return one.lock() == node; });
     if (end == nodes.end()) {
       throw std::runtime_error(std::string("Node '") + node->get_fully_qualified_name() +
                                "' needs to be associated with this executor.");
     }
     nodes.erase(end, nodes.end());
-    auto &groups = impl_->automatic;
-    for (const auto &one : groups) {
+    auto& groups = impl_->automatic;
+    for (const auto& one : groups) {
       if (one.node.lock() != node) continue;
       if (const auto group = one.group.lock()) {
         group->remove_waker(impl_->waker.get());
-        for (const auto &work : group->executables()) work->remove_waker(impl_->waker.get());
+        for (const auto& work : group->executables()) work->remove_waker(impl_->waker.get());
         group->get_associated_with_executor_atomic().store(false);
       }
     }
     groups.erase(std::remove_if(groups.begin(), groups.end(),
-                                [&node](const auto &one) { return one.node.lock() == node; }),
+                                [&node](const auto& one) { return one.node.lock() == node; }),
                  groups.end());
-    auto &ready = impl_->ready;
+    auto& ready = impl_->ready;
     ready.erase(std::remove_if(ready.begin(), ready.end(),
-                               [&node](const auto &one) { return one.node.lock() == node; }),
+                               [&node](const auto& one) { return one.node.lock() == node; }),
                 ready.end());
     node->remove_waker(impl_->waker.get());
     node->get_associated_with_executor_atomic().store(false);
@@ -300,12 +300,12 @@ void Executor::spin_node_all(NodeBase::SharedPtr node, Nanoseconds max_duration)
   remove_node(node, false);
 }
 
-std::shared_ptr<void> Executor::begin_spinning(const char *function) {
+std::shared_ptr<void> Executor::begin_spinning(const char* function) {
   if (spinning.exchange(true)) {
     throw std::runtime_error(std::string(function) + "() called while already spinning");
   }
   impl_->cancelled = false;
-  return std::shared_ptr<void>(nullptr, [this](void *) { spinning.store(false); });
+  return std::shared_ptr<void>(nullptr, [this](void*) { spinning.store(false); });
 }
 
 void Executor::spin_some(Nanoseconds max_duration) { spin_some_impl(max_duration, false); }
@@ -354,7 +354,7 @@ void Executor::spin_once(Nanoseconds timeout) {
 }
 
 FutureReturnCode Executor::spin_until_future_complete_impl(Nanoseconds timeout,
-                                                           const std::function<bool()> &is_ready) {
+                                                           const std::function<bool()>& is_ready) {
   if (is_ready()) return FutureReturnCode::SUCCESS;
   const bool endless = timeout < Nanoseconds(0);
   const auto end = Steady::now() + (endless ? Nanoseconds(0) : timeout);
@@ -381,7 +381,7 @@ void Executor::cancel() {
   impl_->waker->ring();
 }
 
-void Executor::execute_any_executable(AnyExecutable &executable) {
+void Executor::execute_any_executable(AnyExecutable& executable) {
   if (!executable.work) return;
   if (spinning.load()) executable.work->do_work();
   if (executable.callback_group &&
@@ -410,9 +410,9 @@ void Executor::wait_for_work(Nanoseconds timeout) {
   }
 }
 
-bool Executor::get_next_ready_executable(AnyExecutable &executable) {
+bool Executor::get_next_ready_executable(AnyExecutable& executable) {
   std::lock_guard<std::mutex> lock(impl_->mutex);
-  auto &ready = impl_->ready;
+  auto& ready = impl_->ready;
   for (auto one = ready.begin(); one != ready.end();) {
     const auto work = one->work.lock();
     const auto group = one->group.lock();
@@ -454,7 +454,7 @@ bool Executor::get_next_ready_executable(AnyExecutable &executable) {
   return false;
 }
 
-bool Executor::get_next_executable(AnyExecutable &executable, Nanoseconds timeout) {
+bool Executor::get_next_executable(AnyExecutable& executable, Nanoseconds timeout) {
   if (get_next_ready_executable(executable)) return true;
   wait_for_work(timeout);
   if (!spinning.load()) return false;
@@ -473,7 +473,7 @@ void SingleThreadedExecutor::spin() {
   }
 }
 
-MultiThreadedExecutor::MultiThreadedExecutor(const ExecutorOptions &options,
+MultiThreadedExecutor::MultiThreadedExecutor(const ExecutorOptions& options,
                                              std::size_t number_of_threads,
                                              bool yield_before_execute, Nanoseconds timeout)
     : Executor(options),
@@ -501,7 +501,7 @@ void MultiThreadedExecutor::spin() {
   std::vector<std::thread> threads;
   for (std::size_t i = 1; i < number_of_threads_; ++i) threads.emplace_back(work);
   work();
-  for (auto &one : threads) one.join();
+  for (auto& one : threads) one.join();
   if (failure) std::rethrow_exception(failure);
 }
 
@@ -520,7 +520,7 @@ void MultiThreadedExecutor::run() {
 
 }  // namespace executors
 
-std::string to_string(const FutureReturnCode &code) {
+std::string to_string(const FutureReturnCode& code) {
   switch (code) {
     case FutureReturnCode::SUCCESS:
       return "SUCCESS (0)";
@@ -532,7 +532,7 @@ std::string to_string(const FutureReturnCode &code) {
   return "Unknown enum value (" + std::to_string(static_cast<int>(code)) + ")";
 }
 
-std::ostream &operator<<(std::ostream &out, const FutureReturnCode &code) {
+std::ostream& operator<<(std::ostream& out, const FutureReturnCode& code) {
   return out << to_string(code);
 }
 

@@ -9,25 +9,26 @@
 namespace rclcpp {
 namespace detail {
 
-inline bool is_name_error(const gazelle::Error &error) {
+inline bool is_name_error(const gazelle::Error& error) {
   return error.kind.find("Name") != std::string::npos;
 }
 
 template <class Function>
-void with_topic_errors(const std::string &topic, Function &&function) {
+void with_topic_errors(const std::string& topic, Function&& function) {
   try {
     function();
-  } catch (const gazelle::Error &error) {
-    if (is_name_error(error)) throw exceptions::InvalidTopicNameError(topic.c_str(), error.what(), 0);
+  } catch (const gazelle::Error& error) {
+    if (is_name_error(error))
+      throw exceptions::InvalidTopicNameError(topic.c_str(), error.what(), 0);
     throw exceptions::RCLError(RCL_RET_ERROR, error.what());
   }
 }
 
 template <class Function>
-void with_service_errors(const std::string &service, Function &&function) {
+void with_service_errors(const std::string& service, Function&& function) {
   try {
     function();
-  } catch (const gazelle::Error &error) {
+  } catch (const gazelle::Error& error) {
     if (is_name_error(error)) {
       throw exceptions::InvalidServiceNameError(service.c_str(), error.what(), 0);
     }

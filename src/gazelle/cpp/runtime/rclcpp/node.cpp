@@ -23,7 +23,7 @@ using namespace node_interfaces;  // NOLINT: every part of a node is made below
 
 class Base : public NodeBaseInterface {
  public:
-  Base(const std::string &name, const std::string &namespace_, const NodeOptions &options)
+  Base(const std::string& name, const std::string& namespace_, const NodeOptions& options)
       : context_(options.context()),
         intra_process_(options.use_intra_process_comms()),
         statistics_(options.enable_topic_statistics()) {
@@ -43,7 +43,7 @@ class Base : public NodeBaseInterface {
     wanted.arguments = options.arguments();
     try {
       node_ = gazelle::GraphNode::create(wanted);
-    } catch (const gazelle::Error &error) {
+    } catch (const gazelle::Error& error) {
       if (detail::is_name_error(error)) {
         throw exceptions::InvalidNodeNameError(name.c_str(), error.what(), 0);
       }
@@ -57,7 +57,7 @@ class Base : public NodeBaseInterface {
     handle_->impl = this;
     default_group_ = create_callback_group(CallbackGroupType::MutuallyExclusive, true);
     std::vector<std::string> words{"--ros-args"};
-    for (const auto &level : node_->details()["log_levels"].members()) {
+    for (const auto& level : node_->details()["log_levels"].members()) {
       words.push_back("--log-level");
       words.push_back(level.first + ":=" + level.second.as_string());
     }
@@ -66,12 +66,12 @@ class Base : public NodeBaseInterface {
 
   ~Base() override { node_->shutdown(); }
 
-  const char *get_name() const override { return node_->name().c_str(); }
-  const char *get_namespace() const override { return node_->namespace_().c_str(); }
-  const char *get_fully_qualified_name() const override { return node_->full_name().c_str(); }
+  const char* get_name() const override { return node_->name().c_str(); }
+  const char* get_namespace() const override { return node_->namespace_().c_str(); }
+  const char* get_fully_qualified_name() const override { return node_->full_name().c_str(); }
   Context::SharedPtr get_context() override { return context_; }
-  rcl_node_t *get_rcl_node_handle() override { return handle_.get(); }
-  const rcl_node_t *get_rcl_node_handle() const override { return handle_.get(); }
+  rcl_node_t* get_rcl_node_handle() override { return handle_.get(); }
+  const rcl_node_t* get_rcl_node_handle() const override { return handle_.get(); }
   std::shared_ptr<rcl_node_t> get_shared_rcl_node_handle() override { return handle_; }
   std::shared_ptr<const rcl_node_t> get_shared_rcl_node_handle() const override { return handle_; }
 
@@ -81,7 +81,7 @@ class Base : public NodeBaseInterface {
     {
       std::lock_guard<std::mutex> lock(mutex_);
       groups_.push_back(group);
-      for (const auto &one : wakers_) {
+      for (const auto& one : wakers_) {
         if (const auto waker = one.lock()) group->add_waker(waker);
       }
     }
@@ -93,36 +93,36 @@ class Base : public NodeBaseInterface {
   bool callback_group_in_node(CallbackGroup::SharedPtr group) override {
     std::lock_guard<std::mutex> lock(mutex_);
     return std::any_of(groups_.begin(), groups_.end(),
-                       [&group](const auto &one) { return one.lock() == group; });
+                       [&group](const auto& one) { return one.lock() == group; });
   }
-  void for_each_callback_group(const CallbackGroupFunction &function) override {
+  void for_each_callback_group(const CallbackGroupFunction& function) override {
     std::vector<CallbackGroup::SharedPtr> strong;
     {
       std::lock_guard<std::mutex> lock(mutex_);
-      for (const auto &one : groups_) {
+      for (const auto& one : groups_) {
         if (auto group = one.lock()) strong.push_back(std::move(group));
       }
       groups_.assign(strong.begin(), strong.end());
     }
-    for (const auto &one : strong) function(one);
+    for (const auto& one : strong) function(one);
   }
-  std::atomic_bool &get_associated_with_executor_atomic() override { return associated_; }
-  GuardCondition &get_notify_guard_condition() override { return *notify_; }
+  std::atomic_bool& get_associated_with_executor_atomic() override { return associated_; }
+  GuardCondition& get_notify_guard_condition() override { return *notify_; }
   GuardCondition::SharedPtr get_shared_notify_guard_condition() override { return notify_; }
   void trigger_notify_guard_condition() override {
     std::vector<std::shared_ptr<detail::Waker>> strong;
     {
       std::lock_guard<std::mutex> lock(mutex_);
-      for (const auto &one : wakers_) {
+      for (const auto& one : wakers_) {
         if (auto waker = one.lock()) strong.push_back(std::move(waker));
       }
     }
-    for (const auto &one : strong) one->ring();
+    for (const auto& one : strong) one->ring();
     if (notify_) notify_->trigger();
   }
   bool get_use_intra_process_default() const override { return intra_process_; }
   bool get_enable_topic_statistics_default() const override { return statistics_; }
-  std::string resolve_topic_or_service_name(const std::string &name, bool is_service,
+  std::string resolve_topic_or_service_name(const std::string& name, bool is_service,
                                             bool only_expand) const override {
     std::string found;
     const auto resolve = [&]() { found = node_->resolve(name, !only_expand); };
@@ -133,15 +133,15 @@ class Base : public NodeBaseInterface {
     }
     return found;
   }
-  const std::shared_ptr<gazelle::GraphNode> &graph_node() const override { return node_; }
-  void add_waker(const std::shared_ptr<detail::Waker> &waker) override {
+  const std::shared_ptr<gazelle::GraphNode>& graph_node() const override { return node_; }
+  void add_waker(const std::shared_ptr<detail::Waker>& waker) override {
     std::lock_guard<std::mutex> lock(mutex_);
     wakers_.push_back(waker);
   }
-  void remove_waker(const detail::Waker *waker) override {
+  void remove_waker(const detail::Waker* waker) override {
     std::lock_guard<std::mutex> lock(mutex_);
     wakers_.erase(std::remove_if(wakers_.begin(), wakers_.end(),
-                                 [waker](const auto &one) {
+                                 [waker](const auto& one) {
                                    const auto strong = one.lock();
                                    return !strong || strong.get() == waker;
                                  }),
@@ -149,21 +149,23 @@ class Base : public NodeBaseInterface {
   }
 
  private:
-  static void check(const std::string &name, const std::string &namespace_) {
-    const auto is_part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  static void check(const std::string& name, const std::string& namespace_) {
+    const auto is_part = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    };
     if (name.empty()) {
       throw exceptions::InvalidNodeNameError("", "node name must not be empty", 0);
     }
     for (std::size_t i = 0; i < name.size(); ++i) {
       if (!is_part(name[i])) {
         throw exceptions::InvalidNodeNameError(
-            name.c_str(),
-            "node name must not contain characters other than alphanumerics or '_'", i);
+            name.c_str(), "node name must not contain characters other than alphanumerics or '_'",
+            i);
       }
     }
     if (std::isdigit(static_cast<unsigned char>(name[0]))) {
-      throw exceptions::InvalidNodeNameError(name.c_str(),
-                                             "node name must not start with a number", 0);
+      throw exceptions::InvalidNodeNameError(name.c_str(), "node name must not start with a number",
+                                             0);
     }
     for (std::size_t i = 0; i < namespace_.size(); ++i) {
       if (!is_part(namespace_[i]) && namespace_[i] != '/') {
@@ -188,8 +190,8 @@ class Base : public NodeBaseInterface {
 };
 
 /// Whatever is added goes to its group, or to the node's own.
-CallbackGroup::SharedPtr group_for(NodeBaseInterface &base, const CallbackGroup::SharedPtr &given,
-                                   const char *what) {
+CallbackGroup::SharedPtr group_for(NodeBaseInterface& base, const CallbackGroup::SharedPtr& given,
+                                   const char* what) {
   if (!given) return base.get_default_callback_group();
   if (!base.callback_group_in_node(given)) {
     throw std::runtime_error(std::string("Cannot create ") + what + ", group not in node.");
@@ -214,17 +216,17 @@ class Topics : public NodeTopicsInterface {
       : base_(std::move(base)), timers_(std::move(timers)) {}
   void add_publisher(PublisherBase::SharedPtr publisher, CallbackGroup::SharedPtr group) override {
     const auto where = group_for(*base_, group, "publisher");
-    for (const auto &one : publisher->get_event_handlers()) where->add(one.second);
+    for (const auto& one : publisher->get_event_handlers()) where->add(one.second);
   }
   void add_subscription(SubscriptionBase::SharedPtr subscription,
                         CallbackGroup::SharedPtr group) override {
     const auto where = group_for(*base_, group, "subscription");
     where->add(subscription);
-    for (const auto &one : subscription->get_event_handlers()) where->add(one.second);
+    for (const auto& one : subscription->get_event_handlers()) where->add(one.second);
   }
-  NodeBaseInterface *get_node_base_interface() const override { return base_.get(); }
-  NodeTimersInterface *get_node_timers_interface() const override { return timers_.get(); }
-  std::string resolve_topic_name(const std::string &name, bool only_expand) const override {
+  NodeBaseInterface* get_node_base_interface() const override { return base_.get(); }
+  NodeTimersInterface* get_node_timers_interface() const override { return timers_.get(); }
+  std::string resolve_topic_name(const std::string& name, bool only_expand) const override {
     return base_->resolve_topic_or_service_name(name, false, only_expand);
   }
 
@@ -242,7 +244,7 @@ class Services : public NodeServicesInterface {
   void add_service(ServiceBase::SharedPtr service, CallbackGroup::SharedPtr group) override {
     group_for(*base_, group, "service")->add(service);
   }
-  std::string resolve_service_name(const std::string &name, bool only_expand) const override {
+  std::string resolve_service_name(const std::string& name, bool only_expand) const override {
     return base_->resolve_topic_or_service_name(name, true, only_expand);
   }
 
@@ -267,14 +269,15 @@ class Waitables : public NodeWaitablesInterface {
 
 class Logging : public NodeLoggingInterface {
  public:
-  explicit Logging(const NodeBaseInterface::SharedPtr &base) : logger_(rclcpp::get_logger(name(*base))) {
+  explicit Logging(const NodeBaseInterface::SharedPtr& base)
+      : logger_(rclcpp::get_logger(name(*base))) {
     detail::attach_logger(logger_.get_name(), base->graph_node());
   }
   Logger get_logger() const override { return logger_; }
-  const char *get_logger_name() const override { return logger_.get_name(); }
+  const char* get_logger_name() const override { return logger_.get_name(); }
 
   /// Others may read and set the levels of this process.
-  void offer(const NodeBaseInterface::SharedPtr &base, const NodeServicesInterface::SharedPtr &to) {
+  void offer(const NodeBaseInterface::SharedPtr& base, const NodeServicesInterface::SharedPtr& to) {
     using rcl_interfaces::srv::GetLoggerLevels;
     using rcl_interfaces::srv::SetLoggerLevels;
     const std::string prefix = std::string(base->get_name()) + "/";
@@ -282,7 +285,7 @@ class Logging : public NodeLoggingInterface {
         base, to, prefix + "get_logger_levels",
         [](const std::shared_ptr<GetLoggerLevels::Request> request,
            std::shared_ptr<GetLoggerLevels::Response> response) {
-          for (const auto &one : request->names) {
+          for (const auto& one : request->names) {
             rcl_interfaces::msg::LoggerLevel level;
             level.name = one;
             const int found = rcutils_logging_get_logger_level(one.c_str());
@@ -295,11 +298,11 @@ class Logging : public NodeLoggingInterface {
         base, to, prefix + "set_logger_levels",
         [](const std::shared_ptr<SetLoggerLevels::Request> request,
            std::shared_ptr<SetLoggerLevels::Response> response) {
-          for (const auto &one : request->levels) {
+          for (const auto& one : request->levels) {
             rcl_interfaces::msg::SetLoggerLevelsResult result;
             result.successful =
-                rcutils_logging_set_logger_level(one.name.c_str(),
-                                                 static_cast<int>(one.level)) == RCUTILS_RET_OK;
+                rcutils_logging_set_logger_level(one.name.c_str(), static_cast<int>(one.level)) ==
+                RCUTILS_RET_OK;
             if (!result.successful) {
               result.reason = rcutils_get_error_string().str;
               rcutils_reset_error();
@@ -311,7 +314,7 @@ class Logging : public NodeLoggingInterface {
   }
 
  private:
-  static std::string name(const NodeBaseInterface &base) {
+  static std::string name(const NodeBaseInterface& base) {
     std::string full = base.get_fully_qualified_name();
     full.erase(0, full.find_first_not_of('/'));
     std::replace(full.begin(), full.end(), '/', '.');
@@ -334,13 +337,13 @@ class NodeClock : public NodeClockInterface {
 /// The node's clock follows simulated time where its parameter use_sim_time says so.
 class NodeTimeSource : public NodeTimeSourceInterface {
  public:
-  NodeTimeSource(const NodeParametersInterface::SharedPtr &parameters, Clock::SharedPtr clock)
+  NodeTimeSource(const NodeParametersInterface::SharedPtr& parameters, Clock::SharedPtr clock)
       : parameters_(parameters) {
     std::weak_ptr<Clock> weak = clock;
-    check_ = parameters->add_on_set_parameters_callback([](const std::vector<Parameter> &changes) {
+    check_ = parameters->add_on_set_parameters_callback([](const std::vector<Parameter>& changes) {
       rcl_interfaces::msg::SetParametersResult result;
       result.successful = true;
-      for (const auto &one : changes) {
+      for (const auto& one : changes) {
         if (one.get_name() == "use_sim_time" && one.get_type() != PARAMETER_BOOL) {
           result.successful = false;
           result.reason = "'use_sim_time' must be a bool";
@@ -349,9 +352,9 @@ class NodeTimeSource : public NodeTimeSourceInterface {
       return result;
     });
     follow_ =
-        parameters->add_post_set_parameters_callback([weak](const std::vector<Parameter> &changes) {
+        parameters->add_post_set_parameters_callback([weak](const std::vector<Parameter>& changes) {
           const auto strong = weak.lock();
-          for (const auto &one : changes) {
+          for (const auto& one : changes) {
             if (one.get_name() == "use_sim_time" && one.get_type() == PARAMETER_BOOL && strong) {
               strong->impl().use_sim_time(one.as_bool());
             }
@@ -376,7 +379,7 @@ class NodeTimeSource : public NodeTimeSourceInterface {
   PostSetParametersCallbackHandle::SharedPtr follow_;
 };
 
-std::string joined(const std::string &space, const std::string &part) {
+std::string joined(const std::string& space, const std::string& part) {
   if (part.empty()) return space;
   return space == "/" ? "/" + part : space + "/" + part;
 }
@@ -385,13 +388,13 @@ std::string joined(const std::string &space, const std::string &part) {
 
 namespace detail {
 
-NodeBaseInterface::SharedPtr make_base(const std::string &name, const std::string &namespace_,
-                                       const NodeOptions &options) {
+NodeBaseInterface::SharedPtr make_base(const std::string& name, const std::string& namespace_,
+                                       const NodeOptions& options) {
   return std::make_shared<Base>(name, namespace_, options);
 }
 
-NodeFunctions::NodeFunctions(const std::string &name, const std::string &namespace_,
-                             const NodeOptions &options)
+NodeFunctions::NodeFunctions(const std::string& name, const std::string& namespace_,
+                             const NodeOptions& options)
     : options_(options),
       base_(make_base(name, namespace_, options)),
       graph_(make_graph(base_)),
@@ -409,7 +412,7 @@ NodeFunctions::NodeFunctions(const std::string &name, const std::string &namespa
   effective_namespace_ = base_->get_namespace();
 }
 
-NodeFunctions::NodeFunctions(const NodeFunctions &other, const std::string &sub_namespace)
+NodeFunctions::NodeFunctions(const NodeFunctions& other, const std::string& sub_namespace)
     : options_(other.options_),
       sub_namespace_(extend_name_with_sub_namespace(sub_namespace, other.sub_namespace_)),
       base_(other.base_),
@@ -424,8 +427,10 @@ NodeFunctions::NodeFunctions(const NodeFunctions &other, const std::string &sub_
       type_descriptions_(other.type_descriptions_),
       waitables_(other.waitables_) {
   if (sub_namespace.empty()) {
-    throw exceptions::NameValidationError("sub_namespace", "", "sub-nodes should not extend nodes "
-                                          "by an empty sub-namespace", 0);
+    throw exceptions::NameValidationError("sub_namespace", "",
+                                          "sub-nodes should not extend nodes "
+                                          "by an empty sub-namespace",
+                                          0);
   }
   if (sub_namespace.front() == '/') {
     throw exceptions::NameValidationError("sub_namespace", sub_namespace.c_str(),
@@ -447,11 +452,11 @@ NodeFunctions::~NodeFunctions() {
   graph_.reset();
 }
 
-std::string NodeFunctions::extended(const std::string &name) const {
+std::string NodeFunctions::extended(const std::string& name) const {
   return extend_name_with_sub_namespace(name, sub_namespace_);
 }
 
-std::string NodeFunctions::in_sub(const std::string &name) const {
+std::string NodeFunctions::in_sub(const std::string& name) const {
   if (sub_namespace_.empty() || name.empty() || name.front() == '/' || name.front() == '~') {
     return name;
   }
@@ -459,7 +464,7 @@ std::string NodeFunctions::in_sub(const std::string &name) const {
 }
 
 rcl_interfaces::msg::ParameterDescriptor NodeFunctions::describe_parameter(
-    const std::string &name) const {
+    const std::string& name) const {
   const auto found = parameters_->describe_parameters({name});
   if (found.empty()) throw exceptions::ParameterNotDeclaredException(name);
   return found.front();
@@ -479,17 +484,17 @@ NodeFunctions::OnParametersSetCallbackType NodeFunctions::set_on_parameters_set_
 
 }  // namespace detail
 
-std::string extend_name_with_sub_namespace(const std::string &name,
-                                           const std::string &sub_namespace) {
+std::string extend_name_with_sub_namespace(const std::string& name,
+                                           const std::string& sub_namespace) {
   if (sub_namespace.empty() || name.empty() || name.front() == '/' || name.front() == '~') {
     return name;
   }
   return sub_namespace + "/" + name;
 }
 
-std::string expand_topic_or_service_name(const std::string &name, const std::string &node_name,
-                                         const std::string &namespace_, bool is_service) {
-  const auto refuse = [&](const char *text, std::size_t at) {
+std::string expand_topic_or_service_name(const std::string& name, const std::string& node_name,
+                                         const std::string& namespace_, bool is_service) {
+  const auto refuse = [&](const char* text, std::size_t at) {
     if (is_service) throw exceptions::InvalidServiceNameError(name.c_str(), text, at);
     throw exceptions::InvalidTopicNameError(name.c_str(), text, at);
   };
@@ -507,7 +512,7 @@ std::string expand_topic_or_service_name(const std::string &name, const std::str
   std::string expanded = name;
   const std::string own = joined(namespace_, node_name);
   if (expanded.front() == '~') expanded = own + expanded.substr(1);
-  for (const auto &one : {std::make_pair(std::string("{node}"), node_name),
+  for (const auto& one : {std::make_pair(std::string("{node}"), node_name),
                           std::make_pair(std::string("{ns}"), namespace_),
                           std::make_pair(std::string("{namespace}"), namespace_)}) {
     for (std::size_t at; (at = expanded.find(one.first)) != std::string::npos;) {
@@ -517,21 +522,21 @@ std::string expand_topic_or_service_name(const std::string &name, const std::str
   return expanded.front() == '/' ? expanded : joined(namespace_, expanded);
 }
 
-Node::Node(const std::string &node_name, const NodeOptions &options)
+Node::Node(const std::string& node_name, const NodeOptions& options)
     : Node(node_name, "", options) {}
 
-Node::Node(const std::string &node_name, const std::string &namespace_, const NodeOptions &options)
+Node::Node(const std::string& node_name, const std::string& namespace_, const NodeOptions& options)
     : NodeFunctions(node_name, namespace_, options) {}
 
-Node::Node(const Node &other, const std::string &sub_namespace)
+Node::Node(const Node& other, const std::string& sub_namespace)
     : std::enable_shared_from_this<Node>(), NodeFunctions(other, sub_namespace) {}
 
 Node::~Node() = default;
 
-const std::string &Node::get_sub_namespace() const { return sub_namespace_; }
-const std::string &Node::get_effective_namespace() const { return effective_namespace_; }
+const std::string& Node::get_sub_namespace() const { return sub_namespace_; }
+const std::string& Node::get_effective_namespace() const { return effective_namespace_; }
 
-Node::SharedPtr Node::create_sub_node(const std::string &sub_namespace) {
+Node::SharedPtr Node::create_sub_node(const std::string& sub_namespace) {
   return std::shared_ptr<Node>(new Node(*this, sub_namespace));
 }
 

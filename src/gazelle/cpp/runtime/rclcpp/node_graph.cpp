@@ -16,7 +16,7 @@ using gazelle::Json;
 using node_interfaces::NodeBaseInterface;
 using node_interfaces::NodeGraphInterface;
 
-std::pair<std::string, std::string> split(const std::string &full) {
+std::pair<std::string, std::string> split(const std::string& full) {
   const std::size_t at = full.rfind('/');
   if (at == std::string::npos) return {full, "/"};
   return {full.substr(at + 1), at == 0 ? "/" : full.substr(0, at)};
@@ -36,7 +36,7 @@ class Changes : public std::enable_shared_from_this<Changes> {
   }
   void tell() {
     std::lock_guard<std::mutex> lock(mutex_);
-    for (const auto &one : events_) {
+    for (const auto& one : events_) {
       if (const auto event = one.lock()) event->set();
     }
     condition_.notify_all();
@@ -45,12 +45,12 @@ class Changes : public std::enable_shared_from_this<Changes> {
     auto made = std::make_shared<Event>();
     std::lock_guard<std::mutex> lock(mutex_);
     events_.erase(std::remove_if(events_.begin(), events_.end(),
-                                 [](const auto &one) { return one.expired(); }),
+                                 [](const auto& one) { return one.expired(); }),
                   events_.end());
     events_.push_back(made);
     return made;
   }
-  void wait(const Event::SharedPtr &event, std::chrono::nanoseconds timeout, Context &context) {
+  void wait(const Event::SharedPtr& event, std::chrono::nanoseconds timeout, Context& context) {
     std::unique_lock<std::mutex> lock(mutex_);
     const auto over = [&]() { return event->check() || !context.is_valid(); };
     if (timeout < std::chrono::nanoseconds(0)) {
@@ -59,10 +59,10 @@ class Changes : public std::enable_shared_from_this<Changes> {
       condition_.wait_for(lock, timeout, over);
     }
   }
-  bool knows(const Event::SharedPtr &event) {
+  bool knows(const Event::SharedPtr& event) {
     std::lock_guard<std::mutex> lock(mutex_);
     return std::any_of(events_.begin(), events_.end(),
-                       [&](const auto &one) { return one.lock() == event; });
+                       [&](const auto& one) { return one.lock() == event; });
   }
   std::size_t users() {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -90,21 +90,21 @@ class Graph : public NodeGraphInterface {
     return rows(
         gazelle::call("graph/service_types", Json::object({{"ros2", true}, {"hidden", true}})));
   }
-  NamesAndTypes get_service_names_and_types_by_node(const std::string &name,
-                                                    const std::string &space) const override {
+  NamesAndTypes get_service_names_and_types_by_node(const std::string& name,
+                                                    const std::string& space) const override {
     return of_node("service", name, space);
   }
-  NamesAndTypes get_client_names_and_types_by_node(const std::string &name,
-                                                   const std::string &space) const override {
+  NamesAndTypes get_client_names_and_types_by_node(const std::string& name,
+                                                   const std::string& space) const override {
     return of_node("client", name, space);
   }
-  NamesAndTypes get_publisher_names_and_types_by_node(const std::string &name,
-                                                      const std::string &space,
+  NamesAndTypes get_publisher_names_and_types_by_node(const std::string& name,
+                                                      const std::string& space,
                                                       bool) const override {
     return of_node("publisher", name, space);
   }
-  NamesAndTypes get_subscriber_names_and_types_by_node(const std::string &name,
-                                                       const std::string &space,
+  NamesAndTypes get_subscriber_names_and_types_by_node(const std::string& name,
+                                                       const std::string& space,
                                                        bool) const override {
     return of_node("subscription", name, space);
   }
@@ -114,26 +114,26 @@ class Graph : public NodeGraphInterface {
   std::vector<std::tuple<std::string, std::string, std::string>> get_node_names_with_enclaves()
       const override {
     std::vector<std::tuple<std::string, std::string, std::string>> found;
-    for (const auto &one : get_node_names_and_namespaces()) {
+    for (const auto& one : get_node_names_and_namespaces()) {
       found.emplace_back(one.first, one.second, "/");
     }
     return found;
   }
   std::vector<std::pair<std::string, std::string>> get_node_names_and_namespaces() const override {
     std::vector<std::pair<std::string, std::string>> found;
-    for (const auto &one : get_node_names()) found.push_back(split(one));
+    for (const auto& one : get_node_names()) found.push_back(split(one));
     return found;
   }
-  std::size_t count_publishers(const std::string &topic) const override {
+  std::size_t count_publishers(const std::string& topic) const override {
     return count("publisher", topic, false);
   }
-  std::size_t count_subscribers(const std::string &topic) const override {
+  std::size_t count_subscribers(const std::string& topic) const override {
     return count("subscription", topic, false);
   }
-  std::size_t count_clients(const std::string &service) const override {
+  std::size_t count_clients(const std::string& service) const override {
     return count("client", service, true);
   }
-  std::size_t count_services(const std::string &service) const override {
+  std::size_t count_services(const std::string& service) const override {
     return count("service", service, true);
   }
   void notify_graph_change() override { changes()->tell(); }
@@ -147,52 +147,54 @@ class Graph : public NodeGraphInterface {
     std::lock_guard<std::mutex> lock(mutex_);
     return changes_ ? changes_->users() : 0;
   }
-  std::vector<TopicEndpointInfo> get_publishers_info_by_topic(const std::string &topic,
+  std::vector<TopicEndpointInfo> get_publishers_info_by_topic(const std::string& topic,
                                                               bool) const override {
     return ends("publisher", topic, EndpointType::Publisher);
   }
-  std::vector<TopicEndpointInfo> get_subscriptions_info_by_topic(const std::string &topic,
+  std::vector<TopicEndpointInfo> get_subscriptions_info_by_topic(const std::string& topic,
                                                                  bool) const override {
     return ends("subscription", topic, EndpointType::Subscription);
   }
 
  private:
-  static NamesAndTypes rows(const Json &found) {
+  static NamesAndTypes rows(const Json& found) {
     NamesAndTypes names;
-    for (const auto &one : found.items()) {
-      auto &types = names[one[0].as_string()];
+    for (const auto& one : found.items()) {
+      auto& types = names[one[0].as_string()];
       const std::string type = one[1].as_string();
       if (std::find(types.begin(), types.end(), type) == types.end()) types.push_back(type);
     }
     return names;
   }
 
-  NamesAndTypes of_node(const char *kind, const std::string &name, const std::string &space) const {
+  NamesAndTypes of_node(const char* kind, const std::string& name, const std::string& space) const {
     const std::string full = (space == "/" ? "" : space) + "/" + name;
     const auto nodes = get_node_names();
     if (std::find(nodes.begin(), nodes.end(), full) == nodes.end()) {
-      throw exceptions::RCLError(RCL_RET_NODE_NAME_NON_EXISTENT, "cannot get names and types: "
-                                 "node '" + full + "' does not exist");
+      throw exceptions::RCLError(RCL_RET_NODE_NAME_NON_EXISTENT,
+                                 "cannot get names and types: "
+                                 "node '" +
+                                     full + "' does not exist");
     }
     NamesAndTypes names;
-    for (const auto &end :
+    for (const auto& end :
          gazelle::call("graph/ends", Json::object({{"kind", kind}, {"node", full}})).items()) {
       names[end["name"].as_string()].push_back(end["type"].as_string());
     }
     return names;
   }
 
-  std::size_t count(const char *kind, const std::string &name, bool is_service) const {
+  std::size_t count(const char* kind, const std::string& name, bool is_service) const {
     const std::string full = base_->resolve_topic_or_service_name(name, is_service, true);
     return static_cast<std::size_t>(
         gazelle::call("graph/count", Json::object({{"kind", kind}, {"name", full}})).as_int());
   }
 
-  std::vector<TopicEndpointInfo> ends(const char *kind, const std::string &topic,
+  std::vector<TopicEndpointInfo> ends(const char* kind, const std::string& topic,
                                       EndpointType type) const {
     const std::string full = base_->resolve_topic_or_service_name(topic, false, false);
     std::vector<TopicEndpointInfo> found;
-    for (const auto &end :
+    for (const auto& end :
          gazelle::call("graph/ends", Json::object({{"kind", kind}, {"name", full}})).items()) {
       const auto node = split(end["node"].as_string());
       std::array<uint8_t, RMW_GID_STORAGE_SIZE> gid{};

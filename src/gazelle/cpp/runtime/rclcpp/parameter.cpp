@@ -38,9 +38,9 @@ std::string to_string(ParameterType type) {
   return "unknown type";
 }
 
-std::ostream &operator<<(std::ostream &out, ParameterType type) { return out << to_string(type); }
+std::ostream& operator<<(std::ostream& out, ParameterType type) { return out << to_string(type); }
 
-ParameterValue::ParameterValue(const rcl_interfaces::msg::ParameterValue &value) : value_(value) {
+ParameterValue::ParameterValue(const rcl_interfaces::msg::ParameterValue& value) : value_(value) {
   if (value.type > PARAMETER_STRING_ARRAY) {
     throw std::runtime_error("Unknown type: " + std::to_string(value.type));
   }
@@ -57,35 +57,35 @@ ParameterValue::ParameterValue(double value) {
   value_.double_value = value;
   value_.type = PARAMETER_DOUBLE;
 }
-ParameterValue::ParameterValue(const std::string &value) {
+ParameterValue::ParameterValue(const std::string& value) {
   value_.string_value = value;
   value_.type = PARAMETER_STRING;
 }
-ParameterValue::ParameterValue(const std::vector<uint8_t> &value) {
+ParameterValue::ParameterValue(const std::vector<uint8_t>& value) {
   value_.byte_array_value = value;
   value_.type = PARAMETER_BYTE_ARRAY;
 }
-ParameterValue::ParameterValue(const std::vector<bool> &value) {
+ParameterValue::ParameterValue(const std::vector<bool>& value) {
   value_.bool_array_value = value;
   value_.type = PARAMETER_BOOL_ARRAY;
 }
-ParameterValue::ParameterValue(const std::vector<int> &value) {
+ParameterValue::ParameterValue(const std::vector<int>& value) {
   value_.integer_array_value.assign(value.begin(), value.end());
   value_.type = PARAMETER_INTEGER_ARRAY;
 }
-ParameterValue::ParameterValue(const std::vector<int64_t> &value) {
+ParameterValue::ParameterValue(const std::vector<int64_t>& value) {
   value_.integer_array_value = value;
   value_.type = PARAMETER_INTEGER_ARRAY;
 }
-ParameterValue::ParameterValue(const std::vector<float> &value) {
+ParameterValue::ParameterValue(const std::vector<float>& value) {
   value_.double_array_value.assign(value.begin(), value.end());
   value_.type = PARAMETER_DOUBLE_ARRAY;
 }
-ParameterValue::ParameterValue(const std::vector<double> &value) {
+ParameterValue::ParameterValue(const std::vector<double>& value) {
   value_.double_array_value = value;
   value_.type = PARAMETER_DOUBLE_ARRAY;
 }
-ParameterValue::ParameterValue(const std::vector<std::string> &value) {
+ParameterValue::ParameterValue(const std::vector<std::string>& value) {
   value_.string_array_value = value;
   value_.type = PARAMETER_STRING_ARRAY;
 }
@@ -93,11 +93,11 @@ ParameterValue::ParameterValue(const std::vector<std::string> &value) {
 namespace {
 
 template <class Items, class Write>
-std::string listed(const Items &items, Write write) {
+std::string listed(const Items& items, Write write) {
   std::ostringstream text;
   text << "[";
   bool first = true;
-  for (const auto &one : items) {
+  for (const auto& one : items) {
     if (!first) text << ", ";
     write(text, one);
     first = false;
@@ -108,8 +108,8 @@ std::string listed(const Items &items, Write write) {
 
 }  // namespace
 
-std::string to_string(const ParameterValue &value) {
-  const auto plain = [](std::ostream &out, const auto &one) { out << one; };
+std::string to_string(const ParameterValue& value) {
+  const auto plain = [](std::ostream& out, const auto& one) { out << one; };
   switch (value.get_type()) {
     case PARAMETER_NOT_SET:
       return "not set";
@@ -122,14 +122,14 @@ std::string to_string(const ParameterValue &value) {
     case PARAMETER_STRING:
       return value.get<std::string>();
     case PARAMETER_BYTE_ARRAY:
-      return listed(value.get<std::vector<uint8_t>>(), [](std::ostream &out, uint8_t one) {
+      return listed(value.get<std::vector<uint8_t>>(), [](std::ostream& out, uint8_t one) {
         char text[8];
         std::snprintf(text, sizeof(text), "0x%02x", one);
         out << text;
       });
     case PARAMETER_BOOL_ARRAY:
       return listed(value.get<std::vector<bool>>(),
-                    [](std::ostream &out, bool one) { out << (one ? "true" : "false"); });
+                    [](std::ostream& out, bool one) { out << (one ? "true" : "false"); });
     case PARAMETER_INTEGER_ARRAY:
       return listed(value.get<std::vector<int64_t>>(), plain);
     case PARAMETER_DOUBLE_ARRAY:
@@ -140,7 +140,7 @@ std::string to_string(const ParameterValue &value) {
   return "unknown type";
 }
 
-Parameter Parameter::from_parameter_msg(const rcl_interfaces::msg::Parameter &message) {
+Parameter Parameter::from_parameter_msg(const rcl_interfaces::msg::Parameter& message) {
   return Parameter(message.name, ParameterValue(message.value));
 }
 
@@ -151,29 +151,29 @@ rcl_interfaces::msg::Parameter Parameter::to_parameter_msg() const {
   return message;
 }
 
-std::string _to_json_dict_entry(const Parameter &parameter) {
+std::string _to_json_dict_entry(const Parameter& parameter) {
   return "\"" + parameter.get_name() + "\": {\"type\": \"" + parameter.get_type_name() +
          "\", \"value\": \"" + parameter.value_to_string() + "\"}";
 }
 
-std::ostream &operator<<(std::ostream &out, const Parameter &parameter) {
+std::ostream& operator<<(std::ostream& out, const Parameter& parameter) {
   return out << std::to_string(parameter);
 }
 
-std::ostream &operator<<(std::ostream &out, const std::vector<Parameter> &parameters) {
+std::ostream& operator<<(std::ostream& out, const std::vector<Parameter>& parameters) {
   return out << std::to_string(parameters);
 }
 
 ParameterEventsFilter::ParameterEventsFilter(
     std::shared_ptr<const rcl_interfaces::msg::ParameterEvent> event,
-    const std::vector<std::string> &names, const std::vector<EventType> &types)
+    const std::vector<std::string>& names, const std::vector<EventType>& types)
     : event_(std::move(event)) {
   const auto wants = [&types](EventType type) {
     return std::find(types.begin(), types.end(), type) != types.end();
   };
-  const auto take = [&](const auto &parameters, EventType type) {
+  const auto take = [&](const auto& parameters, EventType type) {
     if (!wants(type)) return;
-    for (const auto &one : parameters) {
+    for (const auto& one : parameters) {
       if (names.empty() || std::find(names.begin(), names.end(), one.name) != names.end()) {
         result_.push_back({type, &one});
       }
@@ -186,7 +186,7 @@ ParameterEventsFilter::ParameterEventsFilter(
 
 namespace detail {
 
-ParameterValue value_from_json(const gazelle::Json &json) {
+ParameterValue value_from_json(const gazelle::Json& json) {
   using Kind = gazelle::Json::Kind;
   switch (json.kind()) {
     case Kind::kBool:
@@ -202,54 +202,53 @@ ParameterValue value_from_json(const gazelle::Json &json) {
     default:
       return ParameterValue();
   }
-  const auto &items = json.items();
-  const auto all = [&items](auto is) {
-    return std::all_of(items.begin(), items.end(), is);
-  };
+  const auto& items = json.items();
+  const auto all = [&items](auto is) { return std::all_of(items.begin(), items.end(), is); };
   if (items.empty()) return ParameterValue(std::vector<std::string>());
-  if (all([](const gazelle::Json &one) { return one.is_bool(); })) {
+  if (all([](const gazelle::Json& one) { return one.is_bool(); })) {
     std::vector<bool> values;
-    for (const auto &one : items) values.push_back(one.as_bool());
+    for (const auto& one : items) values.push_back(one.as_bool());
     return ParameterValue(values);
   }
-  if (all([](const gazelle::Json &one) { return one.is_integer(); })) {
+  if (all([](const gazelle::Json& one) { return one.is_integer(); })) {
     std::vector<int64_t> values;
-    for (const auto &one : items) values.push_back(one.as_int());
+    for (const auto& one : items) values.push_back(one.as_int());
     return ParameterValue(values);
   }
-  if (all([](const gazelle::Json &one) { return one.is_number(); })) {
+  if (all([](const gazelle::Json& one) { return one.is_number(); })) {
     std::vector<double> values;
-    for (const auto &one : items) values.push_back(one.as_double());
+    for (const auto& one : items) values.push_back(one.as_double());
     return ParameterValue(values);
   }
   std::vector<std::string> values;
-  for (const auto &one : items) values.push_back(one.as_string());
+  for (const auto& one : items) values.push_back(one.as_string());
   return ParameterValue(values);
 }
 
 }  // namespace detail
 
-ParameterMap parameter_map_from_yaml_file(const std::string &yaml_filename, const char *node_fqn) {
+ParameterMap parameter_map_from_yaml_file(const std::string& yaml_filename, const char* node_fqn) {
   ParameterMap map;
   gazelle::Json found;
   try {
-    found = gazelle::call("rclcpp/parameter_file", gazelle::Json::object({{"path", yaml_filename}}));
-  } catch (const gazelle::Error &error) {
+    found =
+        gazelle::call("rclcpp/parameter_file", gazelle::Json::object({{"path", yaml_filename}}));
+  } catch (const gazelle::Error& error) {
     throw exceptions::InvalidParametersException(error.what());
   }
-  for (const auto &node : found.members()) {
+  for (const auto& node : found.members()) {
     if (node_fqn && node.first != node_fqn && node.first != "/**") continue;
-    auto &rows = map[node.first];
-    for (const auto &one : node.second.members()) {
+    auto& rows = map[node.first];
+    for (const auto& one : node.second.members()) {
       rows.emplace_back(one.first, detail::value_from_json(one.second));
     }
   }
   return map;
 }
 
-std::vector<Parameter> parameters_from_map(const ParameterMap &map, const char *node_fqn) {
+std::vector<Parameter> parameters_from_map(const ParameterMap& map, const char* node_fqn) {
   std::vector<Parameter> parameters;
-  for (const auto &node : map) {
+  for (const auto& node : map) {
     if (node_fqn && node.first != node_fqn && node.first != "/**") continue;
     parameters.insert(parameters.end(), node.second.begin(), node.second.end());
   }
@@ -260,14 +259,14 @@ std::vector<Parameter> parameters_from_map(const ParameterMap &map, const char *
 
 namespace std {
 
-std::string to_string(const rclcpp::Parameter &parameter) {
+std::string to_string(const rclcpp::Parameter& parameter) {
   return "{\"name\": \"" + parameter.get_name() + "\", \"type\": \"" + parameter.get_type_name() +
          "\", \"value\": \"" + parameter.value_to_string() + "\"}";
 }
 
-std::string to_string(const std::vector<rclcpp::Parameter> &parameters) {
+std::string to_string(const std::vector<rclcpp::Parameter>& parameters) {
   std::string text = "{";
-  for (const auto &one : parameters) {
+  for (const auto& one : parameters) {
     if (text.size() > 1) text += ", ";
     text += rclcpp::_to_json_dict_entry(one);
   }

@@ -7,7 +7,7 @@
 namespace rclcpp {
 namespace detail {
 
-ParameterValue value_from_json(const gazelle::Json &json);
+ParameterValue value_from_json(const gazelle::Json& json);
 
 }  // namespace detail
 }  // namespace rclcpp

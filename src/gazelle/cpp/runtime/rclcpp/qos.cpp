@@ -13,7 +13,7 @@ namespace {
 template <class T>
 struct Word {
   T value;
-  const char *word;
+  const char* word;
 };
 
 constexpr Word<rmw_qos_policy_kind_t> kKinds[] = {
@@ -52,16 +52,16 @@ constexpr Word<rmw_qos_reliability_policy_t> kReliabilities[] = {
 };
 
 template <class T, std::size_t N>
-const char *word_of(const Word<T> (&words)[N], T value) {
-  for (const auto &one : words) {
+const char* word_of(const Word<T> (&words)[N], T value) {
+  for (const auto& one : words) {
     if (one.value == value) return one.word;
   }
   return nullptr;
 }
 
 template <class T, std::size_t N>
-T value_of(const Word<T> (&words)[N], const char *text, T unknown) {
-  for (const auto &one : words) {
+T value_of(const Word<T> (&words)[N], const char* text, T unknown) {
+  for (const auto& one : words) {
     if (text && std::strcmp(one.word, text) == 0) return one.value;
   }
   return unknown;
@@ -70,29 +70,29 @@ T value_of(const Word<T> (&words)[N], const char *text, T unknown) {
 }  // namespace
 
 extern "C" {
-const char *rmw_qos_policy_kind_to_str(rmw_qos_policy_kind_t kind) { return word_of(kKinds, kind); }
-const char *rmw_qos_durability_policy_to_str(rmw_qos_durability_policy_t policy) {
+const char* rmw_qos_policy_kind_to_str(rmw_qos_policy_kind_t kind) { return word_of(kKinds, kind); }
+const char* rmw_qos_durability_policy_to_str(rmw_qos_durability_policy_t policy) {
   return word_of(kDurabilities, policy);
 }
-const char *rmw_qos_history_policy_to_str(rmw_qos_history_policy_t policy) {
+const char* rmw_qos_history_policy_to_str(rmw_qos_history_policy_t policy) {
   return word_of(kHistories, policy);
 }
-const char *rmw_qos_liveliness_policy_to_str(rmw_qos_liveliness_policy_t policy) {
+const char* rmw_qos_liveliness_policy_to_str(rmw_qos_liveliness_policy_t policy) {
   return word_of(kLivelinesses, policy);
 }
-const char *rmw_qos_reliability_policy_to_str(rmw_qos_reliability_policy_t policy) {
+const char* rmw_qos_reliability_policy_to_str(rmw_qos_reliability_policy_t policy) {
   return word_of(kReliabilities, policy);
 }
-rmw_qos_durability_policy_t rmw_qos_durability_policy_from_str(const char *text) {
+rmw_qos_durability_policy_t rmw_qos_durability_policy_from_str(const char* text) {
   return value_of(kDurabilities, text, RMW_QOS_POLICY_DURABILITY_UNKNOWN);
 }
-rmw_qos_history_policy_t rmw_qos_history_policy_from_str(const char *text) {
+rmw_qos_history_policy_t rmw_qos_history_policy_from_str(const char* text) {
   return value_of(kHistories, text, RMW_QOS_POLICY_HISTORY_UNKNOWN);
 }
-rmw_qos_liveliness_policy_t rmw_qos_liveliness_policy_from_str(const char *text) {
+rmw_qos_liveliness_policy_t rmw_qos_liveliness_policy_from_str(const char* text) {
   return value_of(kLivelinesses, text, RMW_QOS_POLICY_LIVELINESS_UNKNOWN);
 }
-rmw_qos_reliability_policy_t rmw_qos_reliability_policy_from_str(const char *text) {
+rmw_qos_reliability_policy_t rmw_qos_reliability_policy_from_str(const char* text) {
   return value_of(kReliabilities, text, RMW_QOS_POLICY_RELIABILITY_UNKNOWN);
 }
 }
@@ -100,14 +100,14 @@ rmw_qos_reliability_policy_t rmw_qos_reliability_policy_from_str(const char *tex
 namespace rclcpp {
 namespace {
 
-rmw_qos_profile_t with_history(rmw_qos_profile_t profile, const QoSInitialization &given) {
+rmw_qos_profile_t with_history(rmw_qos_profile_t profile, const QoSInitialization& given) {
   profile.history = given.history_policy;
   profile.depth = given.depth;
   return profile;
 }
 
 // The graph knows no end of a duration as 0.
-std::int64_t limit_ns(const rmw_time_t &time) {
+std::int64_t limit_ns(const rmw_time_t& time) {
   const std::int64_t ns = rmw_time_total_nsec(time);
   return ns >= std::numeric_limits<std::int64_t>::max() - 1 ? 0 : ns;
 }
@@ -115,7 +115,7 @@ std::int64_t limit_ns(const rmw_time_t &time) {
 }  // namespace
 
 std::string qos_policy_name_from_kind(rmw_qos_policy_kind_t kind) {
-  static const std::pair<rmw_qos_policy_kind_t, const char *> kNames[] = {
+  static const std::pair<rmw_qos_policy_kind_t, const char*> kNames[] = {
       {RMW_QOS_POLICY_DURABILITY, "DURABILITY_QOS_POLICY"},
       {RMW_QOS_POLICY_DEADLINE, "DEADLINE_QOS_POLICY"},
       {RMW_QOS_POLICY_LIVELINESS, "LIVELINESS_QOS_POLICY"},
@@ -123,13 +123,13 @@ std::string qos_policy_name_from_kind(rmw_qos_policy_kind_t kind) {
       {RMW_QOS_POLICY_HISTORY, "HISTORY_QOS_POLICY"},
       {RMW_QOS_POLICY_LIFESPAN, "LIFESPAN_QOS_POLICY"},
   };
-  for (const auto &one : kNames) {
+  for (const auto& one : kNames) {
     if (one.first == kind) return one.second;
   }
   return "INVALID_QOS_POLICY";
 }
 
-QoSInitialization QoSInitialization::from_rmw(const rmw_qos_profile_t &profile) {
+QoSInitialization QoSInitialization::from_rmw(const rmw_qos_profile_t& profile) {
   switch (profile.history) {
     case RMW_QOS_POLICY_HISTORY_KEEP_ALL:
       return KeepAll();
@@ -141,74 +141,74 @@ QoSInitialization QoSInitialization::from_rmw(const rmw_qos_profile_t &profile) 
   }
 }
 
-QoS::QoS(const QoSInitialization &initialization, const rmw_qos_profile_t &profile)
+QoS::QoS(const QoSInitialization& initialization, const rmw_qos_profile_t& profile)
     : profile_(with_history(profile, initialization)) {}
 QoS::QoS(std::size_t history_depth) : QoS(KeepLast(history_depth)) {}
 
-QoS &QoS::history(HistoryPolicy history) {
+QoS& QoS::history(HistoryPolicy history) {
   return this->history(static_cast<rmw_qos_history_policy_t>(history));
 }
-QoS &QoS::history(rmw_qos_history_policy_t history) {
+QoS& QoS::history(rmw_qos_history_policy_t history) {
   profile_.history = history;
   return *this;
 }
-QoS &QoS::keep_last(std::size_t depth) {
+QoS& QoS::keep_last(std::size_t depth) {
   profile_.depth = depth;
   return history(RMW_QOS_POLICY_HISTORY_KEEP_LAST);
 }
-QoS &QoS::keep_all() {
+QoS& QoS::keep_all() {
   profile_.depth = 0;
   return history(RMW_QOS_POLICY_HISTORY_KEEP_ALL);
 }
-QoS &QoS::reliability(rmw_qos_reliability_policy_t reliability) {
+QoS& QoS::reliability(rmw_qos_reliability_policy_t reliability) {
   profile_.reliability = reliability;
   return *this;
 }
-QoS &QoS::reliability(ReliabilityPolicy reliability) {
+QoS& QoS::reliability(ReliabilityPolicy reliability) {
   return this->reliability(static_cast<rmw_qos_reliability_policy_t>(reliability));
 }
-QoS &QoS::reliable() { return reliability(RMW_QOS_POLICY_RELIABILITY_RELIABLE); }
-QoS &QoS::best_effort() { return reliability(RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT); }
-QoS &QoS::reliability_best_available() {
+QoS& QoS::reliable() { return reliability(RMW_QOS_POLICY_RELIABILITY_RELIABLE); }
+QoS& QoS::best_effort() { return reliability(RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT); }
+QoS& QoS::reliability_best_available() {
   return reliability(RMW_QOS_POLICY_RELIABILITY_BEST_AVAILABLE);
 }
-QoS &QoS::durability(rmw_qos_durability_policy_t durability) {
+QoS& QoS::durability(rmw_qos_durability_policy_t durability) {
   profile_.durability = durability;
   return *this;
 }
-QoS &QoS::durability(DurabilityPolicy durability) {
+QoS& QoS::durability(DurabilityPolicy durability) {
   return this->durability(static_cast<rmw_qos_durability_policy_t>(durability));
 }
-QoS &QoS::durability_volatile() { return durability(RMW_QOS_POLICY_DURABILITY_VOLATILE); }
-QoS &QoS::transient_local() { return durability(RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL); }
-QoS &QoS::durability_best_available() {
+QoS& QoS::durability_volatile() { return durability(RMW_QOS_POLICY_DURABILITY_VOLATILE); }
+QoS& QoS::transient_local() { return durability(RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL); }
+QoS& QoS::durability_best_available() {
   return durability(RMW_QOS_POLICY_DURABILITY_BEST_AVAILABLE);
 }
-QoS &QoS::deadline(rmw_time_t deadline) {
+QoS& QoS::deadline(rmw_time_t deadline) {
   profile_.deadline = deadline;
   return *this;
 }
-QoS &QoS::deadline(const Duration &deadline) { return this->deadline(deadline.to_rmw_time()); }
-QoS &QoS::lifespan(rmw_time_t lifespan) {
+QoS& QoS::deadline(const Duration& deadline) { return this->deadline(deadline.to_rmw_time()); }
+QoS& QoS::lifespan(rmw_time_t lifespan) {
   profile_.lifespan = lifespan;
   return *this;
 }
-QoS &QoS::lifespan(const Duration &lifespan) { return this->lifespan(lifespan.to_rmw_time()); }
-QoS &QoS::liveliness(rmw_qos_liveliness_policy_t liveliness) {
+QoS& QoS::lifespan(const Duration& lifespan) { return this->lifespan(lifespan.to_rmw_time()); }
+QoS& QoS::liveliness(rmw_qos_liveliness_policy_t liveliness) {
   profile_.liveliness = liveliness;
   return *this;
 }
-QoS &QoS::liveliness(LivelinessPolicy liveliness) {
+QoS& QoS::liveliness(LivelinessPolicy liveliness) {
   return this->liveliness(static_cast<rmw_qos_liveliness_policy_t>(liveliness));
 }
-QoS &QoS::liveliness_lease_duration(rmw_time_t lease) {
+QoS& QoS::liveliness_lease_duration(rmw_time_t lease) {
   profile_.liveliness_lease_duration = lease;
   return *this;
 }
-QoS &QoS::liveliness_lease_duration(const Duration &lease) {
+QoS& QoS::liveliness_lease_duration(const Duration& lease) {
   return liveliness_lease_duration(lease.to_rmw_time());
 }
-QoS &QoS::avoid_ros_namespace_conventions(bool avoid) {
+QoS& QoS::avoid_ros_namespace_conventions(bool avoid) {
   profile_.avoid_ros_namespace_conventions = avoid;
   return *this;
 }
@@ -243,9 +243,9 @@ gazelle::Qos QoS::to_graph() const {
   return qos;
 }
 
-bool operator==(const QoS &left, const QoS &right) {
-  const auto &a = left.get_rmw_qos_profile();
-  const auto &b = right.get_rmw_qos_profile();
+bool operator==(const QoS& left, const QoS& right) {
+  const auto& a = left.get_rmw_qos_profile();
+  const auto& b = right.get_rmw_qos_profile();
   return a.history == b.history && a.depth == b.depth && a.reliability == b.reliability &&
          a.durability == b.durability && rmw_time_equal(a.deadline, b.deadline) &&
          rmw_time_equal(a.lifespan, b.lifespan) && a.liveliness == b.liveliness &&
@@ -253,12 +253,12 @@ bool operator==(const QoS &left, const QoS &right) {
          a.avoid_ros_namespace_conventions == b.avoid_ros_namespace_conventions;
 }
 
-bool operator!=(const QoS &left, const QoS &right) { return !(left == right); }
+bool operator!=(const QoS& left, const QoS& right) { return !(left == right); }
 
-QoSCheckCompatibleResult qos_check_compatible(const QoS &publisher_qos,
-                                              const QoS &subscription_qos) {
-  const auto &offered = publisher_qos.get_rmw_qos_profile();
-  const auto &wanted = subscription_qos.get_rmw_qos_profile();
+QoSCheckCompatibleResult qos_check_compatible(const QoS& publisher_qos,
+                                              const QoS& subscription_qos) {
+  const auto& offered = publisher_qos.get_rmw_qos_profile();
+  const auto& wanted = subscription_qos.get_rmw_qos_profile();
   std::string errors;
   if (offered.reliability == RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT &&
       wanted.reliability == RMW_QOS_POLICY_RELIABILITY_RELIABLE) {
@@ -277,8 +277,7 @@ QoSCheckCompatibleResult qos_check_compatible(const QoS &publisher_qos,
   }
   if (offered.liveliness == RMW_QOS_POLICY_LIVELINESS_AUTOMATIC &&
       wanted.liveliness == RMW_QOS_POLICY_LIVELINESS_MANUAL_BY_TOPIC) {
-    errors +=
-        "ERROR: Publisher's liveliness is automatic and subscription's is manual by topic;";
+    errors += "ERROR: Publisher's liveliness is automatic and subscription's is manual by topic;";
   }
   const std::int64_t offered_lease = limit_ns(offered.liveliness_lease_duration);
   const std::int64_t wanted_lease = limit_ns(wanted.liveliness_lease_duration);
@@ -302,22 +301,22 @@ QoSCheckCompatibleResult qos_check_compatible(const QoS &publisher_qos,
 
 // ---- Parameters that override policies ----------------------------------------------------------
 
-const char *qos_policy_kind_to_cstr(const QosPolicyKind &kind) {
-  const char *word = rmw_qos_policy_kind_to_str(static_cast<rmw_qos_policy_kind_t>(kind));
+const char* qos_policy_kind_to_cstr(const QosPolicyKind& kind) {
+  const char* word = rmw_qos_policy_kind_to_str(static_cast<rmw_qos_policy_kind_t>(kind));
   if (!word) throw std::invalid_argument("unknown QoS policy kind");
   return word;
 }
 
-std::ostream &operator<<(std::ostream &out, const QosPolicyKind &kind) {
+std::ostream& operator<<(std::ostream& out, const QosPolicyKind& kind) {
   return out << qos_policy_kind_to_cstr(kind);
 }
 
 namespace detail {
 namespace {
 
-ParameterValue value_of_policy(QosPolicyKind kind, const QoS &qos) {
-  const auto &profile = qos.get_rmw_qos_profile();
-  const auto ns = [](const rmw_time_t &time) {
+ParameterValue value_of_policy(QosPolicyKind kind, const QoS& qos) {
+  const auto& profile = qos.get_rmw_qos_profile();
+  const auto ns = [](const rmw_time_t& time) {
     return ParameterValue(static_cast<int64_t>(rmw_time_total_nsec(time)));
   };
   switch (kind) {
@@ -346,12 +345,12 @@ ParameterValue value_of_policy(QosPolicyKind kind, const QoS &qos) {
 }
 
 template <class T>
-T known(T value, T unknown, const std::string &word) {
+T known(T value, T unknown, const std::string& word) {
   if (value == unknown) throw std::invalid_argument("unknown QoS policy value: " + word);
   return value;
 }
 
-void apply_policy(QosPolicyKind kind, const ParameterValue &value, QoS &qos) {
+void apply_policy(QosPolicyKind kind, const ParameterValue& value, QoS& qos) {
   const auto time = [&value]() { return rmw_time_from_nsec(value.get<int64_t>()); };
   const std::string word = value.get_type() == PARAMETER_STRING ? value.get<std::string>() : "";
   switch (kind) {
@@ -394,18 +393,18 @@ void apply_policy(QosPolicyKind kind, const ParameterValue &value, QoS &qos) {
 
 }  // namespace
 
-QoS overridden_qos(node_interfaces::NodeParametersInterface *parameters, const std::string &topic,
-                   const QoS &qos, const QosOverridingOptions &options, bool is_publisher) {
+QoS overridden_qos(node_interfaces::NodeParametersInterface* parameters, const std::string& topic,
+                   const QoS& qos, const QosOverridingOptions& options, bool is_publisher) {
   if (!parameters) return qos;
   QoS actual = qos;
   std::string entity = is_publisher ? "publisher" : "subscription";
   if (!options.get_id().empty()) entity += "_" + options.get_id();
   for (const auto kind : options.get_policy_kinds()) {
-    const std::string name = "qos_overrides." + topic + "." + entity + "." +
-                             qos_policy_kind_to_cstr(kind);
+    const std::string name =
+        "qos_overrides." + topic + "." + entity + "." + qos_policy_kind_to_cstr(kind);
     rcl_interfaces::msg::ParameterDescriptor descriptor;
-    descriptor.description = "qos policy {" + std::string(qos_policy_kind_to_cstr(kind)) + "} for {" +
-                             entity + "} on topic {" + topic + "}";
+    descriptor.description = "qos policy {" + std::string(qos_policy_kind_to_cstr(kind)) +
+                             "} for {" + entity + "} on topic {" + topic + "}";
     descriptor.read_only = true;
     ParameterValue value;
     if (parameters->has_parameter(name)) {
@@ -415,7 +414,7 @@ QoS overridden_qos(node_interfaces::NodeParametersInterface *parameters, const s
     }
     apply_policy(kind, value, actual);
   }
-  if (const auto &validate = options.get_validation_callback()) {
+  if (const auto& validate = options.get_validation_callback()) {
     const auto result = validate(actual);
     if (!result.successful) {
       throw exceptions::InvalidParameterValueException("validation callback failed: " +

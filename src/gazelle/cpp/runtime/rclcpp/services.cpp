@@ -22,7 +22,7 @@ class ServiceBase::Impl {
  public:
   using Key = std::pair<std::array<std::uint8_t, 16>, std::int64_t>;
 
-  static Key key_of(const rmw_request_id_t &id) {
+  static Key key_of(const rmw_request_id_t& id) {
     Key key;
     std::memcpy(key.first.data(), id.writer_guid, key.first.size());
     key.second = id.sequence_number;
@@ -32,18 +32,18 @@ class ServiceBase::Impl {
   std::shared_ptr<gazelle::GraphNode> node;
   std::shared_ptr<gazelle::ServiceServer> server;
   std::string name;
-  const gazelle::ServiceType *type = nullptr;
+  const gazelle::ServiceType* type = nullptr;
   QoS qos = ServicesQoS();
   detail::RequestCallback callback;
   std::shared_ptr<rcl_service_t> handle = std::make_shared<rcl_service_t>();
   std::mutex mutex;
   std::deque<std::pair<gazelle::RequestId, gazelle::Bytes>> queue;
   std::map<Key, gazelle::RequestId> open;
-  ServiceBase *owner = nullptr;
+  ServiceBase* owner = nullptr;
 };
 
-ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface *node, const std::string &name,
-                         const gazelle::ServiceType &type, const QoS &qos)
+ServiceBase::ServiceBase(node_interfaces::NodeBaseInterface* node, const std::string& name,
+                         const gazelle::ServiceType& type, const QoS& qos)
     : impl_(std::make_shared<Impl>()) {
   impl_->node = node->graph_node();
   impl_->name = name;
@@ -78,15 +78,16 @@ void ServiceBase::start(detail::RequestCallback callback) {
   impl_->name = impl_->server->name();
 }
 
-const char *ServiceBase::get_service_name() { return impl_->name.c_str(); }
+const char* ServiceBase::get_service_name() { return impl_->name.c_str(); }
 std::shared_ptr<rcl_service_t> ServiceBase::get_service_handle() { return impl_->handle; }
 QoS ServiceBase::get_response_subscription_actual_qos() const { return impl_->qos; }
 QoS ServiceBase::get_request_publisher_actual_qos() const { return impl_->qos; }
-void ServiceBase::configure_introspection(Clock::SharedPtr, const QoS &,
+void ServiceBase::configure_introspection(Clock::SharedPtr, const QoS&,
                                           rcl_service_introspection_state_t state) {
   if (state == RCL_SERVICE_INTROSPECTION_OFF) return;
-  RCLCPP_WARN_ONCE(get_logger("rclcpp"),
-                   "introspection of services is not there: nothing is published on _service_event");
+  RCLCPP_WARN_ONCE(
+      get_logger("rclcpp"),
+      "introspection of services is not there: nothing is published on _service_event");
 }
 
 bool ServiceBase::has_work() {
@@ -94,10 +95,10 @@ bool ServiceBase::has_work() {
   return !impl_->queue.empty();
 }
 
-bool ServiceBase::take_bytes(gazelle::Bytes &request, rmw_request_id_t &id) {
+bool ServiceBase::take_bytes(gazelle::Bytes& request, rmw_request_id_t& id) {
   std::lock_guard<std::mutex> lock(impl_->mutex);
   if (impl_->queue.empty()) return false;
-  auto &first = impl_->queue.front();
+  auto& first = impl_->queue.front();
   std::memcpy(id.writer_guid, first.first.client.data(), first.first.client.size());
   id.sequence_number = first.first.sequence;
   request = std::move(first.second);
@@ -106,7 +107,7 @@ bool ServiceBase::take_bytes(gazelle::Bytes &request, rmw_request_id_t &id) {
   return true;
 }
 
-bool ServiceBase::take_type_erased_request(void *request, rmw_request_id_t &id) {
+bool ServiceBase::take_type_erased_request(void* request, rmw_request_id_t& id) {
   gazelle::Bytes bytes;
   if (!take_bytes(bytes, id)) return false;
   gazelle::decode_cdr(*impl_->type->request->layout, request, bytes.data(), bytes.size());
@@ -120,7 +121,7 @@ bool ServiceBase::do_work() {
   const std::shared_ptr<Impl> kept = impl_;
   try {
     kept->callback(id, bytes);
-  } catch (const gazelle::Error &error) {
+  } catch (const gazelle::Error& error) {
     // The request was no message of the type.
     RCLCPP_ERROR(get_logger("rclcpp"), "a request of '%s' is refused: %s", kept->name.c_str(),
                  error.what());
@@ -134,7 +135,7 @@ bool ServiceBase::do_work() {
   return true;
 }
 
-void ServiceBase::respond(const rmw_request_id_t &id, const void *response) {
+void ServiceBase::respond(const rmw_request_id_t& id, const void* response) {
   gazelle::RequestId request;
   {
     std::lock_guard<std::mutex> lock(impl_->mutex);
@@ -159,25 +160,25 @@ class ClientBase::Impl {
   };
 
   std::shared_ptr<gazelle::ServiceClient> client;
-  const gazelle::ServiceType *type = nullptr;
+  const gazelle::ServiceType* type = nullptr;
   QoS qos = ServicesQoS();
   std::shared_ptr<rcl_client_t> handle = std::make_shared<rcl_client_t>();
   std::mutex mutex;
   std::int64_t last_number = 0;
   std::map<std::int64_t, Pending> pending;
   std::deque<std::pair<std::int64_t, gazelle::Bytes>> responses;
-  ClientBase *owner = nullptr;
+  ClientBase* owner = nullptr;
 };
 
-ClientBase::ClientBase(node_interfaces::NodeBaseInterface *node, const std::string &name,
-                       const gazelle::ServiceType &type, const QoS &qos)
+ClientBase::ClientBase(node_interfaces::NodeBaseInterface* node, const std::string& name,
+                       const gazelle::ServiceType& type, const QoS& qos)
     : impl_(std::make_shared<Impl>()) {
   impl_->type = &type;
   impl_->qos = qos;
   impl_->owner = this;
   impl_->handle->impl = this;
-  detail::with_service_errors(
-      name, [&]() { impl_->client = node->graph_node()->client(name, type); });
+  detail::with_service_errors(name,
+                              [&]() { impl_->client = node->graph_node()->client(name, type); });
 }
 
 ClientBase::~ClientBase() {
@@ -188,24 +189,25 @@ ClientBase::~ClientBase() {
   if (impl_->client) impl_->client->close();
 }
 
-const char *ClientBase::get_service_name() const { return impl_->client->name().c_str(); }
+const char* ClientBase::get_service_name() const { return impl_->client->name().c_str(); }
 std::shared_ptr<rcl_client_t> ClientBase::get_client_handle() { return impl_->handle; }
 bool ClientBase::service_is_ready() const { return impl_->client->is_ready(); }
 QoS ClientBase::get_request_publisher_actual_qos() const { return impl_->qos; }
 QoS ClientBase::get_response_subscription_actual_qos() const { return impl_->qos; }
-void ClientBase::configure_introspection(Clock::SharedPtr, const QoS &,
+void ClientBase::configure_introspection(Clock::SharedPtr, const QoS&,
                                          rcl_service_introspection_state_t state) {
   if (state == RCL_SERVICE_INTROSPECTION_OFF) return;
-  RCLCPP_WARN_ONCE(get_logger("rclcpp"),
-                   "introspection of services is not there: nothing is published on _service_event");
+  RCLCPP_WARN_ONCE(
+      get_logger("rclcpp"),
+      "introspection of services is not there: nothing is published on _service_event");
 }
 
 bool ClientBase::wait_for_service_nanoseconds(std::chrono::nanoseconds timeout) {
-  return impl_->client->wait_for(
-      timeout.count() < 0 ? -1.0 : static_cast<double>(timeout.count()) / 1e9);
+  return impl_->client->wait_for(timeout.count() < 0 ? -1.0
+                                                     : static_cast<double>(timeout.count()) / 1e9);
 }
 
-std::int64_t ClientBase::send(const void *request, detail::ResponseCallback callback) {
+std::int64_t ClientBase::send(const void* request, detail::ResponseCallback callback) {
   std::vector<std::uint8_t> cdr;
   impl_->type->request->encode(request, cdr);
   std::int64_t number;
@@ -258,7 +260,7 @@ bool ClientBase::do_work() {
   return true;
 }
 
-bool ClientBase::take_type_erased_response(void *response, rmw_request_id_t &id) {
+bool ClientBase::take_type_erased_response(void* response, rmw_request_id_t& id) {
   detail::ResponseCallback callback;
   gazelle::Bytes bytes;
   {
@@ -293,12 +295,11 @@ std::size_t ClientBase::prune_pending_requests() {
   return prune_older_than(std::chrono::system_clock::time_point::max()).size();
 }
 
-std::vector<std::int64_t> ClientBase::prune_older_than(
-    std::chrono::system_clock::time_point when) {
+std::vector<std::int64_t> ClientBase::prune_older_than(std::chrono::system_clock::time_point when) {
   std::vector<std::int64_t> numbers;
   {
     std::lock_guard<std::mutex> lock(impl_->mutex);
-    for (const auto &one : impl_->pending) {
+    for (const auto& one : impl_->pending) {
       if (one.second.when < when) numbers.push_back(one.first);
     }
   }
@@ -306,7 +307,7 @@ std::vector<std::int64_t> ClientBase::prune_older_than(
   return numbers;
 }
 
-const gazelle::ServiceType &GenericClient::service_of(const std::string &type) {
+const gazelle::ServiceType& GenericClient::service_of(const std::string& type) {
   throw exceptions::RCLError(RCL_RET_UNSUPPORTED,
                              "no class of the service " + type + " is in this program");
 }

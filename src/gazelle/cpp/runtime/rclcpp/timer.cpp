@@ -11,7 +11,7 @@ namespace rclcpp {
 
 class TimerBase::Impl : public std::enable_shared_from_this<TimerBase::Impl> {
  public:
-  Impl(TimerBase *timer, Clock::SharedPtr given, std::int64_t period, Context::SharedPtr of)
+  Impl(TimerBase* timer, Clock::SharedPtr given, std::int64_t period, Context::SharedPtr of)
       : owner(timer), clock(std::move(given)), context(std::move(of)), period_ns(period) {}
 
   std::int64_t now() const { return clock->impl().now_ns(); }
@@ -21,10 +21,11 @@ class TimerBase::Impl : public std::enable_shared_from_this<TimerBase::Impl> {
     disarm();
     if (canceled || !clock->impl().is_simulated()) return;
     std::weak_ptr<Impl> weak = weak_from_this();
-    const std::uint64_t number = gazelle::Alarms::at(
-        gazelle::Alarms::Base::kClock, next_ns, [weak](gazelle::clock::Wake how) {
-          if (const auto self = weak.lock()) self->woken(how);
-        });
+    const std::uint64_t number = gazelle::Alarms::at(gazelle::Alarms::Base::kClock, next_ns,
+                                                     [weak](gazelle::clock::Wake how) {
+                                                       if (const auto self = weak.lock())
+                                                         self->woken(how);
+                                                     });
     alarm = number;
   }
 
@@ -58,7 +59,7 @@ class TimerBase::Impl : public std::enable_shared_from_this<TimerBase::Impl> {
     if (owner) owner->announce_work();
   }
 
-  TimerBase *owner;  // null once it is being destroyed
+  TimerBase* owner;  // null once it is being destroyed
   std::mutex mutex;  // of owner and of what a jump changes
   const Clock::SharedPtr clock;
   const Context::SharedPtr context;
@@ -82,12 +83,12 @@ TimerBase::TimerBase(Clock::SharedPtr clock, std::chrono::nanoseconds period,
   impl_->canceled = !autostart;
   if (impl_->clock->get_clock_type() == RCL_ROS_TIME) {
     std::weak_ptr<Impl> weak = impl_;
-    impl_->jump = impl_->clock->create_jump_callback(
-        nullptr,
-        [weak](const rcl_time_jump_t &) {
-          if (const auto self = weak.lock()) self->clock_changed();
-        },
-        {true, {0}, {-1}});
+    impl_->jump = impl_->clock->create_jump_callback(nullptr,
+                                                     [weak](const rcl_time_jump_t&) {
+                                                       if (const auto self = weak.lock())
+                                                         self->clock_changed();
+                                                     },
+                                                     {true, {0}, {-1}});
   }
   impl_->arm();
 }
@@ -121,9 +122,9 @@ void TimerBase::reset() {
   if (told) told(1);
 }
 
-bool TimerBase::call() {
+TimerCall TimerBase::call() {
   std::lock_guard<std::mutex> lock(impl_->mutex);
-  if (impl_->canceled) return false;
+  if (impl_->canceled) return {false};
   const std::int64_t now = impl_->now();
   const std::int64_t due = impl_->next_ns;
   const auto type = impl_->clock->get_clock_type();
@@ -135,7 +136,7 @@ bool TimerBase::call() {
   if (next < now) next = period ? next + (1 + (now - next - 1) / period) * period : now;
   impl_->next_ns = next;
   impl_->arm();
-  return true;
+  return {true};
 }
 
 bool TimerBase::do_work() {

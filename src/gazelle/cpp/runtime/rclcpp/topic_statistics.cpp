@@ -36,18 +36,18 @@ struct Numbers {
 };
 
 /// Nanoseconds of `header.stamp` of a message, or -1 where it has none.
-std::int64_t stamp_of(const void *message, const gazelle::Layout &layout) {
+std::int64_t stamp_of(const void* message, const gazelle::Layout& layout) {
   for (std::uint32_t i = 0; i < layout.count; ++i) {
-    const auto &member = layout.members[i];
+    const auto& member = layout.members[i];
     if (std::strcmp(member.name, "header") != 0 || member.kind != gazelle::Kind::message ||
         member.repeat != gazelle::Repeat::one) {
       continue;
     }
-    const gazelle::Layout &header = member.child();
+    const gazelle::Layout& header = member.child();
     for (std::uint32_t k = 0; k < header.count; ++k) {
-      const auto &inner = header.members[k];
+      const auto& inner = header.members[k];
       if (std::strcmp(inner.name, "stamp") != 0) continue;
-      const char *at = static_cast<const char *>(message) + member.offset + inner.offset;
+      const char* at = static_cast<const char*>(message) + member.offset + inner.offset;
       std::int32_t sec;
       std::uint32_t nanosec;
       std::memcpy(&sec, at, sizeof(sec));
@@ -60,23 +60,23 @@ std::int64_t stamp_of(const void *message, const gazelle::Layout &layout) {
 
 class Measured : public TopicStatistics {
  public:
-  Measured(node_interfaces::NodeTopicsInterface *topics, const SubscriptionOptionsBase &options)
+  Measured(node_interfaces::NodeTopicsInterface* topics, const SubscriptionOptionsBase& options)
       : node_name_(topics->get_node_base_interface()->get_name()),
         window_start_ns_(gazelle::clock::wall_ns()) {
-    const auto &wanted = options.topic_stats_options;
+    const auto& wanted = options.topic_stats_options;
     if (wanted.publish_period <= std::chrono::milliseconds(0)) {
       throw std::invalid_argument("topic_stats_options.publish_period must be greater than 0");
     }
-    auto *base = topics->get_node_base_interface();
-    publisher_ = std::make_shared<Publisher<MetricsMessage>>(base, wanted.publish_topic,
-                                                             wanted.qos, PublisherOptions());
+    auto* base = topics->get_node_base_interface();
+    publisher_ = std::make_shared<Publisher<MetricsMessage>>(base, wanted.publish_topic, wanted.qos,
+                                                             PublisherOptions());
     topics->add_publisher(publisher_, options.callback_group);
     period_ = wanted.publish_period;
     group_ = options.callback_group;
     topics_ = topics;
   }
 
-  void start(const std::shared_ptr<Measured> &self) {
+  void start(const std::shared_ptr<Measured>& self) {
     std::weak_ptr<Measured> weak = self;
     timer_ = create_wall_timer(
         period_,
@@ -86,7 +86,7 @@ class Measured : public TopicStatistics {
         group_, topics_->get_node_base_interface(), topics_->get_node_timers_interface());
   }
 
-  void take(const gazelle::Delivered &delivered, const gazelle::MessageType *type) override {
+  void take(const gazelle::Delivered& delivered, const gazelle::MessageType* type) override {
     const std::int64_t now = gazelle::clock::wall_ns();
     std::lock_guard<std::mutex> lock(mutex_);
     if (last_ns_) period_numbers_.add(static_cast<double>(now - last_ns_) / 1e6);
@@ -108,7 +108,7 @@ class Measured : public TopicStatistics {
     window_start_ns_ = now;
   }
 
-  void publish_one(const char *what, const Numbers &numbers, std::int64_t now) {
+  void publish_one(const char* what, const Numbers& numbers, std::int64_t now) {
     auto message = std::make_unique<MetricsMessage>();
     message->measurement_source_name = node_name_;
     message->metrics_source = what;
@@ -135,7 +135,7 @@ class Measured : public TopicStatistics {
   std::shared_ptr<Publisher<MetricsMessage>> publisher_;
   std::chrono::milliseconds period_;
   CallbackGroup::SharedPtr group_;
-  node_interfaces::NodeTopicsInterface *topics_;
+  node_interfaces::NodeTopicsInterface* topics_;
   TimerBase::SharedPtr timer_;
   std::mutex mutex_;
   Numbers age_numbers_, period_numbers_;
@@ -146,7 +146,7 @@ class Measured : public TopicStatistics {
 }  // namespace
 
 std::shared_ptr<TopicStatistics> TopicStatistics::create(
-    node_interfaces::NodeTopicsInterface *topics, const SubscriptionOptionsBase &options) {
+    node_interfaces::NodeTopicsInterface* topics, const SubscriptionOptionsBase& options) {
   auto made = std::make_shared<Measured>(topics, options);
   made->start(made);
   return made;

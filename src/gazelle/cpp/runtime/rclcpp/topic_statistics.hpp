@@ -12,11 +12,11 @@ namespace detail {
 
 class TopicStatistics {
  public:
-  static std::shared_ptr<TopicStatistics> create(node_interfaces::NodeTopicsInterface *topics,
-                                                 const SubscriptionOptionsBase &options);
+  static std::shared_ptr<TopicStatistics> create(node_interfaces::NodeTopicsInterface* topics,
+                                                 const SubscriptionOptionsBase& options);
   virtual ~TopicStatistics() = default;
   /// Note a message that is handed to its callback.
-  virtual void take(const gazelle::Delivered &delivered, const gazelle::MessageType *type) = 0;
+  virtual void take(const gazelle::Delivered& delivered, const gazelle::MessageType* type) = 0;
 };
 
 }  // namespace detail

@@ -20,12 +20,12 @@
 namespace rclcpp {
 namespace {
 
-gazelle::Bytes copy_of(const rcl_serialized_message_t &message) {
+gazelle::Bytes copy_of(const rcl_serialized_message_t& message) {
   return gazelle::Bytes(
       std::vector<std::uint8_t>(message.buffer, message.buffer + message.buffer_length));
 }
 
-MessageInfo info_of(const gazelle::MessageInfo &given) {
+MessageInfo info_of(const gazelle::MessageInfo& given) {
   rmw_message_info_t info{};
   info.source_timestamp = given.stamp_ns;
   info.received_timestamp = gazelle::clock::wall_ns();
@@ -37,8 +37,8 @@ MessageInfo info_of(const gazelle::MessageInfo &given) {
   return MessageInfo(info);
 }
 
-void check_depth(const QoS &qos) {
-  const auto &profile = qos.get_rmw_qos_profile();
+void check_depth(const QoS& qos) {
+  const auto& profile = qos.get_rmw_qos_profile();
   if (profile.history != RMW_QOS_POLICY_HISTORY_KEEP_LAST || profile.depth != 0) return;
   RCLCPP_WARN_ONCE(get_logger("rclcpp"),
                    "A zero depth with KEEP_LAST doesn't make sense; no data could be stored. "
@@ -51,8 +51,8 @@ void check_depth(const QoS &qos) {
 
 class PublisherBase::Impl {
  public:
-  Impl(node_interfaces::NodeBaseInterface *node, const QoS &given,
-       const PublisherOptionsBase &options)
+  Impl(node_interfaces::NodeBaseInterface* node, const QoS& given,
+       const PublisherOptionsBase& options)
       : qos(given),
         events(std::make_shared<detail::EndpointEvents>(options.event_callbacks, given)),
         graph_node(node->graph_node()) {
@@ -75,7 +75,7 @@ class PublisherBase::Impl {
 
   void opened() {
     gid.implementation_identifier = rmw_get_implementation_identifier();
-    const auto &bytes = publisher->gid();
+    const auto& bytes = publisher->gid();
     std::copy(bytes.begin(), bytes.end(), gid.data);
     std::weak_ptr<gazelle::Publisher> weak = publisher;
     events->topic = [weak]() {
@@ -96,31 +96,30 @@ class PublisherBase::Impl {
   std::shared_ptr<detail::EndpointEvents> events;
   std::shared_ptr<gazelle::GraphNode> graph_node;
   std::shared_ptr<gazelle::Publisher> publisher;
-  const gazelle::MessageType *type = nullptr;
+  const gazelle::MessageType* type = nullptr;
   std::shared_ptr<rcl_publisher_t> handle;
   std::unordered_map<int, std::shared_ptr<Waitable>> handlers;
   rmw_gid_t gid{};
 };
 
-PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface *node, const std::string &topic,
-                             const gazelle::MessageType &type, const QoS &qos,
-                             const PublisherOptionsBase &options)
+PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node, const std::string& topic,
+                             const gazelle::MessageType& type, const QoS& qos,
+                             const PublisherOptionsBase& options)
     : impl_(std::make_shared<Impl>(node, qos, options)) {
   impl_->type = &type;
   detail::with_topic_errors(topic, [&]() {
-    impl_->publisher =
-        impl_->graph_node->advertise(topic, type, qos.to_graph(), impl_->options());
+    impl_->publisher = impl_->graph_node->advertise(topic, type, qos.to_graph(), impl_->options());
   });
   impl_->opened();
 }
 
-PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface *node, const std::string &topic,
-                             const std::string &type_name, const QoS &qos,
-                             const PublisherOptionsBase &options)
+PublisherBase::PublisherBase(node_interfaces::NodeBaseInterface* node, const std::string& topic,
+                             const std::string& type_name, const QoS& qos,
+                             const PublisherOptionsBase& options)
     : impl_(std::make_shared<Impl>(node, qos, options)) {
   detail::with_topic_errors(topic, [&]() {
-    impl_->publisher = impl_->graph_node->advertise(topic, type_name, std::string(),
-                                                    qos.to_graph(), impl_->options());
+    impl_->publisher = impl_->graph_node->advertise(topic, type_name, std::string(), qos.to_graph(),
+                                                    impl_->options());
   });
   impl_->opened();
 }
@@ -130,14 +129,14 @@ PublisherBase::~PublisherBase() {
   if (impl_->publisher) impl_->publisher->close();
 }
 
-const char *PublisherBase::get_topic_name() const { return impl_->publisher->topic().c_str(); }
+const char* PublisherBase::get_topic_name() const { return impl_->publisher->topic().c_str(); }
 std::size_t PublisherBase::get_queue_size() const { return impl_->qos.depth(); }
-const rmw_gid_t &PublisherBase::get_gid() const { return impl_->gid; }
+const rmw_gid_t& PublisherBase::get_gid() const { return impl_->gid; }
 std::shared_ptr<rcl_publisher_t> PublisherBase::get_publisher_handle() { return impl_->handle; }
 std::shared_ptr<const rcl_publisher_t> PublisherBase::get_publisher_handle() const {
   return impl_->handle;
 }
-const std::unordered_map<int, std::shared_ptr<Waitable>> &PublisherBase::get_event_handlers()
+const std::unordered_map<int, std::shared_ptr<Waitable>>& PublisherBase::get_event_handlers()
     const {
   return impl_->handlers;
 }
@@ -173,7 +172,7 @@ QoS PublisherBase::get_actual_qos() const {
   if (!graph.lease_ns) actual.liveliness_lease_duration(infinite);
   return actual;
 }
-bool PublisherBase::operator==(const rmw_gid_t &gid) const {
+bool PublisherBase::operator==(const rmw_gid_t& gid) const {
   return std::memcmp(gid.data, impl_->gid.data, sizeof(gid.data)) == 0;
 }
 bool PublisherBase::is_wanted() const { return impl_->publisher->wanted(); }
@@ -183,13 +182,13 @@ void PublisherBase::publish_object(std::shared_ptr<const void> message) {
   impl_->sent();
 }
 
-void PublisherBase::publish_look(const void *message,
-                                 std::shared_ptr<const void> (*copy)(const void *)) {
+void PublisherBase::publish_look(const void* message,
+                                 std::shared_ptr<const void> (*copy)(const void*)) {
   impl_->publisher->publish_copy(message, *impl_->type, copy);
   impl_->sent();
 }
 
-void PublisherBase::publish_bytes(const rcl_serialized_message_t &message) {
+void PublisherBase::publish_bytes(const rcl_serialized_message_t& message) {
   impl_->publisher->publish_cdr(copy_of(message));
   impl_->sent();
 }
@@ -198,8 +197,8 @@ void PublisherBase::publish_bytes(const rcl_serialized_message_t &message) {
 
 class SubscriptionBase::Impl {
  public:
-  Impl(node_interfaces::NodeBaseInterface *node, const QoS &given,
-       const SubscriptionOptionsBase &options, detail::MessageCallback call)
+  Impl(node_interfaces::NodeBaseInterface* node, const QoS& given,
+       const SubscriptionOptionsBase& options, detail::MessageCallback call)
       : qos(given),
         callback(std::move(call)),
         events(std::make_shared<detail::EndpointEvents>(options.event_callbacks, given)),
@@ -212,7 +211,7 @@ class SubscriptionBase::Impl {
     handlers = events->handlers();
   }
 
-  gazelle::SubscriptionOptions options(const SubscriptionOptionsBase &given) {
+  gazelle::SubscriptionOptions options(const SubscriptionOptionsBase& given) {
     gazelle::SubscriptionOptions made;
     made.latched = qos.to_graph().transient_local;
     made.ignore_local = given.ignore_local_publications;
@@ -235,7 +234,7 @@ class SubscriptionBase::Impl {
     if (events->any()) events->on_matched(subscription->publisher_count());
   }
 
-  void push(gazelle::Delivered &&delivered) {
+  void push(gazelle::Delivered&& delivered) {
     if (events->any()) {
       events->on_activity();
       if (events->counts_lost()) events->on_sequence(delivered.info());
@@ -271,9 +270,9 @@ class SubscriptionBase::Impl {
   std::size_t depth = 0;
 };
 
-SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface *node,
-                                   const std::string &topic, const gazelle::MessageType &type,
-                                   const QoS &qos, const SubscriptionOptionsBase &options,
+SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node,
+                                   const std::string& topic, const gazelle::MessageType& type,
+                                   const QoS& qos, const SubscriptionOptionsBase& options,
                                    detail::MessageCallback callback)
     : impl_(std::make_shared<Impl>(node, qos, options, std::move(callback))),
       type_(&type),
@@ -290,9 +289,9 @@ SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface *node,
   impl_->opened();
 }
 
-SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface *node,
-                                   const std::string &topic, const std::string &type_name,
-                                   const QoS &qos, const SubscriptionOptionsBase &options,
+SubscriptionBase::SubscriptionBase(node_interfaces::NodeBaseInterface* node,
+                                   const std::string& topic, const std::string& type_name,
+                                   const QoS& qos, const SubscriptionOptionsBase& options,
                                    detail::MessageCallback callback)
     : impl_(std::make_shared<Impl>(node, qos, options, std::move(callback))),
       type_name_(type_name) {
@@ -313,7 +312,7 @@ SubscriptionBase::~SubscriptionBase() {
   if (impl_->subscription) impl_->subscription->close();
 }
 
-const char *SubscriptionBase::get_topic_name() const {
+const char* SubscriptionBase::get_topic_name() const {
   return impl_->subscription->topic().c_str();
 }
 std::shared_ptr<rcl_subscription_t> SubscriptionBase::get_subscription_handle() {
@@ -322,7 +321,7 @@ std::shared_ptr<rcl_subscription_t> SubscriptionBase::get_subscription_handle() 
 std::shared_ptr<const rcl_subscription_t> SubscriptionBase::get_subscription_handle() const {
   return impl_->handle;
 }
-const std::unordered_map<int, std::shared_ptr<Waitable>> &SubscriptionBase::get_event_handlers()
+const std::unordered_map<int, std::shared_ptr<Waitable>>& SubscriptionBase::get_event_handlers()
     const {
   return impl_->handlers;
 }
@@ -339,7 +338,7 @@ bool SubscriptionBase::do_work() {
   if (type_ && !serialized_) {
     try {
       taken->object(*type_);
-    } catch (const gazelle::Error &error) {
+    } catch (const gazelle::Error& error) {
       RCLCPP_ERROR(get_logger("rclcpp"), "a message on '%s' is dropped: %s", get_topic_name(),
                    error.what());
       return true;
@@ -357,13 +356,13 @@ std::shared_ptr<void> SubscriptionBase::create_message() {
   return type_ ? type_->create() : nullptr;
 }
 
-void SubscriptionBase::assign_message(void *target, std::shared_ptr<void> source) {
+void SubscriptionBase::assign_message(void* target, std::shared_ptr<void> source) {
   std::vector<std::uint8_t> cdr;
   type_->encode(source.get(), cdr);
   gazelle::decode_cdr(*type_->layout, target, cdr.data(), cdr.size());
 }
 
-bool SubscriptionBase::take_type_erased(void *message, MessageInfo &info) {
+bool SubscriptionBase::take_type_erased(void* message, MessageInfo& info) {
   std::optional<gazelle::Delivered> taken = impl_->pop();
   if (!taken || !type_) return false;
   info = info_of(taken->info());
@@ -371,7 +370,7 @@ bool SubscriptionBase::take_type_erased(void *message, MessageInfo &info) {
   return true;
 }
 
-bool SubscriptionBase::take_serialized(SerializedMessage &message, MessageInfo &info) {
+bool SubscriptionBase::take_serialized(SerializedMessage& message, MessageInfo& info) {
   const std::optional<gazelle::Delivered> taken = impl_->pop();
   if (!taken) return false;
   info = info_of(taken->info());
@@ -380,19 +379,19 @@ bool SubscriptionBase::take_serialized(SerializedMessage &message, MessageInfo &
   return true;
 }
 
-void SubscriptionBase::handle_message(std::shared_ptr<void> &message, const MessageInfo &info) {
+void SubscriptionBase::handle_message(std::shared_ptr<void>& message, const MessageInfo& info) {
   impl_->callback(gazelle::Delivered(std::shared_ptr<const void>(message), type_, {}), info);
 }
 
-void SubscriptionBase::handle_serialized_message(
-    const std::shared_ptr<SerializedMessage> &message, const MessageInfo &info) {
+void SubscriptionBase::handle_serialized_message(const std::shared_ptr<SerializedMessage>& message,
+                                                 const MessageInfo& info) {
   impl_->callback(
       gazelle::Delivered(copy_of(message->get_rcl_serialized_message()), type_name_, {}), info);
 }
 
 bool SubscriptionBase::is_cft_enabled() const { return false; }
 
-void SubscriptionBase::set_content_filter(const std::string &, const std::vector<std::string> &) {
+void SubscriptionBase::set_content_filter(const std::string&, const std::vector<std::string>&) {
   throw exceptions::RCLError(RCL_RET_UNSUPPORTED,
                              "failed to set cft expression parameters: content filters are not "
                              "supported here; every message arrives");
@@ -400,9 +399,9 @@ void SubscriptionBase::set_content_filter(const std::string &, const std::vector
 
 ContentFilterOptions SubscriptionBase::get_content_filter() const { return impl_->filter; }
 
-void SubscriptionBase::start_statistics(node_interfaces::NodeTopicsInterface *topics,
-                                        const SubscriptionOptionsBase &options, bool by_default) {
-  const auto &wanted = options.topic_stats_options;
+void SubscriptionBase::start_statistics(node_interfaces::NodeTopicsInterface* topics,
+                                        const SubscriptionOptionsBase& options, bool by_default) {
+  const auto& wanted = options.topic_stats_options;
   const bool enabled = wanted.state == TopicStatisticsState::Enable ||
                        (wanted.state == TopicStatisticsState::NodeDefault && by_default);
   if (!enabled) return;
@@ -411,47 +410,47 @@ void SubscriptionBase::start_statistics(node_interfaces::NodeTopicsInterface *to
 
 // ---- Serialized messages ------------------------------------------------------------------------
 
-SerializedMessage::SerializedMessage(const rcl_allocator_t &allocator)
+SerializedMessage::SerializedMessage(const rcl_allocator_t& allocator)
     : SerializedMessage(0, allocator) {}
 
 SerializedMessage::SerializedMessage(std::size_t initial_capacity,
-                                     const rcl_allocator_t &allocator) {
+                                     const rcl_allocator_t& allocator) {
   if (rmw_serialized_message_init(&message_, initial_capacity, &allocator) != RCUTILS_RET_OK) {
     throw std::bad_alloc();
   }
 }
 
-SerializedMessage::SerializedMessage(const SerializedMessage &other)
+SerializedMessage::SerializedMessage(const SerializedMessage& other)
     : SerializedMessage(other.message_) {}
 
-SerializedMessage::SerializedMessage(const rcl_serialized_message_t &other)
+SerializedMessage::SerializedMessage(const rcl_serialized_message_t& other)
     : SerializedMessage(0, other.allocator) {
   assign(other.buffer, other.buffer_length);
 }
 
-SerializedMessage::SerializedMessage(SerializedMessage &&other)
+SerializedMessage::SerializedMessage(SerializedMessage&& other)
     : SerializedMessage(std::move(other.message_)) {}
 
-SerializedMessage::SerializedMessage(rcl_serialized_message_t &&other) : message_(other) {
+SerializedMessage::SerializedMessage(rcl_serialized_message_t&& other) : message_(other) {
   other.buffer = nullptr;
   other.buffer_length = other.buffer_capacity = 0;
 }
 
-SerializedMessage &SerializedMessage::operator=(const SerializedMessage &other) {
+SerializedMessage& SerializedMessage::operator=(const SerializedMessage& other) {
   return *this = other.message_;
 }
 
-SerializedMessage &SerializedMessage::operator=(const rcl_serialized_message_t &other) {
+SerializedMessage& SerializedMessage::operator=(const rcl_serialized_message_t& other) {
   if (&other != &message_) assign(other.buffer, other.buffer_length);
   return *this;
 }
 
-SerializedMessage &SerializedMessage::operator=(SerializedMessage &&other) {
+SerializedMessage& SerializedMessage::operator=(SerializedMessage&& other) {
   if (this != &other) std::swap(message_, other.message_);
   return *this;
 }
 
-SerializedMessage &SerializedMessage::operator=(rcl_serialized_message_t &&other) {
+SerializedMessage& SerializedMessage::operator=(rcl_serialized_message_t&& other) {
   if (&other != &message_) std::swap(message_, other);
   return *this;
 }
@@ -471,14 +470,14 @@ rcl_serialized_message_t SerializedMessage::release_rcl_serialized_message() {
   return released;
 }
 
-void SerializedMessage::assign(const void *data, std::size_t size) {
+void SerializedMessage::assign(const void* data, std::size_t size) {
   if (size > message_.buffer_capacity) reserve(size);
   if (size) std::memcpy(message_.buffer, data, size);
   message_.buffer_length = size;
 }
 
-void SerializationBase::serialize_message(const void *ros_message,
-                                          SerializedMessage *serialized) const {
+void SerializationBase::serialize_message(const void* ros_message,
+                                          SerializedMessage* serialized) const {
   if (!ros_message) throw std::invalid_argument("ROS message is nullpointer.");
   if (!serialized) throw std::invalid_argument("Serialized message is nullpointer.");
   std::vector<std::uint8_t> cdr;
@@ -486,29 +485,29 @@ void SerializationBase::serialize_message(const void *ros_message,
   serialized->assign(cdr.data(), cdr.size());
 }
 
-void SerializationBase::deserialize_message(const SerializedMessage *serialized,
-                                            void *ros_message) const {
+void SerializationBase::deserialize_message(const SerializedMessage* serialized,
+                                            void* ros_message) const {
   if (!ros_message) throw std::invalid_argument("ROS message is nullpointer.");
   if (!serialized) throw std::invalid_argument("Serialized message is nullpointer.");
-  const auto &bytes = serialized->get_rcl_serialized_message();
+  const auto& bytes = serialized->get_rcl_serialized_message();
   if (bytes.buffer_capacity == 0 || bytes.buffer_length == 0 || !bytes.buffer) {
     throw std::invalid_argument("Failed to deserialize nullptr serialized message.");
   }
   try {
     const auto made = type_->decode(bytes.buffer, bytes.buffer_length);
     assign(ros_message, made.get());
-  } catch (const gazelle::Error &error) {
+  } catch (const gazelle::Error& error) {
     throw exceptions::RCLError(RCL_RET_ERROR, error.what());
   }
 }
 
 }  // namespace rclcpp
 
-extern "C" rmw_ret_t rmw_serialize(const void *message, const rosidl_message_type_support_t *type,
-                                   rmw_serialized_message_t *serialized) {
+extern "C" rmw_ret_t rmw_serialize(const void* message, const rosidl_message_type_support_t* type,
+                                   rmw_serialized_message_t* serialized) {
   if (!message || !type || !serialized) return RMW_RET_INVALID_ARGUMENT;
   std::vector<std::uint8_t> cdr;
-  static_cast<const gazelle::MessageType *>(type->data)->encode(message, cdr);
+  static_cast<const gazelle::MessageType*>(type->data)->encode(message, cdr);
   if (serialized->buffer_capacity < cdr.size() &&
       rmw_serialized_message_resize(serialized, cdr.size()) != RCUTILS_RET_OK) {
     return RMW_RET_BAD_ALLOC;
@@ -518,14 +517,14 @@ extern "C" rmw_ret_t rmw_serialize(const void *message, const rosidl_message_typ
   return RMW_RET_OK;
 }
 
-extern "C" rmw_ret_t rmw_deserialize(const rmw_serialized_message_t *serialized,
-                                     const rosidl_message_type_support_t *type, void *message) {
+extern "C" rmw_ret_t rmw_deserialize(const rmw_serialized_message_t* serialized,
+                                     const rosidl_message_type_support_t* type, void* message) {
   if (!message || !type || !serialized) return RMW_RET_INVALID_ARGUMENT;
-  const auto *layout = static_cast<const gazelle::MessageType *>(type->data)->layout;
+  const auto* layout = static_cast<const gazelle::MessageType*>(type->data)->layout;
   if (!layout) return RMW_RET_UNSUPPORTED;
   try {
     gazelle::decode_cdr(*layout, message, serialized->buffer, serialized->buffer_length);
-  } catch (const gazelle::Error &error) {
+  } catch (const gazelle::Error& error) {
     RCUTILS_SET_ERROR_MSG(error.what());
     return RMW_RET_ERROR;
   }

@@ -9,7 +9,7 @@ namespace detail {
 
 WaitSetCore::WaitSetCore() : waker_(std::make_shared<Waker>()) {}
 WaitSetCore::~WaitSetCore() {
-  for (const auto &one : entries_) {
+  for (const auto& one : entries_) {
     if (const auto strong = one.weak.lock()) {
       strong->remove_waker(waker_.get());
       strong->exchange_in_use_by_wait_set_state(false);
@@ -17,7 +17,7 @@ WaitSetCore::~WaitSetCore() {
   }
 }
 
-void WaitSetCore::add(const std::shared_ptr<Executable> &executable) {
+void WaitSetCore::add(const std::shared_ptr<Executable>& executable) {
   if (!executable) throw std::invalid_argument("what is added to a wait set is null");
   if (executable->exchange_in_use_by_wait_set_state(true)) {
     throw std::runtime_error("it is already in use by another wait set");
@@ -28,12 +28,11 @@ void WaitSetCore::add(const std::shared_ptr<Executable> &executable) {
   waker_->ring();
 }
 
-void WaitSetCore::remove(const std::shared_ptr<Executable> &executable) {
+void WaitSetCore::remove(const std::shared_ptr<Executable>& executable) {
   if (!executable) throw std::invalid_argument("what is removed from a wait set is null");
   std::lock_guard<std::mutex> lock(mutex_);
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry &one) {
-    return one.weak.lock() == executable;
-  });
+  const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                  [&](const Entry& one) { return one.weak.lock() == executable; });
   if (found == entries_.end()) throw std::runtime_error("it is not in the wait set");
   entries_.erase(found);
   executable->remove_waker(waker_.get());
@@ -44,16 +43,16 @@ void WaitSetCore::remove(const std::shared_ptr<Executable> &executable) {
 void WaitSetCore::prune() {
   std::lock_guard<std::mutex> lock(mutex_);
   entries_.erase(std::remove_if(entries_.begin(), entries_.end(),
-                                [](const Entry &one) { return one.weak.expired(); }),
+                                [](const Entry& one) { return one.weak.expired(); }),
                  entries_.end());
 }
 
 void WaitSetCore::release() {
   std::lock_guard<std::mutex> lock(mutex_);
-  for (auto &one : entries_) one.strong.reset();
+  for (auto& one : entries_) one.strong.reset();
 }
 
-WaitResultKind WaitSetCore::wait(std::chrono::nanoseconds timeout, Context &context) {
+WaitResultKind WaitSetCore::wait(std::chrono::nanoseconds timeout, Context& context) {
   using Steady = std::chrono::steady_clock;
   const bool endless = timeout < std::chrono::nanoseconds(0);
   const auto end = Steady::now() + (endless ? std::chrono::nanoseconds(0) : timeout);
@@ -61,9 +60,8 @@ WaitResultKind WaitSetCore::wait(std::chrono::nanoseconds timeout, Context &cont
   const auto handle = context.add_on_shutdown_callback([weak]() {
     if (const auto strong = weak.lock()) strong->ring();
   });
-  const std::shared_ptr<void> unhook(nullptr, [&](void *) {
-    context.remove_on_shutdown_callback(handle);
-  });
+  const std::shared_ptr<void> unhook(nullptr,
+                                     [&](void*) { context.remove_on_shutdown_callback(handle); });
   for (;;) {
     const std::uint64_t seen = waker_->count();
     std::optional<Steady::time_point> until;
@@ -73,7 +71,7 @@ WaitResultKind WaitSetCore::wait(std::chrono::nanoseconds timeout, Context &cont
       std::lock_guard<std::mutex> lock(mutex_);
       if (entries_.empty()) return WaitResultKind::Empty;
       const auto now = Steady::now();
-      for (auto &one : entries_) {
+      for (auto& one : entries_) {
         one.strong = one.weak.lock();
         one.ready = one.strong && one.strong->has_work();
         // A guard condition is spent by the wait that it ends.
@@ -93,19 +91,21 @@ WaitResultKind WaitSetCore::wait(std::chrono::nanoseconds timeout, Context &cont
   }
 }
 
-const void *ReadyView::operator[](std::size_t index) const {
-  for (const auto &one : core_->entries()) {
+const void* ReadyView::operator[](std::size_t index) const {
+  for (const auto& one : core_->entries()) {
     if (!one.strong || one.strong->kind() != kind_) continue;
     if (index-- == 0) return one.ready ? one.strong.get() : nullptr;
   }
   return nullptr;
 }
 
-ReadyViews views_of(WaitSetCore &core) {
-  ReadyViews views{{core, WorkKind::kSubscription}, {core, WorkKind::kTimer},
-                   {core, WorkKind::kService},      {core, WorkKind::kClient},
+ReadyViews views_of(WaitSetCore& core) {
+  ReadyViews views{{core, WorkKind::kSubscription},
+                   {core, WorkKind::kTimer},
+                   {core, WorkKind::kService},
+                   {core, WorkKind::kClient},
                    {core, WorkKind::kGuardCondition}};
-  for (const auto &one : core.entries()) {
+  for (const auto& one : core.entries()) {
     if (!one.strong) continue;
     switch (one.strong->kind()) {
       case WorkKind::kSubscription:
@@ -132,19 +132,19 @@ ReadyViews views_of(WaitSetCore &core) {
 
 }  // namespace detail
 
-WaitSet::WaitSet(const SubscriptionsIterable &subscriptions,
-                 const GuardConditionsIterable &guard_conditions, const TimersIterable &timers,
-                 const ClientsIterable &clients, const ServicesIterable &services,
-                 const WaitablesIterable &waitables, Context::SharedPtr context)
+WaitSet::WaitSet(const SubscriptionsIterable& subscriptions,
+                 const GuardConditionsIterable& guard_conditions, const TimersIterable& timers,
+                 const ClientsIterable& clients, const ServicesIterable& services,
+                 const WaitablesIterable& waitables, Context::SharedPtr context)
     : core_(std::make_shared<detail::WaitSetCore>()),
       context_(std::move(context)),
       views_(detail::views_of(*core_)) {
-  for (const auto &one : subscriptions) add_subscription(one.subscription, one.mask);
-  for (const auto &one : guard_conditions) add_guard_condition(one);
-  for (const auto &one : timers) add_timer(one);
-  for (const auto &one : clients) add_client(one);
-  for (const auto &one : services) add_service(one);
-  for (const auto &one : waitables) add_waitable(one.waitable, one.associated_entity);
+  for (const auto& one : subscriptions) add_subscription(one.subscription, one.mask);
+  for (const auto& one : guard_conditions) add_guard_condition(one);
+  for (const auto& one : timers) add_timer(one);
+  for (const auto& one : clients) add_client(one);
+  for (const auto& one : services) add_service(one);
+  for (const auto& one : waitables) add_waitable(one.waitable, one.associated_entity);
 }
 
 void WaitSet::add_subscription(std::shared_ptr<SubscriptionBase> subscription,
@@ -152,7 +152,7 @@ void WaitSet::add_subscription(std::shared_ptr<SubscriptionBase> subscription,
   if (!subscription) throw std::invalid_argument("subscription is nullptr");
   if (mask.include_subscription) core_->add(subscription);
   if (mask.include_events) {
-    for (const auto &one : subscription->get_event_handlers()) core_->add(one.second);
+    for (const auto& one : subscription->get_event_handlers()) core_->add(one.second);
   }
 }
 void WaitSet::remove_subscription(std::shared_ptr<SubscriptionBase> subscription,
@@ -160,7 +160,7 @@ void WaitSet::remove_subscription(std::shared_ptr<SubscriptionBase> subscription
   if (!subscription) throw std::invalid_argument("subscription is nullptr");
   if (mask.include_subscription) core_->remove(subscription);
   if (mask.include_events) {
-    for (const auto &one : subscription->get_event_handlers()) core_->remove(one.second);
+    for (const auto& one : subscription->get_event_handlers()) core_->remove(one.second);
   }
 }
 void WaitSet::add_guard_condition(std::shared_ptr<GuardCondition> one) { core_->add(one); }

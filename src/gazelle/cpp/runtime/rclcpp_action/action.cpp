@@ -33,7 +33,7 @@ bool may_become(int8_t from, int8_t to) {
 }
 
 [[noreturn]] void refuse(int8_t from, int8_t to) {
-  static const char *const kWords[] = {"unknown",   "accepted", "executing", "canceling",
+  static const char* const kWords[] = {"unknown",   "accepted", "executing", "canceling",
                                        "succeeded", "canceled", "aborted"};
   throw rclcpp::exceptions::RCLError(
       RCL_RET_ACTION_GOAL_EVENT_INVALID,
@@ -43,7 +43,7 @@ bool may_become(int8_t from, int8_t to) {
 
 }  // namespace
 
-std::string to_string(const GoalUUID &goal_id) {
+std::string to_string(const GoalUUID& goal_id) {
   std::string text;
   for (std::size_t i = 0; i < goal_id.size(); ++i) {
     char digits[4];
@@ -59,14 +59,14 @@ GoalUUID ClientBase::new_id() {
   static std::mt19937_64 numbers{std::random_device{}()};
   GoalUUID id;
   std::lock_guard<std::mutex> lock(mutex);
-  for (auto &byte : id) byte = static_cast<uint8_t>(numbers());
+  for (auto& byte : id) byte = static_cast<uint8_t>(numbers());
   return id;
 }
 
 // ---- The server ---------------------------------------------------------------------------------
 
-ServerBase::ServerBase(Base base, rclcpp::Clock::SharedPtr clock, const std::string &name,
-                       const rcl_action_server_options_t &options,
+ServerBase::ServerBase(Base base, rclcpp::Clock::SharedPtr clock, const std::string& name,
+                       const rcl_action_server_options_t& options,
                        rclcpp::CallbackGroup::SharedPtr group)
     : base_(std::move(base)),
       clock_(std::move(clock)),
@@ -76,7 +76,7 @@ ServerBase::ServerBase(Base base, rclcpp::Clock::SharedPtr clock, const std::str
 
 ServerBase::~ServerBase() = default;
 
-void ServerBase::add(const std::shared_ptr<rclcpp::detail::Executable> &executable) {
+void ServerBase::add(const std::shared_ptr<rclcpp::detail::Executable>& executable) {
   group_->add(executable);
 }
 
@@ -91,12 +91,12 @@ void ServerBase::start() {
   add(cancel_);
 }
 
-bool ServerBase::knows(const GoalUUID &id) {
+bool ServerBase::knows(const GoalUUID& id) {
   std::lock_guard<std::mutex> lock(mutex_);
   return goals_.count(id) > 0;
 }
 
-builtin_interfaces::msg::Time ServerBase::accept(const GoalUUID &id) {
+builtin_interfaces::msg::Time ServerBase::accept(const GoalUUID& id) {
   const rclcpp::Time now = clock_->now();
   std::lock_guard<std::mutex> lock(mutex_);
   forget_old();
@@ -104,35 +104,35 @@ builtin_interfaces::msg::Time ServerBase::accept(const GoalUUID &id) {
   return now;
 }
 
-void ServerBase::execute(const GoalUUID &id) {
+void ServerBase::execute(const GoalUUID& id) {
   std::lock_guard<std::mutex> lock(mutex_);
-  auto &goal = goals_.at(id);
+  auto& goal = goals_.at(id);
   if (!may_become(goal.status, kExecuting)) refuse(goal.status, kExecuting);
   goal.status = kExecuting;
 }
 
-void ServerBase::end(const GoalUUID &id, int8_t status, std::shared_ptr<void> result) {
-  std::vector<std::function<void(const void *)>> waiting;
+void ServerBase::end(const GoalUUID& id, int8_t status, std::shared_ptr<void> result) {
+  std::vector<std::function<void(const void*)>> waiting;
   {
     std::lock_guard<std::mutex> lock(mutex_);
-    auto &goal = goals_.at(id);
+    auto& goal = goals_.at(id);
     if (!may_become(goal.status, status)) refuse(goal.status, status);
     goal.status = status;
     goal.result = result;
     goal.ended_ns = gazelle::clock::steady_ns();
     waiting.swap(goal.waiting);
   }
-  for (const auto &give : waiting) give(result.get());
+  for (const auto& give : waiting) give(result.get());
   publish_status();
 }
 
-int8_t ServerBase::status_of(const GoalUUID &id) {
+int8_t ServerBase::status_of(const GoalUUID& id) {
   std::lock_guard<std::mutex> lock(mutex_);
   const auto found = goals_.find(id);
   return found == goals_.end() ? 0 : found->second.status;
 }
 
-bool ServerBase::cancel(const GoalUUID &id) {
+bool ServerBase::cancel(const GoalUUID& id) {
   std::lock_guard<std::mutex> lock(mutex_);
   const auto found = goals_.find(id);
   if (found == goals_.end() || !may_become(found->second.status, kCanceling)) return false;
@@ -144,7 +144,7 @@ void ServerBase::publish_status() {
   action_msgs::msg::GoalStatusArray message;
   {
     std::lock_guard<std::mutex> lock(mutex_);
-    for (const auto &one : goals_) {
+    for (const auto& one : goals_) {
       action_msgs::msg::GoalStatus status;
       status.goal_info.goal_id.uuid = one.first;
       status.goal_info.stamp = one.second.accepted;
@@ -155,7 +155,7 @@ void ServerBase::publish_status() {
   status_->publish(message);
 }
 
-void ServerBase::wait_for_result(const GoalUUID &id, std::function<void(const void *)> give) {
+void ServerBase::wait_for_result(const GoalUUID& id, std::function<void(const void*)> give) {
   std::shared_ptr<void> result;
   {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -173,15 +173,15 @@ void ServerBase::forget_old() {
   const int64_t now = gazelle::clock::steady_ns();
   const int64_t keep = options_.result_timeout.nanoseconds;
   for (auto one = goals_.begin(); one != goals_.end();) {
-    const auto &goal = one->second;
+    const auto& goal = one->second;
     const bool old = is_over(goal.status) && keep >= 0 && now - goal.ended_ns > keep;
     one = old ? goals_.erase(one) : std::next(one);
   }
 }
 
-void ServerBase::on_cancel(const CancelGoal::Request &request, CancelGoal::Response &response) {
+void ServerBase::on_cancel(const CancelGoal::Request& request, CancelGoal::Response& response) {
   const GoalUUID none{};
-  const GoalUUID &wanted = request.goal_info.goal_id.uuid;
+  const GoalUUID& wanted = request.goal_info.goal_id.uuid;
   const rclcpp::Time stamp(request.goal_info.stamp);
   const bool every = wanted == none && stamp.nanoseconds() == 0;
   std::vector<std::pair<GoalUUID, rclcpp::Time>> goals;
@@ -189,10 +189,10 @@ void ServerBase::on_cancel(const CancelGoal::Request &request, CancelGoal::Respo
   bool over = false;
   {
     std::lock_guard<std::mutex> lock(mutex_);
-    for (const auto &one : goals_) {
+    for (const auto& one : goals_) {
       const bool named = one.first == wanted;
-      const bool early = stamp.nanoseconds() > 0 &&
-                         one.second.accepted.nanoseconds() <= stamp.nanoseconds();
+      const bool early =
+          stamp.nanoseconds() > 0 && one.second.accepted.nanoseconds() <= stamp.nanoseconds();
       known = known || named;
       if (named && is_over(one.second.status)) over = true;
       if ((every || named || early) && may_become(one.second.status, kCanceling)) {
@@ -205,7 +205,7 @@ void ServerBase::on_cancel(const CancelGoal::Request &request, CancelGoal::Respo
     if (!known) response.return_code = CancelGoal::Response::ERROR_UNKNOWN_GOAL_ID;
     if (over) response.return_code = CancelGoal::Response::ERROR_GOAL_TERMINATED;
   }
-  for (const auto &one : goals) {
+  for (const auto& one : goals) {
     if (call_handle_cancel(one.first) != CancelResponse::ACCEPT || !cancel(one.first)) continue;
     action_msgs::msg::GoalInfo info;
     info.goal_id.uuid = one.first;

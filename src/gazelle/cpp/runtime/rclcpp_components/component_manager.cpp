@@ -13,7 +13,7 @@
 namespace rclcpp_components {
 
 ComponentManager::ComponentManager(std::weak_ptr<rclcpp::Executor> executor, std::string node_name,
-                                   const rclcpp::NodeOptions &node_options)
+                                   const rclcpp::NodeOptions& node_options)
     : Node(std::move(node_name), node_options), executor_(std::move(executor)) {
   const std::string prefix = "~/_container/";
   using std::placeholders::_1;
@@ -28,7 +28,7 @@ ComponentManager::ComponentManager(std::weak_ptr<rclcpp::Executor> executor, std
 }
 
 ComponentManager::~ComponentManager() {
-  for (const auto &one : node_wrappers_) {
+  for (const auto& one : node_wrappers_) {
     if (const auto executor = executor_.lock()) {
       auto wrapper = one.second;
       executor->remove_node(wrapper.get_node_base_interface());
@@ -37,20 +37,20 @@ ComponentManager::~ComponentManager() {
 }
 
 std::vector<ComponentManager::ComponentResource> ComponentManager::get_component_resources(
-    const std::string &package_name, const std::string &resource_index) const {
+    const std::string& package_name, const std::string& resource_index) const {
   try {
     return resources_of(package_name, resource_index);
-  } catch (const gazelle::Error &error) {
+  } catch (const gazelle::Error& error) {
     throw ComponentManagerException(error.what());
   }
 }
 
 std::shared_ptr<NodeFactory> ComponentManager::create_component_factory(
-    const ComponentResource &resource) {
-  auto &known = factories_[resource.first + "@" + resource.second];
+    const ComponentResource& resource) {
+  auto& known = factories_[resource.first + "@" + resource.second];
   if (known) return known;
   RCLCPP_INFO(get_logger(), "Load Library: %s", resource.second.c_str());
-  known = factory_of(resource, [this](const std::string &found) {
+  known = factory_of(resource, [this](const std::string& found) {
     RCLCPP_INFO(get_logger(), "Found class: %s", found.c_str());
   });
   if (known) RCLCPP_INFO(get_logger(), "Instantiate class: %s", class_of(resource).c_str());
@@ -82,7 +82,7 @@ void ComponentManager::on_load_node(const std::shared_ptr<rmw_request_id_t>,
                                     const std::shared_ptr<LoadNode::Request> request,
                                     std::shared_ptr<LoadNode::Response> response) {
   try {
-    for (const auto &resource : get_component_resources(request->package_name)) {
+    for (const auto& resource : get_component_resources(request->package_name)) {
       if (resource.first != request->plugin_name) continue;
       const auto factory = create_component_factory(resource);
       if (!factory) continue;
@@ -90,7 +90,7 @@ void ComponentManager::on_load_node(const std::shared_ptr<rmw_request_id_t>,
       const uint64_t id = unique_id_++;
       try {
         node_wrappers_[id] = factory->create_node_instance(options);
-      } catch (const std::exception &error) {
+      } catch (const std::exception& error) {
         node_wrappers_.erase(id);
         throw ComponentManagerException("Component constructor threw an exception: " +
                                         std::string(error.what()));
@@ -111,7 +111,7 @@ void ComponentManager::on_load_node(const std::shared_ptr<rmw_request_id_t>,
     response->error_message =
         "Failed to find class with the requested plugin name '" + request->plugin_name + "'.";
     response->success = false;
-  } catch (const std::exception &error) {
+  } catch (const std::exception& error) {
     RCLCPP_ERROR(get_logger(), "%s", error.what());
     response->error_message = error.what();
     response->success = false;
@@ -124,8 +124,7 @@ void ComponentManager::on_unload_node(const std::shared_ptr<rmw_request_id_t>,
   const auto found = node_wrappers_.find(request->unique_id);
   response->success = found != node_wrappers_.end();
   if (!response->success) {
-    response->error_message =
-        "No node found with unique_id: " + std::to_string(request->unique_id);
+    response->error_message = "No node found with unique_id: " + std::to_string(request->unique_id);
     RCLCPP_WARN(get_logger(), "%s", response->error_message.c_str());
     return;
   }
@@ -136,7 +135,7 @@ void ComponentManager::on_unload_node(const std::shared_ptr<rmw_request_id_t>,
 void ComponentManager::on_list_nodes(const std::shared_ptr<rmw_request_id_t>,
                                      const std::shared_ptr<ListNodes::Request>,
                                      std::shared_ptr<ListNodes::Response> response) {
-  for (auto &one : node_wrappers_) {
+  for (auto& one : node_wrappers_) {
     response->unique_ids.push_back(one.first);
     response->full_node_names.emplace_back(
         one.second.get_node_base_interface()->get_fully_qualified_name());
@@ -145,41 +144,41 @@ void ComponentManager::on_list_nodes(const std::shared_ptr<rmw_request_id_t>,
 
 // ---- What containers of all kinds do ------------------------------------------------------------
 
-std::vector<Resource> resources_of(const std::string &package, const std::string &index) {
+std::vector<Resource> resources_of(const std::string& package, const std::string& index) {
   std::vector<Resource> found;
-  const auto rows = gazelle::call(
-      "component/resources", gazelle::Json::object({{"package", package}, {"index", index}}));
-  for (const auto &one : rows.items()) found.emplace_back(one[0].as_string(), one[1].as_string());
+  const auto rows = gazelle::call("component/resources",
+                                  gazelle::Json::object({{"package", package}, {"index", index}}));
+  for (const auto& one : rows.items()) found.emplace_back(one[0].as_string(), one[1].as_string());
   return found;
 }
 
-std::string class_of(const Resource &resource) {
+std::string class_of(const Resource& resource) {
   return "rclcpp_components::NodeFactoryTemplate<" + resource.first + ">";
 }
 
-std::shared_ptr<NodeFactory> factory_of(const Resource &resource,
-                                        const std::function<void(const std::string &)> &found) {
+std::shared_ptr<NodeFactory> factory_of(const Resource& resource,
+                                        const std::function<void(const std::string&)>& found) {
   // What the library needs of Gazelle's own is loaded by the host.
   gazelle::call("component/prepare", gazelle::Json::object({{"library", resource.second}}));
   auto loader = std::make_shared<class_loader::ClassLoader>(resource.second);
-  for (const auto &one : loader->getAvailableClasses<NodeFactory>()) {
+  for (const auto& one : loader->getAvailableClasses<NodeFactory>()) {
     if (found) found(one);
     if (one == class_of(resource) || one == resource.first) {
       auto made = loader->createSharedInstance<NodeFactory>(one);
       // The library is there as long as what came out of it.
-      return std::shared_ptr<NodeFactory>(made.get(), [made, loader](NodeFactory *) {});
+      return std::shared_ptr<NodeFactory>(made.get(), [made, loader](NodeFactory*) {});
     }
   }
   return nullptr;
 }
 
-rclcpp::NodeOptions options_of(const composition_interfaces::srv::LoadNode::Request &request) {
+rclcpp::NodeOptions options_of(const composition_interfaces::srv::LoadNode::Request& request) {
   std::vector<rclcpp::Parameter> parameters;
-  for (const auto &one : request.parameters) {
+  for (const auto& one : request.parameters) {
     parameters.push_back(rclcpp::Parameter::from_parameter_msg(one));
   }
   std::vector<std::string> words{"--ros-args"};
-  for (const auto &rule : request.remap_rules) {
+  for (const auto& rule : request.remap_rules) {
     words.push_back("-r");
     words.push_back(rule);
   }
@@ -195,7 +194,7 @@ rclcpp::NodeOptions options_of(const composition_interfaces::srv::LoadNode::Requ
                      .use_global_arguments(false)
                      .parameter_overrides(parameters)
                      .arguments(words);
-  for (const auto &one : request.extra_arguments) {
+  for (const auto& one : request.extra_arguments) {
     const rclcpp::Parameter extra = rclcpp::Parameter::from_parameter_msg(one);
     const auto as_bool = [&extra]() {
       if (extra.get_type() != rclcpp::PARAMETER_BOOL) {

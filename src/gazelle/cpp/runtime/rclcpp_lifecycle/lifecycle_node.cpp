@@ -26,7 +26,7 @@ constexpr uint8_t kConfiguring = 10, kCleaningUp = 11, kShuttingDown = 12, kActi
 
 struct StateRow {
   uint8_t id;
-  const char *label;
+  const char* label;
 };
 constexpr StateRow kStates[] = {
     {0, "unknown"},
@@ -44,48 +44,36 @@ constexpr StateRow kStates[] = {
 
 struct TransitionRow {
   uint8_t id;
-  const char *label;
+  const char* label;
   uint8_t start, goal;
 };
-constexpr const char *kSuccess = "transition_success";
-constexpr const char *kFailure = "transition_failure";
-constexpr const char *kError = "transition_error";
+constexpr const char* kSuccess = "transition_success";
+constexpr const char* kFailure = "transition_failure";
+constexpr const char* kError = "transition_error";
 constexpr TransitionRow kTransitions[] = {
-    {1, "configure", kUnconfigured, kConfiguring},
-    {10, kSuccess, kConfiguring, kInactive},
-    {11, kFailure, kConfiguring, kUnconfigured},
-    {12, kError, kConfiguring, kErrorProcessing},
-    {2, "cleanup", kInactive, kCleaningUp},
-    {20, kSuccess, kCleaningUp, kUnconfigured},
-    {21, kFailure, kCleaningUp, kInactive},
-    {22, kError, kCleaningUp, kErrorProcessing},
-    {3, "activate", kInactive, kActivating},
-    {30, kSuccess, kActivating, kActive},
-    {31, kFailure, kActivating, kInactive},
-    {32, kError, kActivating, kErrorProcessing},
-    {4, "deactivate", kActive, kDeactivating},
-    {40, kSuccess, kDeactivating, kInactive},
-    {41, kFailure, kDeactivating, kActive},
-    {42, kError, kDeactivating, kErrorProcessing},
-    {5, "shutdown", kUnconfigured, kShuttingDown},
-    {6, "shutdown", kInactive, kShuttingDown},
-    {7, "shutdown", kActive, kShuttingDown},
-    {50, kSuccess, kShuttingDown, kFinalized},
-    {51, kFailure, kShuttingDown, kFinalized},
-    {52, kError, kShuttingDown, kErrorProcessing},
-    {60, kSuccess, kErrorProcessing, kUnconfigured},
-    {61, kFailure, kErrorProcessing, kFinalized},
+    {1, "configure", kUnconfigured, kConfiguring},   {10, kSuccess, kConfiguring, kInactive},
+    {11, kFailure, kConfiguring, kUnconfigured},     {12, kError, kConfiguring, kErrorProcessing},
+    {2, "cleanup", kInactive, kCleaningUp},          {20, kSuccess, kCleaningUp, kUnconfigured},
+    {21, kFailure, kCleaningUp, kInactive},          {22, kError, kCleaningUp, kErrorProcessing},
+    {3, "activate", kInactive, kActivating},         {30, kSuccess, kActivating, kActive},
+    {31, kFailure, kActivating, kInactive},          {32, kError, kActivating, kErrorProcessing},
+    {4, "deactivate", kActive, kDeactivating},       {40, kSuccess, kDeactivating, kInactive},
+    {41, kFailure, kDeactivating, kActive},          {42, kError, kDeactivating, kErrorProcessing},
+    {5, "shutdown", kUnconfigured, kShuttingDown},   {6, "shutdown", kInactive, kShuttingDown},
+    {7, "shutdown", kActive, kShuttingDown},         {50, kSuccess, kShuttingDown, kFinalized},
+    {51, kFailure, kShuttingDown, kFinalized},       {52, kError, kShuttingDown, kErrorProcessing},
+    {60, kSuccess, kErrorProcessing, kUnconfigured}, {61, kFailure, kErrorProcessing, kFinalized},
     {62, kError, kErrorProcessing, kFinalized},
 };
 
-const char *label_of(uint8_t state) {
-  for (const auto &one : kStates) {
+const char* label_of(uint8_t state) {
+  for (const auto& one : kStates) {
     if (one.id == state) return one.label;
   }
   return "unknown";
 }
 
-const char *label_of(CallbackReturn code) {
+const char* label_of(CallbackReturn code) {
   switch (code) {
     case CallbackReturn::SUCCESS:
       return kSuccess;
@@ -96,12 +84,12 @@ const char *label_of(CallbackReturn code) {
   }
 }
 
-Transition made_of(const TransitionRow &row) {
+Transition made_of(const TransitionRow& row) {
   return Transition(row.id, row.label, State(row.start, label_of(row.start)),
                     State(row.goal, label_of(row.goal)));
 }
 
-TransitionDescription described(const TransitionRow &row) {
+TransitionDescription described(const TransitionRow& row) {
   TransitionDescription text;
   text.transition.id = row.id;
   text.transition.label = row.label;
@@ -116,7 +104,7 @@ TransitionDescription described(const TransitionRow &row) {
 
 class LifecycleNode::Impl {
  public:
-  explicit Impl(LifecycleNode *node) : node_(node), state_(kUnconfigured, "unconfigured") {}
+  explicit Impl(LifecycleNode* node) : node_(node), state_(kUnconfigured, "unconfigured") {}
 
   void offer() {
     const auto base = node_->get_node_base_interface();
@@ -130,7 +118,7 @@ class LifecycleNode::Impl {
                std::shared_ptr<srv::ChangeState::Response> response) {
           std::uint8_t id = request->transition.id;
           if (id == 0 && !request->transition.label.empty()) {
-            const auto *row = found(0, request->transition.label);
+            const auto* row = found(0, request->transition.label);
             if (!row) {
               response->success = false;
               return;
@@ -154,7 +142,7 @@ class LifecycleNode::Impl {
         base, services, prefix + "get_available_states",
         [](const std::shared_ptr<srv::GetAvailableStates::Request>,
            std::shared_ptr<srv::GetAvailableStates::Response> response) {
-          for (const auto &one : kStates) {
+          for (const auto& one : kStates) {
             lifecycle_msgs::msg::State state;
             state.id = one.id;
             state.label = one.label;
@@ -167,7 +155,7 @@ class LifecycleNode::Impl {
         [this](const std::shared_ptr<srv::GetAvailableTransitions::Request>,
                std::shared_ptr<srv::GetAvailableTransitions::Response> response) {
           std::lock_guard<std::recursive_mutex> lock(mutex_);
-          for (const auto &one : kTransitions) {
+          for (const auto& one : kTransitions) {
             if (one.start == state_.id()) {
               response->available_transitions.push_back(described(one));
             }
@@ -178,15 +166,15 @@ class LifecycleNode::Impl {
         base, services, prefix + "get_transition_graph",
         [](const std::shared_ptr<srv::GetAvailableTransitions::Request>,
            std::shared_ptr<srv::GetAvailableTransitions::Response> response) {
-          for (const auto &one : kTransitions) {
+          for (const auto& one : kTransitions) {
             response->available_transitions.push_back(described(one));
           }
         },
         rclcpp::ServicesQoS(), nullptr));
   }
 
-  const TransitionRow *found(uint8_t id, const std::string &label = "") const {
-    for (const auto &one : kTransitions) {
+  const TransitionRow* found(uint8_t id, const std::string& label = "") const {
+    for (const auto& one : kTransitions) {
       if (one.start == state_.id() && (label.empty() ? one.id == id : one.label == label)) {
         return &one;
       }
@@ -194,9 +182,9 @@ class LifecycleNode::Impl {
     return nullptr;
   }
 
-  bool change(uint8_t id, CallbackReturn &code) {
+  bool change(uint8_t id, CallbackReturn& code) {
     std::lock_guard<std::recursive_mutex> lock(mutex_);
-    const TransitionRow *row = found(id);
+    const TransitionRow* row = found(id);
     if (!row) {
       RCLCPP_ERROR(node_->get_logger(),
                    "Unable to start transition %u from current state %s: Transition is not "
@@ -217,7 +205,7 @@ class LifecycleNode::Impl {
     return true;
   }
 
-  void go(const TransitionRow &row) {
+  void go(const TransitionRow& row) {
     state_ = State(row.goal, label_of(row.goal));
     if (!events_) return;
     lifecycle_msgs::msg::TransitionEvent event;
@@ -228,7 +216,7 @@ class LifecycleNode::Impl {
     events_->publish(event);
   }
 
-  CallbackReturn call(uint8_t during, const State &before) {
+  CallbackReturn call(uint8_t during, const State& before) {
     try {
       const auto own = callbacks_.find(during);
       if (own != callbacks_.end()) return own->second(before);
@@ -246,9 +234,9 @@ class LifecycleNode::Impl {
         default:
           return node_->on_error(before);
       }
-    } catch (const std::exception &error) {
-      RCLCPP_ERROR(node_->get_logger(), "Caught exception in callback for transition %u: %s", during,
-                   error.what());
+    } catch (const std::exception& error) {
+      RCLCPP_ERROR(node_->get_logger(), "Caught exception in callback for transition %u: %s",
+                   during, error.what());
       return CallbackReturn::ERROR;
     }
   }
@@ -263,17 +251,17 @@ class LifecycleNode::Impl {
     std::vector<std::shared_ptr<ManagedEntityInterface>> strong;
     {
       std::lock_guard<std::recursive_mutex> lock(mutex_);
-      for (const auto &one : entities) {
+      for (const auto& one : entities) {
         if (auto found = one.lock()) strong.push_back(std::move(found));
       }
       entities.assign(strong.begin(), strong.end());
     }
-    for (const auto &one : strong) function(*one);
+    for (const auto& one : strong) function(*one);
   }
 
-  void add(const rclcpp::ServiceBase::SharedPtr &service) { services_.push_back(service); }
+  void add(const rclcpp::ServiceBase::SharedPtr& service) { services_.push_back(service); }
 
-  LifecycleNode *node_;
+  LifecycleNode* node_;
   std::recursive_mutex mutex_;
   State state_;
   std::map<uint8_t, Callback> callbacks_;
@@ -283,12 +271,12 @@ class LifecycleNode::Impl {
   std::vector<rclcpp::ServiceBase::SharedPtr> services_;
 };
 
-LifecycleNode::LifecycleNode(const std::string &node_name, const rclcpp::NodeOptions &options,
+LifecycleNode::LifecycleNode(const std::string& node_name, const rclcpp::NodeOptions& options,
                              bool enable_communication_interface)
     : LifecycleNode(node_name, "", options, enable_communication_interface) {}
 
-LifecycleNode::LifecycleNode(const std::string &node_name, const std::string &namespace_,
-                             const rclcpp::NodeOptions &options,
+LifecycleNode::LifecycleNode(const std::string& node_name, const std::string& namespace_,
+                             const rclcpp::NodeOptions& options,
                              bool enable_communication_interface)
     : NodeFunctions(node_name, namespace_, options), impl_(std::make_unique<Impl>(this)) {
   if (enable_communication_interface) impl_->offer();
@@ -296,18 +284,18 @@ LifecycleNode::LifecycleNode(const std::string &node_name, const std::string &na
 
 LifecycleNode::~LifecycleNode() = default;
 
-const State &LifecycleNode::get_current_state() const { return impl_->state_; }
+const State& LifecycleNode::get_current_state() const { return impl_->state_; }
 
 std::vector<State> LifecycleNode::get_available_states() const {
   std::vector<State> states;
-  for (const auto &one : kStates) states.emplace_back(one.id, one.label);
+  for (const auto& one : kStates) states.emplace_back(one.id, one.label);
   return states;
 }
 
 std::vector<Transition> LifecycleNode::get_available_transitions() const {
   std::vector<Transition> transitions;
   std::lock_guard<std::recursive_mutex> lock(impl_->mutex_);
-  for (const auto &one : kTransitions) {
+  for (const auto& one : kTransitions) {
     if (one.start == impl_->state_.id()) transitions.push_back(made_of(one));
   }
   return transitions;
@@ -315,32 +303,31 @@ std::vector<Transition> LifecycleNode::get_available_transitions() const {
 
 std::vector<Transition> LifecycleNode::get_transition_graph() const {
   std::vector<Transition> transitions;
-  for (const auto &one : kTransitions) transitions.push_back(made_of(one));
+  for (const auto& one : kTransitions) transitions.push_back(made_of(one));
   return transitions;
 }
 
-const State &LifecycleNode::trigger_transition(const Transition &transition) {
+const State& LifecycleNode::trigger_transition(const Transition& transition) {
   return trigger_transition(transition.id());
 }
-const State &LifecycleNode::trigger_transition(const Transition &transition,
-                                               CallbackReturn &code) {
+const State& LifecycleNode::trigger_transition(const Transition& transition, CallbackReturn& code) {
   return trigger_transition(transition.id(), code);
 }
-const State &LifecycleNode::trigger_transition(uint8_t transition_id) {
+const State& LifecycleNode::trigger_transition(uint8_t transition_id) {
   CallbackReturn code;
   return trigger_transition(transition_id, code);
 }
-const State &LifecycleNode::trigger_transition(uint8_t transition_id, CallbackReturn &code) {
+const State& LifecycleNode::trigger_transition(uint8_t transition_id, CallbackReturn& code) {
   impl_->change(transition_id, code);
   return impl_->state_;
 }
 
-#define GAZELLE_LIFECYCLE_TRIGGER(name, id)                   \
-  const State &LifecycleNode::name() {                        \
-    CallbackReturn code;                                      \
-    return name(code);                                        \
-  }                                                           \
-  const State &LifecycleNode::name(CallbackReturn &code) {    \
+#define GAZELLE_LIFECYCLE_TRIGGER(name, id)                    \
+  const State& LifecycleNode::name() {                         \
+    CallbackReturn code;                                       \
+    return name(code);                                         \
+  }                                                            \
+  const State& LifecycleNode::name(CallbackReturn& code) {     \
     return trigger_transition(static_cast<uint8_t>(id), code); \
   }
 GAZELLE_LIFECYCLE_TRIGGER(configure, 1)
@@ -349,14 +336,14 @@ GAZELLE_LIFECYCLE_TRIGGER(activate, 3)
 GAZELLE_LIFECYCLE_TRIGGER(deactivate, 4)
 #undef GAZELLE_LIFECYCLE_TRIGGER
 
-const State &LifecycleNode::shutdown() {
+const State& LifecycleNode::shutdown() {
   CallbackReturn code;
   return shutdown(code);
 }
-const State &LifecycleNode::shutdown(CallbackReturn &code) {
+const State& LifecycleNode::shutdown(CallbackReturn& code) {
   std::lock_guard<std::recursive_mutex> lock(impl_->mutex_);
   // Each state has a shutdown of its own.
-  const auto *row = impl_->found(0, "shutdown");
+  const auto* row = impl_->found(0, "shutdown");
   return trigger_transition(row ? row->id : static_cast<uint8_t>(5), code);
 }
 
@@ -379,13 +366,13 @@ bool LifecycleNode::register_on_error(Callback callback) {
   return impl_->register_callback(kErrorProcessing, std::move(callback));
 }
 
-CallbackReturn LifecycleNode::on_activate(const State &) {
-  impl_->each_entity([](ManagedEntityInterface &one) { one.on_activate(); });
+CallbackReturn LifecycleNode::on_activate(const State&) {
+  impl_->each_entity([](ManagedEntityInterface& one) { one.on_activate(); });
   return CallbackReturn::SUCCESS;
 }
 
-CallbackReturn LifecycleNode::on_deactivate(const State &) {
-  impl_->each_entity([](ManagedEntityInterface &one) { one.on_deactivate(); });
+CallbackReturn LifecycleNode::on_deactivate(const State&) {
+  impl_->each_entity([](ManagedEntityInterface& one) { one.on_deactivate(); });
   return CallbackReturn::SUCCESS;
 }
 

@@ -4,6 +4,6 @@
 namespace gazelle {
 
 /// Make a component of this process' libraries by its name and run it until the end.
-int component_main(int argc, char **argv, const char *plugin, const char *executor);
+int component_main(int argc, char** argv, const char* plugin, const char* executor);
 
 }  // namespace gazelle

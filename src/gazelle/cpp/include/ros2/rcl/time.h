@@ -54,13 +54,13 @@ typedef struct rcl_time_point_s {
 /// What C code sees of a clock: which it is, and whose it is.
 typedef struct rcl_clock_s {
   rcl_clock_type_t type;
-  void *data;
+  void* data;
 } rcl_clock_t;
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-rcl_ret_t rcl_clock_get_now(rcl_clock_t *clock, rcl_time_point_value_t *now);
+rcl_ret_t rcl_clock_get_now(rcl_clock_t* clock, rcl_time_point_value_t* now);
 #ifdef __cplusplus
 }
 #endif

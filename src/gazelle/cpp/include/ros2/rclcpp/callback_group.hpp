@@ -52,30 +52,29 @@ class RCLCPP_PUBLIC CallbackGroup {
   std::shared_ptr<Waitable> find_waitable_ptrs_if(Function function) const {
     return find_if<Waitable>(function);
   }
-  void collect_all_ptrs(
-      std::function<void(const std::shared_ptr<SubscriptionBase> &)> subscription,
-      std::function<void(const std::shared_ptr<ServiceBase> &)> service,
-      std::function<void(const std::shared_ptr<ClientBase> &)> client,
-      std::function<void(const std::shared_ptr<TimerBase> &)> timer,
-      std::function<void(const std::shared_ptr<Waitable> &)> waitable) const;
+  void collect_all_ptrs(std::function<void(const std::shared_ptr<SubscriptionBase>&)> subscription,
+                        std::function<void(const std::shared_ptr<ServiceBase>&)> service,
+                        std::function<void(const std::shared_ptr<ClientBase>&)> client,
+                        std::function<void(const std::shared_ptr<TimerBase>&)> timer,
+                        std::function<void(const std::shared_ptr<Waitable>&)> waitable) const;
 
   std::size_t size() const;
-  std::atomic_bool &can_be_taken_from() { return can_be_taken_from_; }
-  const CallbackGroupType &type() const { return type_; }
-  std::atomic_bool &get_associated_with_executor_atomic() { return associated_; }
+  std::atomic_bool& can_be_taken_from() { return can_be_taken_from_; }
+  const CallbackGroupType& type() const { return type_; }
+  std::atomic_bool& get_associated_with_executor_atomic() { return associated_; }
   bool automatically_add_to_executor_with_node() const { return automatic_; }
 
   // For the runtime.
-  void add(const std::shared_ptr<detail::Executable> &executable);
-  void remove(const detail::Executable *executable);
+  void add(const std::shared_ptr<detail::Executable>& executable);
+  void remove(const detail::Executable* executable);
   std::vector<std::shared_ptr<detail::Executable>> executables() const;
-  void add_waker(const std::shared_ptr<detail::Waker> &waker);
-  void remove_waker(const detail::Waker *waker);
+  void add_waker(const std::shared_ptr<detail::Waker>& waker);
+  void remove_waker(const detail::Waker* waker);
 
  private:
   template <typename T, typename Function>
   std::shared_ptr<T> find_if(Function function) const {
-    for (const auto &one : executables()) {
+    for (const auto& one : executables()) {
       auto found = std::dynamic_pointer_cast<T>(one);
       if (found && function(found)) return found;
     }

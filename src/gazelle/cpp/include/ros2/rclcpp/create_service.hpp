@@ -13,10 +13,10 @@ namespace rclcpp {
 template <typename ServiceT, typename CallbackT>
 typename Service<ServiceT>::SharedPtr create_service(
     std::shared_ptr<node_interfaces::NodeBaseInterface> node,
-    std::shared_ptr<node_interfaces::NodeServicesInterface> services, const std::string &name,
-    CallbackT &&callback, const QoS &qos, CallbackGroup::SharedPtr group) {
-  auto made = std::make_shared<Service<ServiceT>>(node.get(), name,
-                                                  std::forward<CallbackT>(callback), qos);
+    std::shared_ptr<node_interfaces::NodeServicesInterface> services, const std::string& name,
+    CallbackT&& callback, const QoS& qos, CallbackGroup::SharedPtr group) {
+  auto made =
+      std::make_shared<Service<ServiceT>>(node.get(), name, std::forward<CallbackT>(callback), qos);
   services->add_service(made, group);
   return made;
 }
@@ -24,8 +24,8 @@ typename Service<ServiceT>::SharedPtr create_service(
 template <typename ServiceT, typename CallbackT>
 typename Service<ServiceT>::SharedPtr create_service(
     std::shared_ptr<node_interfaces::NodeBaseInterface> node,
-    std::shared_ptr<node_interfaces::NodeServicesInterface> services, const std::string &name,
-    CallbackT &&callback, const rmw_qos_profile_t &profile, CallbackGroup::SharedPtr group) {
+    std::shared_ptr<node_interfaces::NodeServicesInterface> services, const std::string& name,
+    CallbackT&& callback, const rmw_qos_profile_t& profile, CallbackGroup::SharedPtr group) {
   return create_service<ServiceT>(node, services, name, std::forward<CallbackT>(callback),
                                   QoS(QoSInitialization::from_rmw(profile), profile), group);
 }

@@ -16,9 +16,9 @@ template <typename MessageT, typename CallbackT, typename AllocatorT = std::allo
           typename MessageMemoryStrategyT = typename SubscriptionT::MessageMemoryStrategyType>
 std::shared_ptr<SubscriptionT> create_subscription(
     std::shared_ptr<node_interfaces::NodeParametersInterface> parameters,
-    std::shared_ptr<node_interfaces::NodeTopicsInterface> topics, const std::string &topic,
-    const QoS &qos, CallbackT &&callback,
-    const SubscriptionOptionsWithAllocator<AllocatorT> &options =
+    std::shared_ptr<node_interfaces::NodeTopicsInterface> topics, const std::string& topic,
+    const QoS& qos, CallbackT&& callback,
+    const SubscriptionOptionsWithAllocator<AllocatorT>& options =
         SubscriptionOptionsWithAllocator<AllocatorT>(),
     typename MessageMemoryStrategyT::SharedPtr strategy = nullptr) {
   (void)strategy;
@@ -41,14 +41,13 @@ template <typename MessageT, typename CallbackT, typename AllocatorT = std::allo
           typename MessageMemoryStrategyT = typename SubscriptionT::MessageMemoryStrategyType,
           typename NodeT>
 std::shared_ptr<SubscriptionT> create_subscription(
-    NodeT &&node, const std::string &topic, const QoS &qos, CallbackT &&callback,
-    const SubscriptionOptionsWithAllocator<AllocatorT> &options =
+    NodeT&& node, const std::string& topic, const QoS& qos, CallbackT&& callback,
+    const SubscriptionOptionsWithAllocator<AllocatorT>& options =
         SubscriptionOptionsWithAllocator<AllocatorT>(),
     typename MessageMemoryStrategyT::SharedPtr strategy = nullptr) {
   std::shared_ptr<node_interfaces::NodeParametersInterface> parameters;
-  if constexpr (!std::is_convertible_v<
-                    std::remove_cv_t<std::remove_reference_t<NodeT>>,
-                    std::shared_ptr<node_interfaces::NodeTopicsInterface>>) {
+  if constexpr (!std::is_convertible_v<std::remove_cv_t<std::remove_reference_t<NodeT>>,
+                                       std::shared_ptr<node_interfaces::NodeTopicsInterface>>) {
     parameters = node_interfaces::get_node_parameters_interface(node);
   }
   return create_subscription<MessageT, CallbackT, AllocatorT, SubscriptionT,

@@ -18,8 +18,7 @@ std::chrono::nanoseconds safe_cast_to_period_in_ns(std::chrono::duration<Rep, Pe
   }
   const auto most = std::chrono::duration<double, std::nano>(std::chrono::nanoseconds::max());
   if (std::chrono::duration<double, std::nano>(period) > most) {
-    throw std::invalid_argument(
-        "timer period must be less than std::chrono::nanoseconds::max()");
+    throw std::invalid_argument("timer period must be less than std::chrono::nanoseconds::max()");
   }
   return std::chrono::duration_cast<std::chrono::nanoseconds>(period);
 }
@@ -30,7 +29,7 @@ template <typename CallbackT>
 typename TimerBase::SharedPtr create_timer(
     std::shared_ptr<node_interfaces::NodeBaseInterface> node,
     std::shared_ptr<node_interfaces::NodeTimersInterface> timers, Clock::SharedPtr clock,
-    Duration period, CallbackT &&callback, CallbackGroup::SharedPtr group = nullptr,
+    Duration period, CallbackT&& callback, CallbackGroup::SharedPtr group = nullptr,
     bool autostart = true) {
   if (!clock) throw std::invalid_argument("clock cannot be null");
   if (!node) throw std::invalid_argument("input node_base cannot be null");
@@ -42,9 +41,11 @@ typename TimerBase::SharedPtr create_timer(
 }
 
 template <typename NodeT, typename CallbackT,
-          std::enable_if_t<!std::is_convertible_v<NodeT, std::shared_ptr<node_interfaces::NodeBaseInterface>>, int> = 0>
+          std::enable_if_t<
+              !std::is_convertible_v<NodeT, std::shared_ptr<node_interfaces::NodeBaseInterface>>,
+              int> = 0>
 typename TimerBase::SharedPtr create_timer(NodeT node, Clock::SharedPtr clock, Duration period,
-                                           CallbackT &&callback,
+                                           CallbackT&& callback,
                                            CallbackGroup::SharedPtr group = nullptr,
                                            bool autostart = true) {
   return create_timer(node_interfaces::get_node_base_interface(node),
@@ -55,9 +56,9 @@ typename TimerBase::SharedPtr create_timer(NodeT node, Clock::SharedPtr clock, D
 template <typename CallbackT, typename Rep, typename Period>
 typename TimerBase::SharedPtr create_timer(Clock::SharedPtr clock,
                                            std::chrono::duration<Rep, Period> period,
-                                           CallbackT &&callback, CallbackGroup::SharedPtr group,
-                                           node_interfaces::NodeBaseInterface *node,
-                                           node_interfaces::NodeTimersInterface *timers,
+                                           CallbackT&& callback, CallbackGroup::SharedPtr group,
+                                           node_interfaces::NodeBaseInterface* node,
+                                           node_interfaces::NodeTimersInterface* timers,
                                            bool autostart = true) {
   if (!clock) throw std::invalid_argument("clock cannot be null");
   if (!node) throw std::invalid_argument("input node_base cannot be null");
@@ -71,10 +72,10 @@ typename TimerBase::SharedPtr create_timer(Clock::SharedPtr clock,
 
 template <typename CallbackT, typename Rep, typename Period>
 typename TimerBase::SharedPtr create_wall_timer(std::chrono::duration<Rep, Period> period,
-                                                CallbackT &&callback,
+                                                CallbackT&& callback,
                                                 CallbackGroup::SharedPtr group,
-                                                node_interfaces::NodeBaseInterface *node,
-                                                node_interfaces::NodeTimersInterface *timers,
+                                                node_interfaces::NodeBaseInterface* node,
+                                                node_interfaces::NodeTimersInterface* timers,
                                                 bool autostart = true) {
   if (!node) throw std::invalid_argument("input node_base cannot be null");
   if (!timers) throw std::invalid_argument("input node_timers cannot be null");

@@ -18,30 +18,30 @@ class RCLCPP_PUBLIC Duration {
   Duration(int32_t seconds, uint32_t nanoseconds);
   explicit Duration(std::chrono::nanoseconds nanoseconds) : ns_(nanoseconds.count()) {}
   template <class Rep, class Period>
-  Duration(const std::chrono::duration<Rep, Period> &duration)  // NOLINT(runtime/explicit)
+  Duration(const std::chrono::duration<Rep, Period>& duration)  // NOLINT(runtime/explicit)
       : ns_(std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count()) {}
-  Duration(const builtin_interfaces::msg::Duration &message);  // NOLINT(runtime/explicit)
-  explicit Duration(const rcl_duration_t &duration) : ns_(duration.nanoseconds) {}
-  Duration(const Duration &) = default;
+  Duration(const builtin_interfaces::msg::Duration& message);  // NOLINT(runtime/explicit)
+  explicit Duration(const rcl_duration_t& duration) : ns_(duration.nanoseconds) {}
+  Duration(const Duration&) = default;
   ~Duration() = default;
 
   operator builtin_interfaces::msg::Duration() const;  // NOLINT(runtime/explicit)
-  Duration &operator=(const Duration &) = default;
-  Duration &operator=(const builtin_interfaces::msg::Duration &message);
+  Duration& operator=(const Duration&) = default;
+  Duration& operator=(const builtin_interfaces::msg::Duration& message);
 
-  bool operator==(const Duration &other) const { return ns_ == other.ns_; }
-  bool operator!=(const Duration &other) const { return ns_ != other.ns_; }
-  bool operator<(const Duration &other) const { return ns_ < other.ns_; }
-  bool operator<=(const Duration &other) const { return ns_ <= other.ns_; }
-  bool operator>(const Duration &other) const { return ns_ > other.ns_; }
-  bool operator>=(const Duration &other) const { return ns_ >= other.ns_; }
-  Duration operator+(const Duration &other) const;
-  Duration &operator+=(const Duration &other);
-  Duration operator-(const Duration &other) const;
-  Duration &operator-=(const Duration &other);
+  bool operator==(const Duration& other) const { return ns_ == other.ns_; }
+  bool operator!=(const Duration& other) const { return ns_ != other.ns_; }
+  bool operator<(const Duration& other) const { return ns_ < other.ns_; }
+  bool operator<=(const Duration& other) const { return ns_ <= other.ns_; }
+  bool operator>(const Duration& other) const { return ns_ > other.ns_; }
+  bool operator>=(const Duration& other) const { return ns_ >= other.ns_; }
+  Duration operator+(const Duration& other) const;
+  Duration& operator+=(const Duration& other);
+  Duration operator-(const Duration& other) const;
+  Duration& operator-=(const Duration& other);
   Duration operator-() const { return from_nanoseconds(-ns_); }
   Duration operator*(double factor) const;
-  Duration &operator*=(double factor);
+  Duration& operator*=(double factor);
 
   static Duration max() { return from_nanoseconds(std::numeric_limits<int64_t>::max()); }
   rcl_duration_value_t nanoseconds() const { return ns_; }
@@ -63,6 +63,6 @@ class RCLCPP_PUBLIC Duration {
   rcl_duration_value_t ns_ = 0;
 };
 
-RCLCPP_PUBLIC Duration operator*(double factor, const Duration &duration);
+RCLCPP_PUBLIC Duration operator*(double factor, const Duration& duration);
 
 }  // namespace rclcpp

@@ -30,7 +30,7 @@ class Node;
 class RCLCPP_PUBLIC Executor {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(Executor)
-  explicit Executor(const ExecutorOptions &options = ExecutorOptions());
+  explicit Executor(const ExecutorOptions& options = ExecutorOptions());
   virtual ~Executor();
   RCLCPP_DISABLE_COPY(Executor)
 
@@ -48,16 +48,13 @@ class RCLCPP_PUBLIC Executor {
   virtual void remove_node(std::shared_ptr<Node> node, bool notify = true);
 
   template <typename RepT = int64_t, typename T = std::milli>
-  void spin_node_once(
-      node_interfaces::NodeBaseInterface::SharedPtr node,
-      std::chrono::duration<RepT, T> timeout = std::chrono::duration<RepT, T>(-1)) {
-    spin_node_once_nanoseconds(node,
-                               std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
+  void spin_node_once(node_interfaces::NodeBaseInterface::SharedPtr node,
+                      std::chrono::duration<RepT, T> timeout = std::chrono::duration<RepT, T>(-1)) {
+    spin_node_once_nanoseconds(node, std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
   }
   template <typename NodeT = Node, typename RepT = int64_t, typename T = std::milli>
-  void spin_node_once(
-      std::shared_ptr<NodeT> node,
-      std::chrono::duration<RepT, T> timeout = std::chrono::duration<RepT, T>(-1)) {
+  void spin_node_once(std::shared_ptr<NodeT> node,
+                      std::chrono::duration<RepT, T> timeout = std::chrono::duration<RepT, T>(-1)) {
     spin_node_once_nanoseconds(node->get_node_base_interface(),
                                std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
   }
@@ -71,11 +68,12 @@ class RCLCPP_PUBLIC Executor {
 
   template <typename FutureT, typename TimeRepT = int64_t, typename TimeT = std::milli>
   FutureReturnCode spin_until_future_complete(
-      const FutureT &future,
+      const FutureT& future,
       std::chrono::duration<TimeRepT, TimeT> timeout = std::chrono::duration<TimeRepT, TimeT>(-1)) {
     return spin_until_future_complete_impl(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(timeout),
-        [&future]() { return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready; });
+        std::chrono::duration_cast<std::chrono::nanoseconds>(timeout), [&future]() {
+          return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        });
   }
   template <typename TimeRepT = int64_t, typename TimeT = std::milli>
   FutureReturnCode spin_for(std::chrono::duration<TimeRepT, TimeT> timeout) {
@@ -92,17 +90,17 @@ class RCLCPP_PUBLIC Executor {
   void spin_node_once_nanoseconds(node_interfaces::NodeBaseInterface::SharedPtr node,
                                   std::chrono::nanoseconds timeout);
   virtual FutureReturnCode spin_until_future_complete_impl(std::chrono::nanoseconds timeout,
-                                                           const std::function<bool()> &is_ready);
+                                                           const std::function<bool()>& is_ready);
   void spin_some_impl(std::chrono::nanoseconds max_duration, bool exhaustive);
   virtual void spin_once_impl(std::chrono::nanoseconds timeout);
-  void execute_any_executable(AnyExecutable &executable);
+  void execute_any_executable(AnyExecutable& executable);
   /// Look what is ready, and wait until something is.
   void wait_for_work(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
-  bool get_next_ready_executable(AnyExecutable &executable);
-  bool get_next_executable(AnyExecutable &executable,
+  bool get_next_ready_executable(AnyExecutable& executable);
+  bool get_next_executable(AnyExecutable& executable,
                            std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
   /// Throws where another thread spins already; the guard ends the spinning.
-  std::shared_ptr<void> begin_spinning(const char *function);
+  std::shared_ptr<void> begin_spinning(const char* function);
   bool has_context() const;
 
   std::atomic_bool spinning{false};

@@ -23,7 +23,7 @@ namespace executors {
 
 template <typename FutureT, typename TimeRepT = int64_t, typename TimeT = std::milli>
 FutureReturnCode spin_node_until_future_complete(
-    Executor &executor, node_interfaces::NodeBaseInterface::SharedPtr node, const FutureT &future,
+    Executor& executor, node_interfaces::NodeBaseInterface::SharedPtr node, const FutureT& future,
     std::chrono::duration<TimeRepT, TimeT> timeout = std::chrono::duration<TimeRepT, TimeT>(-1)) {
   executor.add_node(node);
   const auto code = executor.spin_until_future_complete(future, timeout);
@@ -34,7 +34,7 @@ FutureReturnCode spin_node_until_future_complete(
 template <typename NodeT = Node, typename FutureT, typename TimeRepT = int64_t,
           typename TimeT = std::milli>
 FutureReturnCode spin_node_until_future_complete(
-    Executor &executor, std::shared_ptr<NodeT> node, const FutureT &future,
+    Executor& executor, std::shared_ptr<NodeT> node, const FutureT& future,
     std::chrono::duration<TimeRepT, TimeT> timeout = std::chrono::duration<TimeRepT, TimeT>(-1)) {
   return spin_node_until_future_complete(executor, node->get_node_base_interface(), future,
                                          timeout);
@@ -44,7 +44,7 @@ FutureReturnCode spin_node_until_future_complete(
 
 template <typename FutureT, typename TimeRepT = int64_t, typename TimeT = std::milli>
 FutureReturnCode spin_until_future_complete(
-    node_interfaces::NodeBaseInterface::SharedPtr node, const FutureT &future,
+    node_interfaces::NodeBaseInterface::SharedPtr node, const FutureT& future,
     std::chrono::duration<TimeRepT, TimeT> timeout = std::chrono::duration<TimeRepT, TimeT>(-1)) {
   executors::SingleThreadedExecutor executor;
   return executors::spin_node_until_future_complete(executor, node, future, timeout);
@@ -53,7 +53,7 @@ FutureReturnCode spin_until_future_complete(
 template <typename NodeT = Node, typename FutureT, typename TimeRepT = int64_t,
           typename TimeT = std::milli>
 FutureReturnCode spin_until_future_complete(
-    std::shared_ptr<NodeT> node, const FutureT &future,
+    std::shared_ptr<NodeT> node, const FutureT& future,
     std::chrono::duration<TimeRepT, TimeT> timeout = std::chrono::duration<TimeRepT, TimeT>(-1)) {
   return spin_until_future_complete(node->get_node_base_interface(), future, timeout);
 }

@@ -10,15 +10,16 @@ namespace function_traits {
 
 /// What a callable takes and returns.
 template <typename FunctionT>
-struct function_traits : function_traits<decltype(&std::remove_reference_t<FunctionT>::operator())> {};
+struct function_traits
+    : function_traits<decltype(&std::remove_reference_t<FunctionT>::operator())> {};
 
-#define GAZELLE_RCLCPP_TRAITS                                          \
-  {                                                                    \
-    using arguments = std::tuple<Args...>;                             \
-    static constexpr std::size_t arity = sizeof...(Args);              \
-    template <std::size_t N>                                           \
+#define GAZELLE_RCLCPP_TRAITS                                              \
+  {                                                                        \
+    using arguments = std::tuple<Args...>;                                 \
+    static constexpr std::size_t arity = sizeof...(Args);                  \
+    template <std::size_t N>                                               \
     using argument_type = typename std::tuple_element<N, arguments>::type; \
-    using return_type = ReturnT;                                       \
+    using return_type = ReturnT;                                           \
   }
 template <typename ReturnT, typename... Args>
 struct function_traits<ReturnT(Args...)> GAZELLE_RCLCPP_TRAITS;

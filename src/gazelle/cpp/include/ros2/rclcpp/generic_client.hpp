@@ -14,8 +14,8 @@ namespace rclcpp {
 class RCLCPP_PUBLIC GenericClient : public ClientBase {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(GenericClient)
-  using Request = void *;
-  using Response = void *;
+  using Request = void*;
+  using Response = void*;
   using SharedResponse = std::shared_ptr<void>;
   using Promise = std::promise<SharedResponse>;
   using Future = std::future<SharedResponse>;
@@ -25,15 +25,15 @@ class RCLCPP_PUBLIC GenericClient : public ClientBase {
     SharedFuture share() noexcept { return this->future.share(); }
   };
 
-  GenericClient(node_interfaces::NodeBaseInterface *node, const std::string &name,
-                const std::string &type, const QoS &qos)
+  GenericClient(node_interfaces::NodeBaseInterface* node, const std::string& name,
+                const std::string& type, const QoS& qos)
       : ClientBase(node, name, service_of(type), qos), type_(service_of(type)) {}
 
   FutureAndRequestId async_send_request(const Request request) {
     auto promise = std::make_shared<Promise>();
     auto future = promise->get_future();
-    const gazelle::MessageType *response = type_.response;
-    const int64_t number = send(request, [promise, response](const gazelle::Bytes &bytes) {
+    const gazelle::MessageType* response = type_.response;
+    const int64_t number = send(request, [promise, response](const gazelle::Bytes& bytes) {
       promise->set_value(response->decode(bytes.data(), bytes.size()));
     });
     return FutureAndRequestId(std::move(future), number);
@@ -41,8 +41,8 @@ class RCLCPP_PUBLIC GenericClient : public ClientBase {
 
  private:
   /// Throws where this program has no class of the service.
-  static const gazelle::ServiceType &service_of(const std::string &type);
-  const gazelle::ServiceType &type_;
+  static const gazelle::ServiceType& service_of(const std::string& type);
+  const gazelle::ServiceType& type_;
 };
 
 }  // namespace rclcpp

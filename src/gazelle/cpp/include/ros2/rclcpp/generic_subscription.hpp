@@ -15,9 +15,9 @@ namespace rclcpp {
 class RCLCPP_PUBLIC GenericSubscription : public SubscriptionBase {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(GenericSubscription)
-  GenericSubscription(node_interfaces::NodeBaseInterface *node, const std::string &topic,
-                      const std::string &type, const QoS &qos,
-                      const SubscriptionOptionsBase &options, detail::MessageCallback callback)
+  GenericSubscription(node_interfaces::NodeBaseInterface* node, const std::string& topic,
+                      const std::string& type, const QoS& qos,
+                      const SubscriptionOptionsBase& options, detail::MessageCallback callback)
       : SubscriptionBase(node, topic, type, qos, options, std::move(callback)) {
     serialized_ = true;
   }
@@ -26,13 +26,13 @@ class RCLCPP_PUBLIC GenericSubscription : public SubscriptionBase {
 namespace detail {
 
 template <class F>
-MessageCallback make_bytes_callback(F &&function) {
+MessageCallback make_bytes_callback(F&& function) {
   using Callable = std::decay_t<F>;
   auto kept = std::make_shared<Callable>(std::forward<F>(function));
-  return [kept](gazelle::Delivered &&delivered, const MessageInfo &info) {
-    Callable &call = *kept;
-    if constexpr (takes_either<Callable, const SerializedMessage &>) {
-      call_with<Callable, const SerializedMessage &>(call, *bytes_message(delivered), info);
+  return [kept](gazelle::Delivered&& delivered, const MessageInfo& info) {
+    Callable& call = *kept;
+    if constexpr (takes_either<Callable, const SerializedMessage&>) {
+      call_with<Callable, const SerializedMessage&>(call, *bytes_message(delivered), info);
     } else if constexpr (takes_either<Callable, std::shared_ptr<const SerializedMessage>>) {
       call_with(call, std::shared_ptr<const SerializedMessage>(bytes_message(delivered)), info);
     } else if constexpr (takes_either<Callable, std::shared_ptr<SerializedMessage>>) {
@@ -47,9 +47,9 @@ MessageCallback make_bytes_callback(F &&function) {
 
 template <typename CallbackT, typename AllocatorT = std::allocator<void>>
 std::shared_ptr<GenericSubscription> create_generic_subscription(
-    node_interfaces::NodeTopicsInterface::SharedPtr topics, const std::string &topic,
-    const std::string &type, const QoS &qos, CallbackT &&callback,
-    const SubscriptionOptionsWithAllocator<AllocatorT> &options =
+    node_interfaces::NodeTopicsInterface::SharedPtr topics, const std::string& topic,
+    const std::string& type, const QoS& qos, CallbackT&& callback,
+    const SubscriptionOptionsWithAllocator<AllocatorT>& options =
         SubscriptionOptionsWithAllocator<AllocatorT>()) {
   auto made = std::make_shared<GenericSubscription>(
       topics->get_node_base_interface(), topic, type, qos, options,

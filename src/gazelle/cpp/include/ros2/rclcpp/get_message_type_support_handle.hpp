@@ -6,7 +6,7 @@
 namespace rclcpp {
 
 template <typename MessageT>
-const rosidl_message_type_support_t &get_message_type_support_handle() {
+const rosidl_message_type_support_t& get_message_type_support_handle() {
   return *rosidl_typesupport_cpp::get_message_type_support_handle<
       typename detail::Adapted<MessageT>::ros_type>();
 }

@@ -20,10 +20,10 @@ class RCLCPP_PUBLIC GuardCondition : public detail::Executable {
   ~GuardCondition() override;
 
   Context::SharedPtr get_context() const { return context_; }
-  rcl_guard_condition_t &get_rcl_guard_condition() { return handle_; }
-  const rcl_guard_condition_t &get_rcl_guard_condition() const { return handle_; }
+  rcl_guard_condition_t& get_rcl_guard_condition() { return handle_; }
+  const rcl_guard_condition_t& get_rcl_guard_condition() const { return handle_; }
   void trigger();
-  void add_to_wait_set(rcl_wait_set_t &wait_set);
+  void add_to_wait_set(rcl_wait_set_t& wait_set);
   void set_on_trigger_callback(std::function<void(std::size_t)> callback) {
     set_on_new_work(std::move(callback));
   }
@@ -39,8 +39,8 @@ class RCLCPP_PUBLIC GuardCondition : public detail::Executable {
 };
 
 namespace detail {
-RCLCPP_PUBLIC void add_guard_condition_to_rcl_wait_set(rcl_wait_set_t &wait_set,
-                                                       const GuardCondition &guard_condition);
+RCLCPP_PUBLIC void add_guard_condition_to_rcl_wait_set(rcl_wait_set_t& wait_set,
+                                                       const GuardCondition& guard_condition);
 }
 
 }  // namespace rclcpp

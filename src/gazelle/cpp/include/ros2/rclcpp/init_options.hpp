@@ -14,7 +14,7 @@ class RCLCPP_PUBLIC InitOptions {
   explicit InitOptions(rcl_allocator_t allocator = rcl_get_default_allocator()) { (void)allocator; }
   bool shutdown_on_signal = true;
   bool auto_initialize_logging() const { return logging_; }
-  InitOptions &auto_initialize_logging(bool initialize) {
+  InitOptions& auto_initialize_logging(bool initialize) {
     logging_ = initialize;
     return *this;
   }

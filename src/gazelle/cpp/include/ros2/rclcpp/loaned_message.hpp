@@ -11,13 +11,12 @@ class PublisherBase;
 template <typename MessageT, typename AllocatorT = std::allocator<void>>
 class LoanedMessage {
  public:
-  LoanedMessage(const PublisherBase &publisher, AllocatorT)
-      : LoanedMessage(publisher) {}
-  explicit LoanedMessage(const PublisherBase &) : message_(std::make_unique<MessageT>()) {}
-  LoanedMessage(LoanedMessage &&) = default;
+  LoanedMessage(const PublisherBase& publisher, AllocatorT) : LoanedMessage(publisher) {}
+  explicit LoanedMessage(const PublisherBase&) : message_(std::make_unique<MessageT>()) {}
+  LoanedMessage(LoanedMessage&&) = default;
   virtual ~LoanedMessage() = default;
   bool is_valid() const { return message_ != nullptr; }
-  MessageT &get() const { return *message_; }
+  MessageT& get() const { return *message_; }
   std::unique_ptr<MessageT> release() { return std::move(message_); }
 
  private:

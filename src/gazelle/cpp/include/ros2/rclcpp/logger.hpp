@@ -19,8 +19,8 @@ namespace node_interfaces {
 class NodeLogging;
 }
 
-RCLCPP_PUBLIC Logger get_logger(const std::string &name);
-RCLCPP_PUBLIC Logger get_node_logger(const void *node);
+RCLCPP_PUBLIC Logger get_logger(const std::string& name);
+RCLCPP_PUBLIC Logger get_node_logger(const void* node);
 
 /// Says things under a name; the name's parts are split by dots.
 class RCLCPP_PUBLIC Logger {
@@ -34,18 +34,18 @@ class RCLCPP_PUBLIC Logger {
     Fatal = RCUTILS_LOG_SEVERITY_FATAL
   };
 
-  Logger(const Logger &) = default;
-  Logger &operator=(const Logger &) = default;
+  Logger(const Logger&) = default;
+  Logger& operator=(const Logger&) = default;
 
-  const char *get_name() const { return name_ ? name_->c_str() : nullptr; }
-  Logger get_child(const std::string &suffix);
+  const char* get_name() const { return name_ ? name_->c_str() : nullptr; }
+  Logger get_child(const std::string& suffix);
   void set_level(Level level);
   Level get_effective_level() const;
 
  private:
-  friend Logger get_logger(const std::string &name);
+  friend Logger get_logger(const std::string& name);
   Logger() = default;
-  explicit Logger(const std::string &name) : name_(std::make_shared<const std::string>(name)) {}
+  explicit Logger(const std::string& name) : name_(std::make_shared<const std::string>(name)) {}
   std::shared_ptr<const std::string> name_;
 };
 

@@ -29,7 +29,7 @@ namespace detail {
 /// State of one place in a program that says something only now and then.
 struct ThrottledPlace {
   /// Tell whether the place may speak again, and note when it did.
-  RCLCPP_PUBLIC bool may_speak(const Clock &clock, double duration_ms);
+  RCLCPP_PUBLIC bool may_speak(const Clock& clock, double duration_ms);
   RCLCPP_PUBLIC bool is_first();
   std::atomic<bool> seen{false};
   std::atomic<bool> spoken{false};
@@ -41,49 +41,50 @@ struct ThrottledPlace {
 
 // What all macros are: the severity, whether to speak (asked once the level allows it), the
 // logger, and printf's words or a stream's.
-#define GAZELLE_RCLCPP_LOG(severity, condition, logger, ...)                                      \
-  do {                                                                                            \
-    static_assert(                                                                                \
-        ::std::is_same<typename std::remove_cv_t<typename std::remove_reference_t<decltype(       \
-                           logger)>>,                                                             \
-                       typename ::rclcpp::Logger>::value,                                         \
-        "First argument to logging macros must be an rclcpp::Logger");                            \
-    static const rcutils_log_location_t gazelle_log_location = {__func__, __FILE__, __LINE__};    \
-    static ::rclcpp::detail::ThrottledPlace gazelle_log_place;                                    \
-    (void)gazelle_log_place;                                                                      \
-    const auto &gazelle_logger = logger;                                                          \
-    if (rcutils_logging_logger_is_enabled_for(gazelle_logger.get_name(), severity) &&             \
-        (condition)) {                                                                            \
-      rcutils_log(&gazelle_log_location, severity, gazelle_logger.get_name(), __VA_ARGS__);       \
-    }                                                                                             \
+#define GAZELLE_RCLCPP_LOG(severity, condition, logger, ...)                                   \
+  do {                                                                                         \
+    static_assert(                                                                             \
+        ::std::is_same<                                                                        \
+            typename std::remove_cv_t<typename std::remove_reference_t<decltype(logger)>>,     \
+            typename ::rclcpp::Logger>::value,                                                 \
+        "First argument to logging macros must be an rclcpp::Logger");                         \
+    static const rcutils_log_location_t gazelle_log_location = {__func__, __FILE__, __LINE__}; \
+    static ::rclcpp::detail::ThrottledPlace gazelle_log_place;                                 \
+    (void)gazelle_log_place;                                                                   \
+    const auto& gazelle_logger = logger;                                                       \
+    if (rcutils_logging_logger_is_enabled_for(gazelle_logger.get_name(), severity) &&          \
+        (condition)) {                                                                         \
+      rcutils_log(&gazelle_log_location, severity, gazelle_logger.get_name(), __VA_ARGS__);    \
+    }                                                                                          \
   } while (0)
 
-#define GAZELLE_RCLCPP_LOG_STREAM(severity, condition, logger, words)                             \
-  do {                                                                                            \
-    static_assert(                                                                                \
-        ::std::is_same<typename std::remove_cv_t<typename std::remove_reference_t<decltype(       \
-                           logger)>>,                                                             \
-                       typename ::rclcpp::Logger>::value,                                         \
-        "First argument to logging macros must be an rclcpp::Logger");                            \
-    static const rcutils_log_location_t gazelle_log_location = {__func__, __FILE__, __LINE__};    \
-    static ::rclcpp::detail::ThrottledPlace gazelle_log_place;                                    \
-    (void)gazelle_log_place;                                                                      \
-    const auto &gazelle_logger = logger;                                                          \
-    if (rcutils_logging_logger_is_enabled_for(gazelle_logger.get_name(), severity) &&             \
-        (condition)) {                                                                            \
-      std::stringstream rclcpp_stream_ss_;                                                        \
-      rclcpp_stream_ss_ << words;                                                                 \
-      rcutils_log(&gazelle_log_location, severity, gazelle_logger.get_name(), "%s",               \
-                  rclcpp_stream_ss_.str().c_str());                                               \
-    }                                                                                             \
+#define GAZELLE_RCLCPP_LOG_STREAM(severity, condition, logger, words)                          \
+  do {                                                                                         \
+    static_assert(                                                                             \
+        ::std::is_same<                                                                        \
+            typename std::remove_cv_t<typename std::remove_reference_t<decltype(logger)>>,     \
+            typename ::rclcpp::Logger>::value,                                                 \
+        "First argument to logging macros must be an rclcpp::Logger");                         \
+    static const rcutils_log_location_t gazelle_log_location = {__func__, __FILE__, __LINE__}; \
+    static ::rclcpp::detail::ThrottledPlace gazelle_log_place;                                 \
+    (void)gazelle_log_place;                                                                   \
+    const auto& gazelle_logger = logger;                                                       \
+    if (rcutils_logging_logger_is_enabled_for(gazelle_logger.get_name(), severity) &&          \
+        (condition)) {                                                                         \
+      std::stringstream rclcpp_stream_ss_;                                                     \
+      rclcpp_stream_ss_ << words;                                                              \
+      rcutils_log(&gazelle_log_location, severity, gazelle_logger.get_name(), "%s",            \
+                  rclcpp_stream_ss_.str().c_str());                                            \
+    }                                                                                          \
   } while (0)
 
 #define GAZELLE_RCLCPP_ONCE !gazelle_log_place.spoken.exchange(true)
 #define GAZELLE_RCLCPP_SKIPFIRST !gazelle_log_place.is_first()
 #define GAZELLE_RCLCPP_THROTTLE(clock, duration) \
   gazelle_log_place.may_speak((clock), static_cast<double>(duration))
-#define GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration) \
-  gazelle_log_place.may_speak((clock), static_cast<double>(duration)) && !gazelle_log_place.is_first()
+#define GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration)               \
+  gazelle_log_place.may_speak((clock), static_cast<double>(duration)) && \
+      !gazelle_log_place.is_first()
 
 #if RCLCPP_LOG_MIN_SEVERITY > RCLCPP_LOG_MIN_SEVERITY_DEBUG
 #define RCLCPP_DEBUG(...)
@@ -119,16 +120,22 @@ struct ThrottledPlace {
   GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_DEBUG, (*(function))(), logger, stream_arg)
 #define RCLCPP_DEBUG_SKIPFIRST(logger, ...) \
   GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_DEBUG, GAZELLE_RCLCPP_SKIPFIRST, logger, __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM_SKIPFIRST(logger, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_DEBUG, GAZELLE_RCLCPP_SKIPFIRST, logger, stream_arg)
-#define RCLCPP_DEBUG_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_DEBUG, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_DEBUG, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, stream_arg)
+#define RCLCPP_DEBUG_STREAM_SKIPFIRST(logger, stream_arg)                                 \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_DEBUG, GAZELLE_RCLCPP_SKIPFIRST, logger, \
+                            stream_arg)
+#define RCLCPP_DEBUG_THROTTLE(logger, clock, duration, ...)                                        \
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_DEBUG, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, \
+                     __VA_ARGS__)
+#define RCLCPP_DEBUG_STREAM_THROTTLE(logger, clock, duration, stream_arg)                         \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_DEBUG, GAZELLE_RCLCPP_THROTTLE(clock, duration), \
+                            logger, stream_arg)
 #define RCLCPP_DEBUG_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_DEBUG, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_DEBUG_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_DEBUG, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, stream_arg)
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_DEBUG,                      \
+                     GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
+#define RCLCPP_DEBUG_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg)     \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_DEBUG,                                 \
+                            GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, \
+                            stream_arg)
 #endif
 
 #if RCLCPP_LOG_MIN_SEVERITY > RCLCPP_LOG_MIN_SEVERITY_INFO
@@ -167,14 +174,19 @@ struct ThrottledPlace {
   GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_INFO, GAZELLE_RCLCPP_SKIPFIRST, logger, __VA_ARGS__)
 #define RCLCPP_INFO_STREAM_SKIPFIRST(logger, stream_arg) \
   GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_INFO, GAZELLE_RCLCPP_SKIPFIRST, logger, stream_arg)
-#define RCLCPP_INFO_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_INFO, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_INFO_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_INFO, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, stream_arg)
+#define RCLCPP_INFO_THROTTLE(logger, clock, duration, ...)                                        \
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_INFO, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, \
+                     __VA_ARGS__)
+#define RCLCPP_INFO_STREAM_THROTTLE(logger, clock, duration, stream_arg)                         \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_INFO, GAZELLE_RCLCPP_THROTTLE(clock, duration), \
+                            logger, stream_arg)
 #define RCLCPP_INFO_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_INFO, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_INFO_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_INFO, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, stream_arg)
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_INFO,                      \
+                     GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
+#define RCLCPP_INFO_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg)      \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_INFO,                                  \
+                            GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, \
+                            stream_arg)
 #endif
 
 #if RCLCPP_LOG_MIN_SEVERITY > RCLCPP_LOG_MIN_SEVERITY_WARN
@@ -213,14 +225,19 @@ struct ThrottledPlace {
   GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_WARN, GAZELLE_RCLCPP_SKIPFIRST, logger, __VA_ARGS__)
 #define RCLCPP_WARN_STREAM_SKIPFIRST(logger, stream_arg) \
   GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_WARN, GAZELLE_RCLCPP_SKIPFIRST, logger, stream_arg)
-#define RCLCPP_WARN_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_WARN, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_WARN_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_WARN, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, stream_arg)
+#define RCLCPP_WARN_THROTTLE(logger, clock, duration, ...)                                        \
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_WARN, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, \
+                     __VA_ARGS__)
+#define RCLCPP_WARN_STREAM_THROTTLE(logger, clock, duration, stream_arg)                         \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_WARN, GAZELLE_RCLCPP_THROTTLE(clock, duration), \
+                            logger, stream_arg)
 #define RCLCPP_WARN_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_WARN, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_WARN_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_WARN, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, stream_arg)
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_WARN,                      \
+                     GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
+#define RCLCPP_WARN_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg)      \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_WARN,                                  \
+                            GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, \
+                            stream_arg)
 #endif
 
 #if RCLCPP_LOG_MIN_SEVERITY > RCLCPP_LOG_MIN_SEVERITY_ERROR
@@ -257,16 +274,22 @@ struct ThrottledPlace {
   GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_ERROR, (*(function))(), logger, stream_arg)
 #define RCLCPP_ERROR_SKIPFIRST(logger, ...) \
   GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_ERROR, GAZELLE_RCLCPP_SKIPFIRST, logger, __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM_SKIPFIRST(logger, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_ERROR, GAZELLE_RCLCPP_SKIPFIRST, logger, stream_arg)
-#define RCLCPP_ERROR_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_ERROR, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_ERROR, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, stream_arg)
+#define RCLCPP_ERROR_STREAM_SKIPFIRST(logger, stream_arg)                                 \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_ERROR, GAZELLE_RCLCPP_SKIPFIRST, logger, \
+                            stream_arg)
+#define RCLCPP_ERROR_THROTTLE(logger, clock, duration, ...)                                        \
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_ERROR, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, \
+                     __VA_ARGS__)
+#define RCLCPP_ERROR_STREAM_THROTTLE(logger, clock, duration, stream_arg)                         \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_ERROR, GAZELLE_RCLCPP_THROTTLE(clock, duration), \
+                            logger, stream_arg)
 #define RCLCPP_ERROR_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_ERROR, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_ERROR_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_ERROR, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, stream_arg)
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_ERROR,                      \
+                     GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
+#define RCLCPP_ERROR_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg)     \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_ERROR,                                 \
+                            GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, \
+                            stream_arg)
 #endif
 
 #if RCLCPP_LOG_MIN_SEVERITY > RCLCPP_LOG_MIN_SEVERITY_FATAL
@@ -303,14 +326,20 @@ struct ThrottledPlace {
   GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_FATAL, (*(function))(), logger, stream_arg)
 #define RCLCPP_FATAL_SKIPFIRST(logger, ...) \
   GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_FATAL, GAZELLE_RCLCPP_SKIPFIRST, logger, __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM_SKIPFIRST(logger, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_FATAL, GAZELLE_RCLCPP_SKIPFIRST, logger, stream_arg)
-#define RCLCPP_FATAL_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_FATAL, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_FATAL, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, stream_arg)
+#define RCLCPP_FATAL_STREAM_SKIPFIRST(logger, stream_arg)                                 \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_FATAL, GAZELLE_RCLCPP_SKIPFIRST, logger, \
+                            stream_arg)
+#define RCLCPP_FATAL_THROTTLE(logger, clock, duration, ...)                                        \
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_FATAL, GAZELLE_RCLCPP_THROTTLE(clock, duration), logger, \
+                     __VA_ARGS__)
+#define RCLCPP_FATAL_STREAM_THROTTLE(logger, clock, duration, stream_arg)                         \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_FATAL, GAZELLE_RCLCPP_THROTTLE(clock, duration), \
+                            logger, stream_arg)
 #define RCLCPP_FATAL_SKIPFIRST_THROTTLE(logger, clock, duration, ...) \
-  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_FATAL, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
-#define RCLCPP_FATAL_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg) \
-  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_FATAL, GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, stream_arg)
+  GAZELLE_RCLCPP_LOG(RCUTILS_LOG_SEVERITY_FATAL,                      \
+                     GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, __VA_ARGS__)
+#define RCLCPP_FATAL_STREAM_SKIPFIRST_THROTTLE(logger, clock, duration, stream_arg)     \
+  GAZELLE_RCLCPP_LOG_STREAM(RCUTILS_LOG_SEVERITY_FATAL,                                 \
+                            GAZELLE_RCLCPP_SKIPFIRST_THROTTLE(clock, duration), logger, \
+                            stream_arg)
 #endif

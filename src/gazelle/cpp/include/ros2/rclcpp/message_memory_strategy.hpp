@@ -24,8 +24,8 @@ class MessageMemoryStrategy {
   virtual std::shared_ptr<SerializedMessage> borrow_serialized_message() {
     return borrow_serialized_message(0);
   }
-  virtual void return_message(std::shared_ptr<MessageT> &message) { message.reset(); }
-  virtual void return_serialized_message(std::shared_ptr<SerializedMessage> &message) {
+  virtual void return_message(std::shared_ptr<MessageT>& message) { message.reset(); }
+  virtual void return_serialized_message(std::shared_ptr<SerializedMessage>& message) {
     message.reset();
   }
 };

@@ -45,24 +45,23 @@
 namespace rclcpp {
 
 /// A participant of the graph, with topics, services, timers and parameters.
-class RCLCPP_PUBLIC Node : public std::enable_shared_from_this<Node>,
-                           public detail::NodeFunctions {
+class RCLCPP_PUBLIC Node : public std::enable_shared_from_this<Node>, public detail::NodeFunctions {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(Node)
-  explicit Node(const std::string &node_name, const NodeOptions &options = NodeOptions());
-  explicit Node(const std::string &node_name, const std::string &namespace_,
-                const NodeOptions &options = NodeOptions());
+  explicit Node(const std::string& node_name, const NodeOptions& options = NodeOptions());
+  explicit Node(const std::string& node_name, const std::string& namespace_,
+                const NodeOptions& options = NodeOptions());
   virtual ~Node();
 
-  const std::string &get_sub_namespace() const;
-  const std::string &get_effective_namespace() const;
-  Node::SharedPtr create_sub_node(const std::string &sub_namespace);
+  const std::string& get_sub_namespace() const;
+  const std::string& get_effective_namespace() const;
+  Node::SharedPtr create_sub_node(const std::string& sub_namespace);
 
  protected:
-  Node(const Node &other, const std::string &sub_namespace);
+  Node(const Node& other, const std::string& sub_namespace);
 
  private:
-  Node &operator=(const Node &) = delete;
+  Node& operator=(const Node&) = delete;
 };
 
 }  // namespace rclcpp

@@ -19,16 +19,16 @@ class RCLCPP_PUBLIC NodeOptions {
   explicit NodeOptions(rcl_allocator_t allocator = rcl_get_default_allocator())
       : allocator_(allocator) {}
 
-#define GAZELLE_RCLCPP_OPTION(Type, name, initial)  \
-  const Type &name() const { return name##_; }      \
-  NodeOptions &name(const Type &value) {            \
-    name##_ = value;                                \
-    return *this;                                   \
-  }                                                 \
-                                                    \
- private:                                           \
-  Type name##_ = initial;                           \
-                                                    \
+#define GAZELLE_RCLCPP_OPTION(Type, name, initial) \
+  const Type& name() const { return name##_; }     \
+  NodeOptions& name(const Type& value) {           \
+    name##_ = value;                               \
+    return *this;                                  \
+  }                                                \
+                                                   \
+ private:                                          \
+  Type name##_ = initial;                          \
+                                                   \
  public:
 
   GAZELLE_RCLCPP_OPTION(Context::SharedPtr, context, contexts::get_global_default_context())
@@ -51,14 +51,14 @@ class RCLCPP_PUBLIC NodeOptions {
   GAZELLE_RCLCPP_OPTION(rcl_allocator_t, allocator, rcl_get_default_allocator())
 #undef GAZELLE_RCLCPP_OPTION
 
-  std::vector<Parameter> &parameter_overrides() { return overrides_; }
-  const std::vector<Parameter> &parameter_overrides() const { return overrides_; }
-  NodeOptions &parameter_overrides(const std::vector<Parameter> &overrides) {
+  std::vector<Parameter>& parameter_overrides() { return overrides_; }
+  const std::vector<Parameter>& parameter_overrides() const { return overrides_; }
+  NodeOptions& parameter_overrides(const std::vector<Parameter>& overrides) {
     overrides_ = overrides;
     return *this;
   }
   template <typename ParameterT>
-  NodeOptions &append_parameter_override(const std::string &name, const ParameterT &value) {
+  NodeOptions& append_parameter_override(const std::string& name, const ParameterT& value) {
     overrides_.emplace_back(name, ParameterValue(value));
     return *this;
   }

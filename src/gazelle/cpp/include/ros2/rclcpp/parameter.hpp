@@ -31,30 +31,30 @@ class RCLCPP_PUBLIC Parameter {
   decltype(auto) guarded(Function function) const {
     try {
       return function();
-    } catch (const ParameterTypeException &error) {
+    } catch (const ParameterTypeException& error) {
       throw exceptions::InvalidParameterTypeException(name_, error.what());
     }
   }
 
  public:
   Parameter() = default;
-  explicit Parameter(const std::string &name) : name_(name) {}
-  Parameter(const std::string &name, const ParameterValue &value) : name_(name), value_(value) {}
+  explicit Parameter(const std::string& name) : name_(name) {}
+  Parameter(const std::string& name, const ParameterValue& value) : name_(name), value_(value) {}
   template <typename ValueTypeT>
-  Parameter(const std::string &name, ValueTypeT value)
+  Parameter(const std::string& name, ValueTypeT value)
       : Parameter(name, ParameterValue(std::move(value))) {}
-  explicit Parameter(const node_interfaces::ParameterInfo &info)
+  explicit Parameter(const node_interfaces::ParameterInfo& info)
       : Parameter(info.descriptor.name, info.value) {}
 
-  bool operator==(const Parameter &other) const {
+  bool operator==(const Parameter& other) const {
     return name_ == other.name_ && value_ == other.value_;
   }
-  bool operator!=(const Parameter &other) const { return !(*this == other); }
+  bool operator!=(const Parameter& other) const { return !(*this == other); }
   ParameterType get_type() const { return value_.get_type(); }
   std::string get_type_name() const { return to_string(get_type()); }
-  const std::string &get_name() const { return name_; }
+  const std::string& get_name() const { return name_; }
   rcl_interfaces::msg::ParameterValue get_value_message() const { return value_.to_value_msg(); }
-  const ParameterValue &get_parameter_value() const { return value_; }
+  const ParameterValue& get_parameter_value() const { return value_; }
 
   template <ParameterType ParamT>
   decltype(auto) get_value() const {
@@ -68,18 +68,16 @@ class RCLCPP_PUBLIC Parameter {
   bool as_bool() const { return get_value<bool>(); }
   int64_t as_int() const { return get_value<int64_t>(); }
   double as_double() const { return get_value<double>(); }
-  const std::string &as_string() const { return get_value<std::string>(); }
-  const std::vector<uint8_t> &as_byte_array() const { return get_value<std::vector<uint8_t>>(); }
-  const std::vector<bool> &as_bool_array() const { return get_value<std::vector<bool>>(); }
-  const std::vector<int64_t> &as_integer_array() const {
-    return get_value<std::vector<int64_t>>();
-  }
-  const std::vector<double> &as_double_array() const { return get_value<std::vector<double>>(); }
-  const std::vector<std::string> &as_string_array() const {
+  const std::string& as_string() const { return get_value<std::string>(); }
+  const std::vector<uint8_t>& as_byte_array() const { return get_value<std::vector<uint8_t>>(); }
+  const std::vector<bool>& as_bool_array() const { return get_value<std::vector<bool>>(); }
+  const std::vector<int64_t>& as_integer_array() const { return get_value<std::vector<int64_t>>(); }
+  const std::vector<double>& as_double_array() const { return get_value<std::vector<double>>(); }
+  const std::vector<std::string>& as_string_array() const {
     return get_value<std::vector<std::string>>();
   }
 
-  static Parameter from_parameter_msg(const rcl_interfaces::msg::Parameter &message);
+  static Parameter from_parameter_msg(const rcl_interfaces::msg::Parameter& message);
   rcl_interfaces::msg::Parameter to_parameter_msg() const;
   std::string value_to_string() const { return to_string(value_); }
 
@@ -88,13 +86,13 @@ class RCLCPP_PUBLIC Parameter {
   ParameterValue value_;
 };
 
-RCLCPP_PUBLIC std::string _to_json_dict_entry(const Parameter &parameter);
-RCLCPP_PUBLIC std::ostream &operator<<(std::ostream &out, const Parameter &parameter);
-RCLCPP_PUBLIC std::ostream &operator<<(std::ostream &out, const std::vector<Parameter> &parameters);
+RCLCPP_PUBLIC std::string _to_json_dict_entry(const Parameter& parameter);
+RCLCPP_PUBLIC std::ostream& operator<<(std::ostream& out, const Parameter& parameter);
+RCLCPP_PUBLIC std::ostream& operator<<(std::ostream& out, const std::vector<Parameter>& parameters);
 
 }  // namespace rclcpp
 
 namespace std {
-RCLCPP_PUBLIC std::string to_string(const rclcpp::Parameter &parameter);
-RCLCPP_PUBLIC std::string to_string(const std::vector<rclcpp::Parameter> &parameters);
+RCLCPP_PUBLIC std::string to_string(const rclcpp::Parameter& parameter);
+RCLCPP_PUBLIC std::string to_string(const std::vector<rclcpp::Parameter>& parameters);
 }  // namespace std

@@ -16,11 +16,10 @@ class RCLCPP_PUBLIC ParameterEventsFilter {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(ParameterEventsFilter)
   enum class EventType { NEW, DELETED, CHANGED };
-  using EventPair = std::pair<EventType, const rcl_interfaces::msg::Parameter *>;
+  using EventPair = std::pair<EventType, const rcl_interfaces::msg::Parameter*>;
   ParameterEventsFilter(std::shared_ptr<const rcl_interfaces::msg::ParameterEvent> event,
-                        const std::vector<std::string> &names,
-                        const std::vector<EventType> &types);
-  const std::vector<EventPair> &get_events() const { return result_; }
+                        const std::vector<std::string>& names, const std::vector<EventType>& types);
+  const std::vector<EventPair>& get_events() const { return result_; }
 
  private:
   std::shared_ptr<const rcl_interfaces::msg::ParameterEvent> event_;

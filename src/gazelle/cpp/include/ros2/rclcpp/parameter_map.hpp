@@ -14,9 +14,9 @@ namespace rclcpp {
 using ParameterMap = std::unordered_map<std::string, std::vector<Parameter>>;
 
 /// Read a YAML file of parameters.
-RCLCPP_PUBLIC ParameterMap parameter_map_from_yaml_file(const std::string &yaml_filename,
-                                                        const char *node_fqn = nullptr);
-RCLCPP_PUBLIC std::vector<Parameter> parameters_from_map(const ParameterMap &map,
-                                                         const char *node_fqn = nullptr);
+RCLCPP_PUBLIC ParameterMap parameter_map_from_yaml_file(const std::string& yaml_filename,
+                                                        const char* node_fqn = nullptr);
+RCLCPP_PUBLIC std::vector<Parameter> parameters_from_map(const ParameterMap& map,
+                                                         const char* node_fqn = nullptr);
 
 }  // namespace rclcpp

@@ -28,7 +28,7 @@ enum ParameterType : uint8_t {
 };
 
 RCLCPP_PUBLIC std::string to_string(ParameterType type);
-RCLCPP_PUBLIC std::ostream &operator<<(std::ostream &out, ParameterType type);
+RCLCPP_PUBLIC std::ostream& operator<<(std::ostream& out, ParameterType type);
 
 /// A value was asked for as what it is not.
 class ParameterTypeException : public std::runtime_error {
@@ -43,10 +43,10 @@ namespace detail {
 template <typename T, typename = void>
 struct ParameterKind;  // the kind of parameter that a type of C++ is, and its member of the message
 
-#define GAZELLE_RCLCPP_PARAMETER_KIND(type, kind, member)               \
-  template <>                                                           \
-  struct ParameterKind<type> {                                          \
-    static constexpr ParameterType value = kind;                        \
+#define GAZELLE_RCLCPP_PARAMETER_KIND(type, kind, member)                       \
+  template <>                                                                   \
+  struct ParameterKind<type> {                                                  \
+    static constexpr ParameterType value = kind;                                \
     static constexpr auto field = &rcl_interfaces::msg::ParameterValue::member; \
   };
 GAZELLE_RCLCPP_PARAMETER_KIND(bool, PARAMETER_BOOL, bool_value)
@@ -75,26 +75,26 @@ struct ParameterKind<T, std::enable_if_t<std::is_floating_point<T>::value>> {
 class RCLCPP_PUBLIC ParameterValue {
  public:
   ParameterValue() { value_.type = PARAMETER_NOT_SET; }
-  explicit ParameterValue(const rcl_interfaces::msg::ParameterValue &value);
+  explicit ParameterValue(const rcl_interfaces::msg::ParameterValue& value);
   explicit ParameterValue(bool value);
   explicit ParameterValue(int value) : ParameterValue(static_cast<int64_t>(value)) {}
   explicit ParameterValue(int64_t value);
   explicit ParameterValue(float value) : ParameterValue(static_cast<double>(value)) {}
   explicit ParameterValue(double value);
-  explicit ParameterValue(const std::string &value);
-  explicit ParameterValue(const char *value) : ParameterValue(std::string(value)) {}
-  explicit ParameterValue(const std::vector<uint8_t> &value);
-  explicit ParameterValue(const std::vector<bool> &value);
-  explicit ParameterValue(const std::vector<int> &value);
-  explicit ParameterValue(const std::vector<int64_t> &value);
-  explicit ParameterValue(const std::vector<float> &value);
-  explicit ParameterValue(const std::vector<double> &value);
-  explicit ParameterValue(const std::vector<std::string> &value);
+  explicit ParameterValue(const std::string& value);
+  explicit ParameterValue(const char* value) : ParameterValue(std::string(value)) {}
+  explicit ParameterValue(const std::vector<uint8_t>& value);
+  explicit ParameterValue(const std::vector<bool>& value);
+  explicit ParameterValue(const std::vector<int>& value);
+  explicit ParameterValue(const std::vector<int64_t>& value);
+  explicit ParameterValue(const std::vector<float>& value);
+  explicit ParameterValue(const std::vector<double>& value);
+  explicit ParameterValue(const std::vector<std::string>& value);
 
   ParameterType get_type() const { return static_cast<ParameterType>(value_.type); }
-  const rcl_interfaces::msg::ParameterValue &to_value_msg() const { return value_; }
-  bool operator==(const ParameterValue &other) const { return value_ == other.value_; }
-  bool operator!=(const ParameterValue &other) const { return !(*this == other); }
+  const rcl_interfaces::msg::ParameterValue& to_value_msg() const { return value_; }
+  bool operator==(const ParameterValue& other) const { return value_ == other.value_; }
+  bool operator!=(const ParameterValue& other) const { return !(*this == other); }
 
   template <ParameterType type>
   decltype(auto) get() const {
@@ -126,14 +126,14 @@ class RCLCPP_PUBLIC ParameterValue {
                   std::is_same<V, std::vector<float>>::value) {
       // Lists of the shorter kinds are made of the longer ones.
       using Long = std::conditional_t<std::is_same<V, std::vector<int>>::value, int64_t, double>;
-      const auto &values = get<std::vector<Long>>();
+      const auto& values = get<std::vector<Long>>();
       return V(values.begin(), values.end());
     } else {
       using Kind = detail::ParameterKind<V>;
       if (get_type() != Kind::value) throw ParameterTypeException(Kind::value, get_type());
       if constexpr (std::is_same<V, bool>::value || std::is_class<V>::value ||
                     std::is_same<V, int64_t>::value || std::is_same<V, double>::value) {
-        return static_cast<const V &>(value_.*Kind::field);
+        return static_cast<const V&>(value_.*Kind::field);
       } else {
         return static_cast<V>(value_.*Kind::field);
       }
@@ -144,6 +144,6 @@ class RCLCPP_PUBLIC ParameterValue {
   rcl_interfaces::msg::ParameterValue value_;
 };
 
-RCLCPP_PUBLIC std::string to_string(const ParameterValue &value);
+RCLCPP_PUBLIC std::string to_string(const ParameterValue& value);
 
 }  // namespace rclcpp

@@ -26,14 +26,14 @@ class Publisher : public PublisherBase {
   using MessageSharedPtr = std::shared_ptr<const ROSMessageType>;
   RCLCPP_SMART_PTR_DEFINITIONS(Publisher<MessageT, AllocatorT>)
 
-  Publisher(node_interfaces::NodeBaseInterface *node, const std::string &topic, const QoS &qos,
-            const PublisherOptionsWithAllocator<AllocatorT> &options)
+  Publisher(node_interfaces::NodeBaseInterface* node, const std::string& topic, const QoS& qos,
+            const PublisherOptionsWithAllocator<AllocatorT>& options)
       : PublisherBase(node, topic, gazelle::message_type<ROSMessageType>(), qos, options),
         allocator_(options.get_allocator()) {}
-  virtual void post_init_setup(node_interfaces::NodeBaseInterface *, const std::string &,
-                               const QoS &, const PublisherOptionsWithAllocator<AllocatorT> &) {}
+  virtual void post_init_setup(node_interfaces::NodeBaseInterface*, const std::string&, const QoS&,
+                               const PublisherOptionsWithAllocator<AllocatorT>&) {}
 
-  virtual void publish(const ROSMessageType &message) {
+  virtual void publish(const ROSMessageType& message) {
     publish_look(&message, &Publisher::copy_of);
   }
 
@@ -45,7 +45,7 @@ class Publisher : public PublisherBase {
 
   template <typename T>
   std::enable_if_t<detail::Adapted<MessageT>::is_adapted && std::is_same<T, PublishedType>::value>
-  publish(const T &message) {
+  publish(const T& message) {
     auto made = std::make_unique<ROSMessageType>();
     detail::Adapted<MessageT>::adapter::convert_to_ros_message(message, *made);
     publish_object(detail::shared_of(std::move(made)));
@@ -57,11 +57,11 @@ class Publisher : public PublisherBase {
     publish(*message);
   }
 
-  void publish(const rcl_serialized_message_t &message) { publish_bytes(message); }
-  void publish(const SerializedMessage &message) {
+  void publish(const rcl_serialized_message_t& message) { publish_bytes(message); }
+  void publish(const SerializedMessage& message) {
     publish_bytes(message.get_rcl_serialized_message());
   }
-  void publish(LoanedMessage<ROSMessageType, AllocatorT> &&message) {
+  void publish(LoanedMessage<ROSMessageType, AllocatorT>&& message) {
     if (!message.is_valid()) throw std::runtime_error("loaned message is not valid");
     publish(message.release());
   }
@@ -72,9 +72,9 @@ class Publisher : public PublisherBase {
   AllocatorT get_allocator() const { return *allocator_; }
 
  private:
-  static std::shared_ptr<const void> copy_of(const void *message) {
+  static std::shared_ptr<const void> copy_of(const void* message) {
     return detail::shared_of(
-        std::make_unique<ROSMessageType>(*static_cast<const ROSMessageType *>(message)));
+        std::make_unique<ROSMessageType>(*static_cast<const ROSMessageType*>(message)));
   }
   std::shared_ptr<AllocatorT> allocator_;
 };

@@ -27,7 +27,7 @@ template <typename Allocator = std::allocator<void>>
 struct PublisherOptionsWithAllocator : public PublisherOptionsBase {
   std::shared_ptr<Allocator> allocator;
   PublisherOptionsWithAllocator() = default;
-  explicit PublisherOptionsWithAllocator(const PublisherOptionsBase &base)
+  explicit PublisherOptionsWithAllocator(const PublisherOptionsBase& base)
       : PublisherOptionsBase(base) {}
   std::shared_ptr<Allocator> get_allocator() const {
     return allocator ? allocator : std::make_shared<Allocator>();

@@ -63,7 +63,7 @@ struct RCLCPP_PUBLIC QoSInitialization {
   QoSInitialization(rmw_qos_history_policy_t history, std::size_t depth,
                     bool print_depth_warning = true)
       : history_policy(history), depth(depth), print_depth_warning(print_depth_warning) {}
-  static QoSInitialization from_rmw(const rmw_qos_profile_t &profile);
+  static QoSInitialization from_rmw(const rmw_qos_profile_t& profile);
 };
 
 struct RCLCPP_PUBLIC KeepAll : public QoSInitialization {
@@ -78,36 +78,36 @@ struct RCLCPP_PUBLIC KeepLast : public QoSInitialization {
 /// How a topic or service is carried; every setter returns the object.
 class RCLCPP_PUBLIC QoS {
  public:
-  explicit QoS(const QoSInitialization &initialization,
-               const rmw_qos_profile_t &profile = rmw_qos_profile_default);
+  explicit QoS(const QoSInitialization& initialization,
+               const rmw_qos_profile_t& profile = rmw_qos_profile_default);
   QoS(std::size_t history_depth);  // NOLINT(runtime/explicit)
 
-  rmw_qos_profile_t &get_rmw_qos_profile() { return profile_; }
-  const rmw_qos_profile_t &get_rmw_qos_profile() const { return profile_; }
+  rmw_qos_profile_t& get_rmw_qos_profile() { return profile_; }
+  const rmw_qos_profile_t& get_rmw_qos_profile() const { return profile_; }
 
-  QoS &history(HistoryPolicy history);
-  QoS &history(rmw_qos_history_policy_t history);
-  QoS &keep_last(std::size_t depth);
-  QoS &keep_all();
-  QoS &reliability(rmw_qos_reliability_policy_t reliability);
-  QoS &reliability(ReliabilityPolicy reliability);
-  QoS &reliable();
-  QoS &best_effort();
-  QoS &reliability_best_available();
-  QoS &durability(rmw_qos_durability_policy_t durability);
-  QoS &durability(DurabilityPolicy durability);
-  QoS &durability_volatile();
-  QoS &transient_local();
-  QoS &durability_best_available();
-  QoS &deadline(rmw_time_t deadline);
-  QoS &deadline(const Duration &deadline);
-  QoS &lifespan(rmw_time_t lifespan);
-  QoS &lifespan(const Duration &lifespan);
-  QoS &liveliness(rmw_qos_liveliness_policy_t liveliness);
-  QoS &liveliness(LivelinessPolicy liveliness);
-  QoS &liveliness_lease_duration(rmw_time_t lease);
-  QoS &liveliness_lease_duration(const Duration &lease);
-  QoS &avoid_ros_namespace_conventions(bool avoid);
+  QoS& history(HistoryPolicy history);
+  QoS& history(rmw_qos_history_policy_t history);
+  QoS& keep_last(std::size_t depth);
+  QoS& keep_all();
+  QoS& reliability(rmw_qos_reliability_policy_t reliability);
+  QoS& reliability(ReliabilityPolicy reliability);
+  QoS& reliable();
+  QoS& best_effort();
+  QoS& reliability_best_available();
+  QoS& durability(rmw_qos_durability_policy_t durability);
+  QoS& durability(DurabilityPolicy durability);
+  QoS& durability_volatile();
+  QoS& transient_local();
+  QoS& durability_best_available();
+  QoS& deadline(rmw_time_t deadline);
+  QoS& deadline(const Duration& deadline);
+  QoS& lifespan(rmw_time_t lifespan);
+  QoS& lifespan(const Duration& lifespan);
+  QoS& liveliness(rmw_qos_liveliness_policy_t liveliness);
+  QoS& liveliness(LivelinessPolicy liveliness);
+  QoS& liveliness_lease_duration(rmw_time_t lease);
+  QoS& liveliness_lease_duration(const Duration& lease);
+  QoS& avoid_ros_namespace_conventions(bool avoid);
 
   HistoryPolicy history() const;
   std::size_t depth() const { return profile_.depth; }
@@ -126,24 +126,23 @@ class RCLCPP_PUBLIC QoS {
   rmw_qos_profile_t profile_;
 };
 
-RCLCPP_PUBLIC bool operator==(const QoS &left, const QoS &right);
-RCLCPP_PUBLIC bool operator!=(const QoS &left, const QoS &right);
+RCLCPP_PUBLIC bool operator==(const QoS& left, const QoS& right);
+RCLCPP_PUBLIC bool operator!=(const QoS& left, const QoS& right);
 
 struct QoSCheckCompatibleResult {
   QoSCompatibility compatibility;
   std::string reason;
 };
 
-RCLCPP_PUBLIC QoSCheckCompatibleResult qos_check_compatible(const QoS &publisher_qos,
-                                                            const QoS &subscription_qos);
+RCLCPP_PUBLIC QoSCheckCompatibleResult qos_check_compatible(const QoS& publisher_qos,
+                                                            const QoS& subscription_qos);
 
 // One class for each usual profile.
-#define GAZELLE_RCLCPP_QOS(Name, profile)                                       \
-  class RCLCPP_PUBLIC Name : public QoS {                                       \
-   public:                                                                      \
-    explicit Name(const QoSInitialization &initialization =                     \
-                      QoSInitialization::from_rmw(profile))                     \
-        : QoS(initialization, profile) {}                                       \
+#define GAZELLE_RCLCPP_QOS(Name, profile)                                                         \
+  class RCLCPP_PUBLIC Name : public QoS {                                                         \
+   public:                                                                                        \
+    explicit Name(const QoSInitialization& initialization = QoSInitialization::from_rmw(profile)) \
+        : QoS(initialization, profile) {}                                                         \
   };
 GAZELLE_RCLCPP_QOS(SensorDataQoS, rmw_qos_profile_sensor_data)
 GAZELLE_RCLCPP_QOS(ParametersQoS, rmw_qos_profile_parameters)
@@ -156,7 +155,7 @@ GAZELLE_RCLCPP_QOS(BestAvailableQoS, rmw_qos_profile_best_available)
 
 class RCLCPP_PUBLIC ClockQoS : public QoS {
  public:
-  explicit ClockQoS(const QoSInitialization &initialization = KeepLast(1))
+  explicit ClockQoS(const QoSInitialization& initialization = KeepLast(1))
       : QoS(initialization, rmw_qos_profile_sensor_data) {}
 };
 

@@ -26,11 +26,11 @@ enum class QosPolicyKind {
   Invalid = RMW_QOS_POLICY_INVALID,
 };
 
-RCLCPP_PUBLIC const char *qos_policy_kind_to_cstr(const QosPolicyKind &kind);
-RCLCPP_PUBLIC std::ostream &operator<<(std::ostream &out, const QosPolicyKind &kind);
+RCLCPP_PUBLIC const char* qos_policy_kind_to_cstr(const QosPolicyKind& kind);
+RCLCPP_PUBLIC std::ostream& operator<<(std::ostream& out, const QosPolicyKind& kind);
 
 using QosCallbackResult = rcl_interfaces::msg::SetParametersResult;
-using QosCallback = std::function<QosCallbackResult(const QoS &)>;
+using QosCallback = std::function<QosCallbackResult(const QoS&)>;
 
 /// Which policies of a topic parameters of its node override.
 class RCLCPP_PUBLIC QosOverridingOptions {
@@ -45,9 +45,9 @@ class RCLCPP_PUBLIC QosOverridingOptions {
         {QosPolicyKind::History, QosPolicyKind::Depth, QosPolicyKind::Reliability},
         std::move(validation_callback), std::move(id));
   }
-  const std::string &get_id() const { return id_; }
-  const std::vector<QosPolicyKind> &get_policy_kinds() const { return kinds_; }
-  const QosCallback &get_validation_callback() const { return validation_callback_; }
+  const std::string& get_id() const { return id_; }
+  const std::vector<QosPolicyKind>& get_policy_kinds() const { return kinds_; }
+  const QosCallback& get_validation_callback() const { return validation_callback_; }
 
  private:
   std::string id_;

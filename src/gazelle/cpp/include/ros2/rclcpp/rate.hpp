@@ -24,12 +24,11 @@ class RateBase {
 class RCLCPP_PUBLIC Rate : public RateBase {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(Rate)
-  explicit Rate(double rate,
-                Clock::SharedPtr clock = std::make_shared<Clock>(RCL_SYSTEM_TIME));
-  explicit Rate(const Duration &period,
+  explicit Rate(double rate, Clock::SharedPtr clock = std::make_shared<Clock>(RCL_SYSTEM_TIME));
+  explicit Rate(const Duration& period,
                 Clock::SharedPtr clock = std::make_shared<Clock>(RCL_SYSTEM_TIME));
   template <class Rep, class Period>
-  explicit Rate(const std::chrono::duration<Rep, Period> &period,
+  explicit Rate(const std::chrono::duration<Rep, Period>& period,
                 Clock::SharedPtr clock = std::make_shared<Clock>(RCL_SYSTEM_TIME))
       : Rate(Duration(period), std::move(clock)) {}
 
@@ -48,10 +47,10 @@ class RCLCPP_PUBLIC WallRate : public Rate {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(WallRate)
   explicit WallRate(double rate) : Rate(rate, std::make_shared<Clock>(RCL_STEADY_TIME)) {}
-  explicit WallRate(const Duration &period)
+  explicit WallRate(const Duration& period)
       : Rate(period, std::make_shared<Clock>(RCL_STEADY_TIME)) {}
   template <class Rep, class Period>
-  explicit WallRate(const std::chrono::duration<Rep, Period> &period)
+  explicit WallRate(const std::chrono::duration<Rep, Period>& period)
       : Rate(Duration(period), std::make_shared<Clock>(RCL_STEADY_TIME)) {}
 };
 
@@ -59,8 +58,7 @@ class RCLCPP_PUBLIC ROSRate : public Rate {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(ROSRate)
   explicit ROSRate(double rate) : Rate(rate, std::make_shared<Clock>(RCL_ROS_TIME)) {}
-  explicit ROSRate(const Duration &period)
-      : Rate(period, std::make_shared<Clock>(RCL_ROS_TIME)) {}
+  explicit ROSRate(const Duration& period) : Rate(period, std::make_shared<Clock>(RCL_ROS_TIME)) {}
 };
 
 template <class ClockT = std::chrono::high_resolution_clock>

@@ -1,11 +1,14 @@
 #pragma once
 
 // Programs count on these being there.
+#include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <csignal>
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -16,8 +19,8 @@
 #include "rclcpp/create_generic_client.hpp"
 #include "rclcpp/executors.hpp"
 #include "rclcpp/executors/single_threaded_executor.hpp"
-#include "rclcpp/experimental/executors/events_executor/events_executor.hpp"
 #include "rclcpp/expand_topic_or_service_name.hpp"
+#include "rclcpp/experimental/executors/events_executor/events_executor.hpp"
 #include "rclcpp/guard_condition.hpp"
 #include "rclcpp/logging.hpp"
 #include "rclcpp/node.hpp"

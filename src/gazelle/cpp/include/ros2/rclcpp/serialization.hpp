@@ -11,14 +11,14 @@ namespace rclcpp {
 /// Writes and reads messages as CDR.
 class RCLCPP_PUBLIC SerializationBase {
  public:
-  explicit SerializationBase(const gazelle::MessageType &type) : type_(&type) {}
+  explicit SerializationBase(const gazelle::MessageType& type) : type_(&type) {}
   virtual ~SerializationBase() = default;
-  void serialize_message(const void *ros_message, SerializedMessage *serialized) const;
-  void deserialize_message(const SerializedMessage *serialized, void *ros_message) const;
+  void serialize_message(const void* ros_message, SerializedMessage* serialized) const;
+  void deserialize_message(const SerializedMessage* serialized, void* ros_message) const;
 
  private:
-  virtual void assign(void *target, void *source) const = 0;
-  const gazelle::MessageType *type_;
+  virtual void assign(void* target, void* source) const = 0;
+  const gazelle::MessageType* type_;
 };
 
 template <typename MessageT>
@@ -27,8 +27,8 @@ class Serialization : public SerializationBase {
   Serialization() : SerializationBase(gazelle::message_type<MessageT>()) {}
 
  private:
-  void assign(void *target, void *source) const override {
-    *static_cast<MessageT *>(target) = std::move(*static_cast<MessageT *>(source));
+  void assign(void* target, void* source) const override {
+    *static_cast<MessageT*>(target) = std::move(*static_cast<MessageT*>(source));
   }
 };
 

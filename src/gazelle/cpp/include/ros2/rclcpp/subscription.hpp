@@ -24,21 +24,21 @@ class Subscription : public SubscriptionBase {
   RCLCPP_SMART_PTR_DEFINITIONS(Subscription)
 
   template <typename CallbackT>
-  Subscription(node_interfaces::NodeBaseInterface *node, const std::string &topic, const QoS &qos,
-               CallbackT &&callback, const SubscriptionOptionsBase &options)
-      : SubscriptionBase(node, topic, gazelle::message_type<ROSMessageT>(), qos, options,
-                         detail::make_message_callback<MessageT>(
-                             std::forward<CallbackT>(callback))) {
+  Subscription(node_interfaces::NodeBaseInterface* node, const std::string& topic, const QoS& qos,
+               CallbackT&& callback, const SubscriptionOptionsBase& options)
+      : SubscriptionBase(
+            node, topic, gazelle::message_type<ROSMessageT>(), qos, options,
+            detail::make_message_callback<MessageT>(std::forward<CallbackT>(callback))) {
     serialized_ = detail::wants_bytes<std::decay_t<CallbackT>>;
   }
 
   /// Take the oldest message out of the queue.
-  bool take(ROSMessageType &message, MessageInfo &info) { return take_type_erased(&message, info); }
+  bool take(ROSMessageType& message, MessageInfo& info) { return take_type_erased(&message, info); }
   template <typename T>
   std::enable_if_t<!std::is_same<ROSMessageType, SubscribedType>::value &&
                        std::is_same<T, SubscribedType>::value,
                    bool>
-  take(T &message, MessageInfo &info) {
+  take(T& message, MessageInfo& info) {
     ROSMessageType ros;
     if (!take_type_erased(&ros, info)) return false;
     detail::Adapted<MessageT>::adapter::convert_to_custom(ros, message);
@@ -46,8 +46,8 @@ class Subscription : public SubscriptionBase {
   }
 
  protected:
-  void assign_message(void *target, std::shared_ptr<void> source) override {
-    *static_cast<ROSMessageType *>(target) = std::move(*static_cast<ROSMessageType *>(source.get()));
+  void assign_message(void* target, std::shared_ptr<void> source) override {
+    *static_cast<ROSMessageType*>(target) = std::move(*static_cast<ROSMessageType*>(source.get()));
   }
 };
 

@@ -34,7 +34,7 @@ enum class DeliveredMessageKind : uint8_t {
 
 namespace detail {
 /// How a message reaches the user's function.
-using MessageCallback = std::function<void(gazelle::Delivered &&, const MessageInfo &)>;
+using MessageCallback = std::function<void(gazelle::Delivered&&, const MessageInfo&)>;
 }  // namespace detail
 
 /// What subscriptions of all types share: a queue, and what happens to what comes out of it.
@@ -42,18 +42,18 @@ class RCLCPP_PUBLIC SubscriptionBase : public detail::Executable,
                                        public std::enable_shared_from_this<SubscriptionBase> {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(SubscriptionBase)
-  SubscriptionBase(node_interfaces::NodeBaseInterface *node, const std::string &topic,
-                   const gazelle::MessageType &type, const QoS &qos,
-                   const SubscriptionOptionsBase &options, detail::MessageCallback callback);
-  SubscriptionBase(node_interfaces::NodeBaseInterface *node, const std::string &topic,
-                   const std::string &type_name, const QoS &qos,
-                   const SubscriptionOptionsBase &options, detail::MessageCallback callback);
+  SubscriptionBase(node_interfaces::NodeBaseInterface* node, const std::string& topic,
+                   const gazelle::MessageType& type, const QoS& qos,
+                   const SubscriptionOptionsBase& options, detail::MessageCallback callback);
+  SubscriptionBase(node_interfaces::NodeBaseInterface* node, const std::string& topic,
+                   const std::string& type_name, const QoS& qos,
+                   const SubscriptionOptionsBase& options, detail::MessageCallback callback);
   ~SubscriptionBase() override;
 
-  const char *get_topic_name() const;
+  const char* get_topic_name() const;
   std::shared_ptr<rcl_subscription_t> get_subscription_handle();
   std::shared_ptr<const rcl_subscription_t> get_subscription_handle() const;
-  const std::unordered_map<int, std::shared_ptr<Waitable>> &get_event_handlers() const;
+  const std::unordered_map<int, std::shared_ptr<Waitable>>& get_event_handlers() const;
   QoS get_actual_qos() const;
   std::size_t get_publisher_count() const;
   std::vector<NetworkFlowEndpoint> get_network_flow_endpoints() const { return {}; }
@@ -63,33 +63,33 @@ class RCLCPP_PUBLIC SubscriptionBase : public detail::Executable,
     return serialized_ ? DeliveredMessageKind::SERIALIZED_MESSAGE
                        : DeliveredMessageKind::ROS_MESSAGE;
   }
-  const gazelle::MessageType *get_message_type() const { return type_; }
+  const gazelle::MessageType* get_message_type() const { return type_; }
   bool use_intra_process() const { return false; }
   std::shared_ptr<Waitable> get_intra_process_waitable() const { return nullptr; }
 
   /// Take the oldest message out of the queue; false where it is empty.
-  bool take_type_erased(void *message, MessageInfo &info);
-  bool take_serialized(SerializedMessage &message, MessageInfo &info);
+  bool take_type_erased(void* message, MessageInfo& info);
+  bool take_serialized(SerializedMessage& message, MessageInfo& info);
   /// Hand a message that was taken to the callback.
-  void handle_message(std::shared_ptr<void> &message, const MessageInfo &info);
-  void handle_serialized_message(const std::shared_ptr<SerializedMessage> &message,
-                                 const MessageInfo &info);
+  void handle_message(std::shared_ptr<void>& message, const MessageInfo& info);
+  void handle_serialized_message(const std::shared_ptr<SerializedMessage>& message,
+                                 const MessageInfo& info);
   virtual std::shared_ptr<void> create_message();
   std::shared_ptr<SerializedMessage> create_serialized_message() {
     return std::make_shared<SerializedMessage>();
   }
-  virtual void return_message(std::shared_ptr<void> &message) { message.reset(); }
-  void return_serialized_message(std::shared_ptr<SerializedMessage> &message) { message.reset(); }
+  virtual void return_message(std::shared_ptr<void>& message) { message.reset(); }
+  void return_serialized_message(std::shared_ptr<SerializedMessage>& message) { message.reset(); }
 
   void set_on_new_message_callback(std::function<void(std::size_t)> callback) {
     set_on_new_work(std::move(callback));
   }
   void clear_on_new_message_callback() { set_on_new_work(nullptr); }
   bool is_cft_enabled() const;
-  void set_content_filter(const std::string &expression,
-                          const std::vector<std::string> &parameters = {});
+  void set_content_filter(const std::string& expression,
+                          const std::vector<std::string>& parameters = {});
   ContentFilterOptions get_content_filter() const;
-  const std::string &get_message_type_name() const { return type_name_; }
+  const std::string& get_message_type_name() const { return type_name_; }
 
   detail::WorkKind kind() const override { return detail::WorkKind::kSubscription; }
   bool has_work() override;
@@ -97,16 +97,16 @@ class RCLCPP_PUBLIC SubscriptionBase : public detail::Executable,
 
   class Impl;
   /// What a subscription measures of its messages, where it was asked to (topic statistics).
-  void start_statistics(node_interfaces::NodeTopicsInterface *topics,
-                        const SubscriptionOptionsBase &options, bool by_default);
+  void start_statistics(node_interfaces::NodeTopicsInterface* topics,
+                        const SubscriptionOptionsBase& options, bool by_default);
 
  protected:
-  virtual void assign_message(void *target, std::shared_ptr<void> source);
+  virtual void assign_message(void* target, std::shared_ptr<void> source);
   bool serialized_ = false;
 
  private:
   std::shared_ptr<Impl> impl_;
-  const gazelle::MessageType *type_ = nullptr;
+  const gazelle::MessageType* type_ = nullptr;
   std::string type_name_;
 };
 

@@ -45,7 +45,7 @@ template <typename Allocator = std::allocator<void>>
 struct SubscriptionOptionsWithAllocator : public SubscriptionOptionsBase {
   std::shared_ptr<Allocator> allocator;
   SubscriptionOptionsWithAllocator() = default;
-  explicit SubscriptionOptionsWithAllocator(const SubscriptionOptionsBase &base)
+  explicit SubscriptionOptionsWithAllocator(const SubscriptionOptionsBase& base)
       : SubscriptionOptionsBase(base) {}
   std::shared_ptr<Allocator> get_allocator() const {
     return allocator ? allocator : std::make_shared<Allocator>();

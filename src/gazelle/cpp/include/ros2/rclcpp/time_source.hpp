@@ -15,11 +15,11 @@ class Node;
 class RCLCPP_PUBLIC TimeSource {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(TimeSource)
-  explicit TimeSource(std::shared_ptr<Node> node, const QoS &qos = ClockQoS(),
+  explicit TimeSource(std::shared_ptr<Node> node, const QoS& qos = ClockQoS(),
                       bool use_clock_thread = true);
-  explicit TimeSource(const QoS &qos = ClockQoS(), bool use_clock_thread = true);
-  TimeSource(const TimeSource &) = delete;
-  TimeSource &operator=(const TimeSource &) = delete;
+  explicit TimeSource(const QoS& qos = ClockQoS(), bool use_clock_thread = true);
+  TimeSource(const TimeSource&) = delete;
+  TimeSource& operator=(const TimeSource&) = delete;
   ~TimeSource();
 
   void attachNode(std::shared_ptr<Node> node);

@@ -22,6 +22,14 @@ struct TimerInfo {
   Time actual_call_time;
 };
 
+/// What `TimerBase::call` found: true where a call was due. Newer code hands it to
+/// `execute_callback`, older code takes it for a bool.
+struct TimerCall {
+  bool due = false;
+  operator bool() const { return due; }                       // NOLINT(runtime/explicit)
+  operator std::shared_ptr<void>() const { return nullptr; }  // NOLINT(runtime/explicit)
+};
+
 /// Something that is due again and again on a clock.
 class RCLCPP_PUBLIC TimerBase : public detail::Executable {
  public:
@@ -34,9 +42,9 @@ class RCLCPP_PUBLIC TimerBase : public detail::Executable {
   bool is_canceled();
   void reset();
   /// Take a call that is due; false where the timer is cancelled.
-  virtual bool call();
+  virtual TimerCall call();
   virtual void execute_callback() = 0;
-  virtual void execute_callback(const std::shared_ptr<void> &data) {
+  virtual void execute_callback(const std::shared_ptr<void>& data) {
     (void)data;
     execute_callback();
   }
@@ -63,24 +71,24 @@ class RCLCPP_PUBLIC TimerBase : public detail::Executable {
 };
 
 using VoidCallbackType = std::function<void()>;
-using TimerCallbackType = std::function<void(TimerBase &)>;
-using TimerInfoCallbackType = std::function<void(const TimerInfo &)>;
+using TimerCallbackType = std::function<void(TimerBase&)>;
+using TimerInfoCallbackType = std::function<void(const TimerInfo&)>;
 
 template <typename FunctorT, typename = void>
 class GenericTimer : public TimerBase {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(GenericTimer)
-  GenericTimer(Clock::SharedPtr clock, std::chrono::nanoseconds period, FunctorT &&callback,
+  GenericTimer(Clock::SharedPtr clock, std::chrono::nanoseconds period, FunctorT&& callback,
                Context::SharedPtr context, bool autostart = true)
       : TimerBase(std::move(clock), period, std::move(context), autostart),
         callback_(std::forward<FunctorT>(callback)) {}
   ~GenericTimer() override { cancel(); }
 
   void execute_callback() override {
-    using F = std::decay_t<FunctorT> &;
-    if constexpr (std::is_invocable_v<F, TimerBase &>) {
+    using F = std::decay_t<FunctorT>&;
+    if constexpr (std::is_invocable_v<F, TimerBase&>) {
       callback_(*this);
-    } else if constexpr (std::is_invocable_v<F, const TimerInfo &>) {
+    } else if constexpr (std::is_invocable_v<F, const TimerInfo&>) {
       callback_(last_call());
     } else {
       callback_();
@@ -95,7 +103,7 @@ template <typename FunctorT, typename = void>
 class WallTimer : public GenericTimer<FunctorT> {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(WallTimer)
-  WallTimer(std::chrono::nanoseconds period, FunctorT &&callback, Context::SharedPtr context,
+  WallTimer(std::chrono::nanoseconds period, FunctorT&& callback, Context::SharedPtr context,
             bool autostart = true)
       : GenericTimer<FunctorT>(std::make_shared<Clock>(RCL_STEADY_TIME), period,
                                std::forward<FunctorT>(callback), std::move(context), autostart) {}

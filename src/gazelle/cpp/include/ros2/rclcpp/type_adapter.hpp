@@ -42,8 +42,8 @@ struct adapt_type {
 
 template <typename T>
 struct is_ros_compatible_type {
-  static constexpr bool value = rosidl_generator_traits::is_message<T>::value ||
-                                TypeAdapter<T>::is_specialized::value;
+  static constexpr bool value =
+      rosidl_generator_traits::is_message<T>::value || TypeAdapter<T>::is_specialized::value;
 };
 
 namespace detail {
@@ -59,7 +59,7 @@ struct Adapted {
 
 template <typename T>
 std::unique_ptr<typename Adapted<T>::custom_type> to_custom(
-    const typename Adapted<T>::ros_type &message) {
+    const typename Adapted<T>::ros_type& message) {
   auto made = std::make_unique<typename Adapted<T>::custom_type>();
   Adapted<T>::adapter::convert_to_custom(message, *made);
   return made;
@@ -68,11 +68,12 @@ std::unique_ptr<typename Adapted<T>::custom_type> to_custom(
 }  // namespace detail
 }  // namespace rclcpp
 
-#define RCLCPP_USING_CUSTOM_TYPE_AS_ROS_MESSAGE_TYPE(CustomType, ROSMessageType)            \
-  template <>                                                                               \
-  struct rclcpp::ImplicitTypeAdapter<CustomType>                                            \
-      : public rclcpp::TypeAdapter<CustomType, ROSMessageType> {                            \
-    using is_specialized = std::true_type;                                                  \
-    static_assert(is_specialized::value,                                                    \
-                  "Cannot use custom type as ros type when there is no TypeAdapter for that pair"); \
+#define RCLCPP_USING_CUSTOM_TYPE_AS_ROS_MESSAGE_TYPE(CustomType, ROSMessageType)          \
+  template <>                                                                             \
+  struct rclcpp::ImplicitTypeAdapter<CustomType>                                          \
+      : public rclcpp::TypeAdapter<CustomType, ROSMessageType> {                          \
+    using is_specialized = std::true_type;                                                \
+    static_assert(                                                                        \
+        is_specialized::value,                                                            \
+        "Cannot use custom type as ros type when there is no TypeAdapter for that pair"); \
   }

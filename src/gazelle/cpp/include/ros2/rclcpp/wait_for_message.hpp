@@ -13,7 +13,7 @@ namespace rclcpp {
 /// Wait for the next message of a subscription; false where time is up or the context ends.
 template <class MsgT, class Rep = int64_t, class Period = std::milli>
 bool wait_for_message(
-    MsgT &out, std::shared_ptr<Subscription<MsgT>> subscription, std::shared_ptr<Context> context,
+    MsgT& out, std::shared_ptr<Subscription<MsgT>> subscription, std::shared_ptr<Context> context,
     std::chrono::duration<Rep, Period> time_to_wait = std::chrono::duration<Rep, Period>(-1)) {
   auto ended = std::make_shared<GuardCondition>(context);
   auto handle = context->add_on_shutdown_callback([weak = GuardCondition::WeakPtr(ended)]() {
@@ -32,9 +32,9 @@ bool wait_for_message(
 
 template <class MsgT, class Rep = int64_t, class Period = std::milli>
 bool wait_for_message(
-    MsgT &out, Node::SharedPtr node, const std::string &topic,
+    MsgT& out, Node::SharedPtr node, const std::string& topic,
     std::chrono::duration<Rep, Period> time_to_wait = std::chrono::duration<Rep, Period>(-1),
-    const QoS &qos = SystemDefaultsQoS()) {
+    const QoS& qos = SystemDefaultsQoS()) {
   auto subscription =
       node->create_subscription<MsgT>(topic, qos, [](const std::shared_ptr<const MsgT>) {});
   return wait_for_message<MsgT, Rep, Period>(

@@ -32,14 +32,14 @@ class RCLCPP_PUBLIC WaitSetCore {
   };
   WaitSetCore();
   ~WaitSetCore();
-  void add(const std::shared_ptr<Executable> &executable);
-  void remove(const std::shared_ptr<Executable> &executable);
+  void add(const std::shared_ptr<Executable>& executable);
+  void remove(const std::shared_ptr<Executable>& executable);
   void prune();
-  WaitResultKind wait(std::chrono::nanoseconds timeout, Context &context);
+  WaitResultKind wait(std::chrono::nanoseconds timeout, Context& context);
   /// Let go of what the last wait held.
   void release();
-  std::vector<Entry> &entries() { return entries_; }
-  std::mutex &mutex() { return mutex_; }
+  std::vector<Entry>& entries() { return entries_; }
+  std::mutex& mutex() { return mutex_; }
 
  private:
   std::shared_ptr<Waker> waker_;
@@ -50,11 +50,11 @@ class RCLCPP_PUBLIC WaitSetCore {
 /// The view of one kind of entries that C code would have: null where it is not ready.
 class RCLCPP_PUBLIC ReadyView {
  public:
-  ReadyView(WaitSetCore &core, WorkKind kind) : core_(&core), kind_(kind) {}
-  const void *operator[](std::size_t index) const;
+  ReadyView(WaitSetCore& core, WorkKind kind) : core_(&core), kind_(kind) {}
+  const void* operator[](std::size_t index) const;
 
  private:
-  WaitSetCore *core_;
+  WaitSetCore* core_;
   WorkKind kind_;
 };
 
@@ -64,7 +64,7 @@ struct ReadyViews {
               size_of_clients = 0, size_of_guard_conditions = 0;
 };
 
-RCLCPP_PUBLIC ReadyViews views_of(WaitSetCore &core);
+RCLCPP_PUBLIC ReadyViews views_of(WaitSetCore& core);
 
 }  // namespace detail
 
@@ -81,7 +81,7 @@ class RCLCPP_PUBLIC WaitSet {
     std::shared_ptr<SubscriptionBase> subscription;
     SubscriptionWaitSetMask mask;
     SubscriptionEntry(std::shared_ptr<SubscriptionBase> given = nullptr,  // NOLINT
-                      const SubscriptionWaitSetMask &mask_in = {})
+                      const SubscriptionWaitSetMask& mask_in = {})
         : subscription(std::move(given)), mask(mask_in) {}
     template <typename T>
     SubscriptionEntry(std::shared_ptr<T> given)  // NOLINT(runtime/explicit)
@@ -102,10 +102,10 @@ class RCLCPP_PUBLIC WaitSet {
   using ServicesIterable = std::vector<std::shared_ptr<ServiceBase>>;
   using WaitablesIterable = std::vector<WaitableEntry>;
 
-  explicit WaitSet(const SubscriptionsIterable &subscriptions = {},
-                   const GuardConditionsIterable &guard_conditions = {},
-                   const TimersIterable &timers = {}, const ClientsIterable &clients = {},
-                   const ServicesIterable &services = {}, const WaitablesIterable &waitables = {},
+  explicit WaitSet(const SubscriptionsIterable& subscriptions = {},
+                   const GuardConditionsIterable& guard_conditions = {},
+                   const TimersIterable& timers = {}, const ClientsIterable& clients = {},
+                   const ServicesIterable& services = {}, const WaitablesIterable& waitables = {},
                    Context::SharedPtr context = contexts::get_global_default_context());
   virtual ~WaitSet() = default;
 
@@ -131,8 +131,8 @@ class RCLCPP_PUBLIC WaitSet {
       std::chrono::duration<Rep, Period> time_to_wait = std::chrono::duration<Rep, Period>(-1));
 
   /// What C code would see after a wait: what is not ready is null.
-  const detail::ReadyViews &get_rcl_wait_set() const { return views_; }
-  detail::WaitSetCore &core() { return *core_; }
+  const detail::ReadyViews& get_rcl_wait_set() const { return views_; }
+  detail::WaitSetCore& core() { return *core_; }
 
  protected:
   std::shared_ptr<detail::WaitSetCore> core_;
@@ -146,22 +146,22 @@ class RCLCPP_PUBLIC WaitSet {
 template <class WaitSetT>
 class WaitResult {
  public:
-  WaitResult(WaitResultKind kind, WaitSetT *wait_set) : kind_(kind), wait_set_(wait_set) {}
-  WaitResult(WaitResult &&other) noexcept : kind_(other.kind_), wait_set_(other.wait_set_) {
+  WaitResult(WaitResultKind kind, WaitSetT* wait_set) : kind_(kind), wait_set_(wait_set) {}
+  WaitResult(WaitResult&& other) noexcept : kind_(other.kind_), wait_set_(other.wait_set_) {
     other.wait_set_ = nullptr;
   }
   ~WaitResult() {
     if (wait_set_) wait_set_->core().release();
   }
   WaitResultKind kind() const { return kind_; }
-  const WaitSetT &get_wait_set() const {
+  const WaitSetT& get_wait_set() const {
     if (kind_ != WaitResultKind::Ready) {
       throw std::runtime_error("cannot access wait set when the result was not ready");
     }
     return *wait_set_;
   }
-  WaitSetT &get_wait_set() {
-    return const_cast<WaitSetT &>(static_cast<const WaitResult &>(*this).get_wait_set());
+  WaitSetT& get_wait_set() {
+    return const_cast<WaitSetT&>(static_cast<const WaitResult&>(*this).get_wait_set());
   }
   std::shared_ptr<TimerBase> peek_next_ready_timer(std::size_t start = 0) {
     return next<TimerBase>(detail::WorkKind::kTimer, start, false);
@@ -186,15 +186,16 @@ class WaitResult {
   template <class T>
   std::shared_ptr<T> next(detail::WorkKind kind, std::size_t start, bool take) {
     std::size_t index = 0;
-    for (auto &entry : wait_set_->core().entries()) {
-      if (!entry.strong || entry.strong->kind() != kind || index++ < start || !entry.ready) continue;
+    for (auto& entry : wait_set_->core().entries()) {
+      if (!entry.strong || entry.strong->kind() != kind || index++ < start || !entry.ready)
+        continue;
       if (take) entry.ready = false;
       return std::dynamic_pointer_cast<T>(entry.strong);
     }
     return nullptr;
   }
   WaitResultKind kind_;
-  WaitSetT *wait_set_;
+  WaitSetT* wait_set_;
 };
 
 template <class Rep, class Period>
@@ -219,18 +220,18 @@ class StaticWaitSet : public WaitSet {
  public:
   template <class T, std::size_t N>
   using Some = std::array<T, N>;
-  StaticWaitSet(const Some<SubscriptionEntry, NumberOfSubscriptions> &subscriptions = {},
-                const Some<std::shared_ptr<GuardCondition>, NumberOfGuardConditions> &guards = {},
-                const Some<std::shared_ptr<TimerBase>, NumberOfTimers> &timers = {},
-                const Some<std::shared_ptr<ClientBase>, NumberOfClients> &clients = {},
-                const Some<std::shared_ptr<ServiceBase>, NumberOfServices> &services = {},
-                const Some<WaitableEntry, NumberOfWaitables> &waitables = {},
+  StaticWaitSet(const Some<SubscriptionEntry, NumberOfSubscriptions>& subscriptions = {},
+                const Some<std::shared_ptr<GuardCondition>, NumberOfGuardConditions>& guards = {},
+                const Some<std::shared_ptr<TimerBase>, NumberOfTimers>& timers = {},
+                const Some<std::shared_ptr<ClientBase>, NumberOfClients>& clients = {},
+                const Some<std::shared_ptr<ServiceBase>, NumberOfServices>& services = {},
+                const Some<WaitableEntry, NumberOfWaitables>& waitables = {},
                 Context::SharedPtr context = contexts::get_global_default_context())
       : WaitSet({subscriptions.begin(), subscriptions.end()}, {guards.begin(), guards.end()},
                 {timers.begin(), timers.end()}, {clients.begin(), clients.end()},
                 {services.begin(), services.end()}, {waitables.begin(), waitables.end()},
                 std::move(context)) {
-    for (auto &entry : core_->entries()) {
+    for (auto& entry : core_->entries()) {
       if (auto strong = entry.weak.lock()) kept_.push_back(strong);
     }
   }

@@ -26,22 +26,22 @@ class RCLCPP_PUBLIC Waitable : public detail::Executable {
   virtual std::size_t get_number_of_ready_guard_conditions() { return 0; }
 
   // Both forms of each: older code takes pointers, newer code references.
-  virtual void add_to_wait_set(rcl_wait_set_t *wait_set) { (void)wait_set; }
-  virtual void add_to_wait_set(rcl_wait_set_t &wait_set) { add_to_wait_set(&wait_set); }
-  virtual bool is_ready(rcl_wait_set_t *wait_set) {
+  virtual void add_to_wait_set(rcl_wait_set_t* wait_set) { (void)wait_set; }
+  virtual void add_to_wait_set(rcl_wait_set_t& wait_set) { add_to_wait_set(&wait_set); }
+  virtual bool is_ready(rcl_wait_set_t* wait_set) {
     (void)wait_set;
     return false;
   }
-  virtual bool is_ready(const rcl_wait_set_t &wait_set) {
-    return is_ready(const_cast<rcl_wait_set_t *>(&wait_set));
+  virtual bool is_ready(const rcl_wait_set_t& wait_set) {
+    return is_ready(const_cast<rcl_wait_set_t*>(&wait_set));
   }
   virtual std::shared_ptr<void> take_data() { return nullptr; }
   virtual std::shared_ptr<void> take_data_by_entity_id(std::size_t id) {
     (void)id;
     return take_data();
   }
-  virtual void execute(std::shared_ptr<void> &data) { (void)data; }
-  virtual void execute(const std::shared_ptr<void> &data) {
+  virtual void execute(std::shared_ptr<void>& data) { (void)data; }
+  virtual void execute(const std::shared_ptr<void>& data) {
     std::shared_ptr<void> own = data;
     execute(own);
   }
@@ -51,7 +51,7 @@ class RCLCPP_PUBLIC Waitable : public detail::Executable {
   detail::WorkKind kind() const override { return detail::WorkKind::kWaitable; }
   bool has_work() override;
   bool do_work() override;
-  void add_waker(const std::shared_ptr<detail::Waker> &waker) override;
+  void add_waker(const std::shared_ptr<detail::Waker>& waker) override;
 };
 
 }  // namespace rclcpp

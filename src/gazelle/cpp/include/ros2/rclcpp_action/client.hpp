@@ -59,14 +59,14 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
    public:
     GoalResponseCallback() = default;
     GoalResponseCallback(std::nullptr_t) {}  // NOLINT(runtime/explicit)
-    template <class F, std::enable_if_t<
-                           !std::is_same_v<std::decay_t<F>, GoalResponseCallback> &&
-                               (std::is_invocable_v<F &, typename GoalHandle::SharedPtr> ||
-                                std::is_invocable_v<
-                                    F &, std::shared_future<typename GoalHandle::SharedPtr>>),
-                           int> = 0>
+    template <class F,
+              std::enable_if_t<
+                  !std::is_same_v<std::decay_t<F>, GoalResponseCallback> &&
+                      (std::is_invocable_v<F&, typename GoalHandle::SharedPtr> ||
+                       std::is_invocable_v<F&, std::shared_future<typename GoalHandle::SharedPtr>>),
+                  int> = 0>
     GoalResponseCallback(F function) {  // NOLINT(runtime/explicit)
-      if constexpr (std::is_invocable_v<F &, typename GoalHandle::SharedPtr>) {
+      if constexpr (std::is_invocable_v<F&, typename GoalHandle::SharedPtr>) {
         call_ = std::move(function);
       } else {
         call_ = [function](typename GoalHandle::SharedPtr handle) mutable {
@@ -89,8 +89,8 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     ResultCallback result_callback;
   };
 
-  Client(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr base, const std::string &name,
-         const rcl_action_client_options_t &options, rclcpp::CallbackGroup::SharedPtr group)
+  Client(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr base, const std::string& name,
+         const rcl_action_client_options_t& options, rclcpp::CallbackGroup::SharedPtr group)
       : group_(group ? group : base->get_default_callback_group()), base_(base) {
     (void)options;
     const rclcpp::ServicesQoS qos;
@@ -105,7 +105,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
         rclcpp::SubscriptionOptions());
     status_ = std::make_shared<rclcpp::Subscription<action_msgs::msg::GoalStatusArray>>(
         base.get(), below + "status", rclcpp::QoS(1).transient_local(),
-        [this](const action_msgs::msg::GoalStatusArray &message) { on_status(message); },
+        [this](const action_msgs::msg::GoalStatusArray& message) { on_status(message); },
         rclcpp::SubscriptionOptions());
     group_->add(send_goal_);
     group_->add(get_result_);
@@ -116,7 +116,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
 
   ~Client() override {
     std::lock_guard<std::mutex> lock(mutex_);
-    for (const auto &one : goals_) {
+    for (const auto& one : goals_) {
       if (const auto handle = one.second.lock()) {
         handle->invalidate(exceptions::UnawareGoalHandleError());
       }
@@ -129,7 +129,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
   }
 
   std::shared_future<typename GoalHandle::SharedPtr> async_send_goal(
-      const Goal &goal, const SendGoalOptions &options = SendGoalOptions()) {
+      const Goal& goal, const SendGoalOptions& options = SendGoalOptions()) {
     auto promise = std::make_shared<std::promise<typename GoalHandle::SharedPtr>>();
     std::shared_future<typename GoalHandle::SharedPtr> future(promise->get_future());
     auto request = std::make_shared<typename SendGoal::Request>();
@@ -144,7 +144,8 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     }
     std::weak_ptr<Client> weak = this->shared_from_this();
     send_goal_->async_send_request(
-        request, [weak, promise, options, id](typename rclcpp::Client<SendGoal>::SharedFuture answer) {
+        request,
+        [weak, promise, options, id](typename rclcpp::Client<SendGoal>::SharedFuture answer) {
           const auto response = answer.get();
           if (!response->accepted) {
             promise->set_value(nullptr);
@@ -191,7 +192,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     return send_cancel(std::make_shared<CancelRequest>(), std::move(callback));
   }
   std::shared_future<typename CancelResponse::SharedPtr> async_cancel_goals_before(
-      const rclcpp::Time &stamp, CancelCallback callback = nullptr) {
+      const rclcpp::Time& stamp, CancelCallback callback = nullptr) {
     auto request = std::make_shared<CancelRequest>();
     request->goal_info.stamp = stamp;
     return send_cancel(request, std::move(callback));
@@ -211,7 +212,7 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
   bool wait_for_server(std::chrono::nanoseconds timeout) override {
     const auto end = std::chrono::steady_clock::now() + timeout;
     const std::shared_ptr<rclcpp::ClientBase> all[] = {send_goal_, get_result_, cancel_};
-    for (const auto &one : all) {
+    for (const auto& one : all) {
       auto left = std::chrono::nanoseconds(-1);
       if (timeout >= std::chrono::nanoseconds(0)) {
         left = std::max(std::chrono::nanoseconds(0),
@@ -222,20 +223,20 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     return true;
   }
 
-  void must_know(const typename GoalHandle::SharedPtr &handle) {
+  void must_know(const typename GoalHandle::SharedPtr& handle) {
     std::lock_guard<std::mutex> lock(mutex_);
     if (!handle || !goals_.count(handle->get_goal_id())) {
       throw exceptions::UnknownGoalHandleError();
     }
   }
 
-  typename GoalHandle::SharedPtr known(const GoalUUID &id) {
+  typename GoalHandle::SharedPtr known(const GoalUUID& id) {
     std::lock_guard<std::mutex> lock(mutex_);
     const auto found = goals_.find(id);
     return found == goals_.end() ? nullptr : found->second.lock();
   }
 
-  void ask_for_result(const typename GoalHandle::SharedPtr &handle) {
+  void ask_for_result(const typename GoalHandle::SharedPtr& handle) {
     if (handle->set_result_awareness(true)) return;
     auto request = std::make_shared<typename GetResult::Request>();
     request->goal_id.uuid = handle->get_goal_id();
@@ -260,15 +261,14 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     auto promise = std::make_shared<std::promise<typename CancelResponse::SharedPtr>>();
     std::shared_future<typename CancelResponse::SharedPtr> future(promise->get_future());
     cancel_->async_send_request(
-        request,
-        [promise, callback](typename rclcpp::Client<CancelGoal>::SharedFuture answer) {
+        request, [promise, callback](typename rclcpp::Client<CancelGoal>::SharedFuture answer) {
           promise->set_value(answer.get());
           if (callback) callback(answer.get());
         });
     return future;
   }
 
-  void on_feedback(const std::shared_ptr<const FeedbackMessage> &message) {
+  void on_feedback(const std::shared_ptr<const FeedbackMessage>& message) {
     const auto handle = known(message->goal_id.uuid);
     if (!handle) return;
     FeedbackCallback callback;
@@ -279,8 +279,8 @@ class Client : public ClientBase, public std::enable_shared_from_this<Client<Act
     if (callback) callback(handle, std::shared_ptr<const Feedback>(message, &message->feedback));
   }
 
-  void on_status(const action_msgs::msg::GoalStatusArray &message) {
-    for (const auto &one : message.status_list) {
+  void on_status(const action_msgs::msg::GoalStatusArray& message) {
+    for (const auto& one : message.status_list) {
       if (const auto handle = known(one.goal_info.goal_id.uuid)) handle->set_status(one.status);
     }
   }

@@ -32,10 +32,10 @@ class ClientGoalHandle {
   };
   using FeedbackCallback = std::function<void(typename ClientGoalHandle<ActionT>::SharedPtr,
                                               const std::shared_ptr<const Feedback>)>;
-  using ResultCallback = std::function<void(const WrappedResult &)>;
+  using ResultCallback = std::function<void(const WrappedResult&)>;
 
   virtual ~ClientGoalHandle() = default;
-  const GoalUUID &get_goal_id() const { return info_.goal_id.uuid; }
+  const GoalUUID& get_goal_id() const { return info_.goal_id.uuid; }
   rclcpp::Time get_goal_stamp() const { return info_.stamp; }
   std::shared_future<WrappedResult> async_get_result() {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -57,7 +57,7 @@ class ClientGoalHandle {
 
  private:
   friend class Client<ActionT>;
-  ClientGoalHandle(const GoalInfo &info, FeedbackCallback feedback, ResultCallback result)
+  ClientGoalHandle(const GoalInfo& info, FeedbackCallback feedback, ResultCallback result)
       : info_(info),
         feedback_callback_(std::move(feedback)),
         result_callback_(std::move(result)),
@@ -71,7 +71,7 @@ class ClientGoalHandle {
     std::lock_guard<std::mutex> lock(mutex_);
     status_ = status;
   }
-  void set_result(const WrappedResult &result) {
+  void set_result(const WrappedResult& result) {
     ResultCallback callback;
     {
       std::lock_guard<std::mutex> lock(mutex_);
@@ -83,7 +83,7 @@ class ClientGoalHandle {
     }
     if (callback) callback(result);
   }
-  void invalidate(const exceptions::UnawareGoalHandleError &error) {
+  void invalidate(const exceptions::UnawareGoalHandleError& error) {
     std::lock_guard<std::mutex> lock(mutex_);
     if (done_) return;
     done_ = true;

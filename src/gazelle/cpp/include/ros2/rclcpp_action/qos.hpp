@@ -1,7 +1,7 @@
 #pragma once
 
-#include "rclcpp/qos.hpp"
 #include "rcl_action/types.h"
+#include "rclcpp/qos.hpp"
 
 namespace rclcpp_action {
 

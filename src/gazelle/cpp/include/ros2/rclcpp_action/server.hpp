@@ -32,27 +32,27 @@ class RCLCPP_ACTION_PUBLIC ServerBase : public std::enable_shared_from_this<Serv
   friend class ServerGoalHandleBase;
   using Base = std::shared_ptr<rclcpp::node_interfaces::NodeBaseInterface>;
   using CancelGoal = action_msgs::srv::CancelGoal;
-  ServerBase(Base base, rclcpp::Clock::SharedPtr clock, const std::string &name,
-             const rcl_action_server_options_t &options, rclcpp::CallbackGroup::SharedPtr group);
+  ServerBase(Base base, rclcpp::Clock::SharedPtr clock, const std::string& name,
+             const rcl_action_server_options_t& options, rclcpp::CallbackGroup::SharedPtr group);
 
   /// Offer what has no types; called once the derived class is whole.
   void start();
   /// Add something to the group in which the server's callbacks run.
-  void add(const std::shared_ptr<rclcpp::detail::Executable> &executable);
-  std::string below(const char *part) const { return name_ + "/_action/" + part; }
-  rclcpp::node_interfaces::NodeBaseInterface *base() const { return base_.get(); }
+  void add(const std::shared_ptr<rclcpp::detail::Executable>& executable);
+  std::string below(const char* part) const { return name_ + "/_action/" + part; }
+  rclcpp::node_interfaces::NodeBaseInterface* base() const { return base_.get(); }
 
-  bool knows(const GoalUUID &id);
-  builtin_interfaces::msg::Time accept(const GoalUUID &id);
-  void execute(const GoalUUID &id);
-  void end(const GoalUUID &id, int8_t status, std::shared_ptr<void> result);
-  int8_t status_of(const GoalUUID &id);
-  bool cancel(const GoalUUID &id);
+  bool knows(const GoalUUID& id);
+  builtin_interfaces::msg::Time accept(const GoalUUID& id);
+  void execute(const GoalUUID& id);
+  void end(const GoalUUID& id, int8_t status, std::shared_ptr<void> result);
+  int8_t status_of(const GoalUUID& id);
+  bool cancel(const GoalUUID& id);
   void publish_status();
   /// Give a result to who asks, now or when there is one.
-  void wait_for_result(const GoalUUID &id, std::function<void(const void *)> give);
+  void wait_for_result(const GoalUUID& id, std::function<void(const void*)> give);
 
-  virtual CancelResponse call_handle_cancel(const GoalUUID &id) = 0;
+  virtual CancelResponse call_handle_cancel(const GoalUUID& id) = 0;
 
  private:
   struct GoalState {
@@ -60,9 +60,9 @@ class RCLCPP_ACTION_PUBLIC ServerBase : public std::enable_shared_from_this<Serv
     rclcpp::Time accepted;
     int64_t ended_ns = 0;
     std::shared_ptr<void> result;
-    std::vector<std::function<void(const void *)>> waiting;
+    std::vector<std::function<void(const void*)>> waiting;
   };
-  void on_cancel(const CancelGoal::Request &request, CancelGoal::Response &response);
+  void on_cancel(const CancelGoal::Request& request, CancelGoal::Response& response);
   void forget_old();
 
   Base base_;
@@ -83,15 +83,15 @@ class Server : public ServerBase {
   RCLCPP_SMART_PTR_DEFINITIONS_NOT_COPYABLE(Server)
   using GoalHandle = ServerGoalHandle<ActionT>;
   using GoalCallback =
-      std::function<GoalResponse(const GoalUUID &, std::shared_ptr<const typename ActionT::Goal>)>;
+      std::function<GoalResponse(const GoalUUID&, std::shared_ptr<const typename ActionT::Goal>)>;
   using CancelCallback = std::function<CancelResponse(std::shared_ptr<GoalHandle>)>;
   using AcceptedCallback = std::function<void(std::shared_ptr<GoalHandle>)>;
   using SendGoal = typename ActionT::Impl::SendGoalService;
   using GetResult = typename ActionT::Impl::GetResultService;
   using FeedbackMessage = typename ActionT::Impl::FeedbackMessage;
 
-  Server(Base base, rclcpp::Clock::SharedPtr clock, const std::string &name,
-         const rcl_action_server_options_t &options, GoalCallback handle_goal,
+  Server(Base base, rclcpp::Clock::SharedPtr clock, const std::string& name,
+         const rcl_action_server_options_t& options, GoalCallback handle_goal,
          CancelCallback handle_cancel, AcceptedCallback handle_accepted,
          rclcpp::CallbackGroup::SharedPtr group)
       : ServerBase(base, clock, name, options, group),
@@ -125,8 +125,8 @@ class Server : public ServerBase {
  private:
   using Weak = std::weak_ptr<GoalHandle>;
 
-  void on_goal(const std::shared_ptr<typename SendGoal::Request> &request,
-               typename SendGoal::Response &response) {
+  void on_goal(const std::shared_ptr<typename SendGoal::Request>& request,
+               typename SendGoal::Response& response) {
     const GoalUUID id = request->goal_id.uuid;
     response.accepted = false;
     if (knows(id)) return;
@@ -152,19 +152,19 @@ class Server : public ServerBase {
     handle_accepted_(handle);
   }
 
-  void on_result(const std::shared_ptr<rmw_request_id_t> &header, const GoalUUID &id) {
+  void on_result(const std::shared_ptr<rmw_request_id_t>& header, const GoalUUID& id) {
     std::weak_ptr<rclcpp::Service<GetResult>> service = get_result_;
-    wait_for_result(id, [service, header](const void *result) {
+    wait_for_result(id, [service, header](const void* result) {
       const auto strong = service.lock();
       if (!strong) return;
       typename GetResult::Response response;
       // Who asks for a goal that is not known learns so by its status.
-      if (result) response = *static_cast<const typename GetResult::Response *>(result);
+      if (result) response = *static_cast<const typename GetResult::Response*>(result);
       strong->send_response(*header, response);
     });
   }
 
-  CancelResponse call_handle_cancel(const GoalUUID &id) override {
+  CancelResponse call_handle_cancel(const GoalUUID& id) override {
     std::shared_ptr<GoalHandle> handle;
     {
       std::lock_guard<std::mutex> lock(handles_mutex_);

@@ -21,7 +21,7 @@ class RCLCPP_ACTION_PUBLIC ServerGoalHandleBase {
   virtual ~ServerGoalHandleBase();
 
  protected:
-  ServerGoalHandleBase(std::shared_ptr<ServerBase> server, const GoalUUID &id)
+  ServerGoalHandleBase(std::shared_ptr<ServerBase> server, const GoalUUID& id)
       : server_(server), id_(id) {}
   void execute_state();
   void end_state(int8_t event, std::shared_ptr<void> result);
@@ -38,9 +38,10 @@ class ServerGoalHandle : public ServerGoalHandleBase {
   using Result = typename ActionT::Result;
   using Response = typename ActionT::Impl::GetResultService::Response;
 
-  ServerGoalHandle(std::shared_ptr<ServerBase> server, const GoalUUID &id,
-                   std::shared_ptr<const typename ActionT::Goal> goal,
-                   std::function<void(std::shared_ptr<typename ActionT::Impl::FeedbackMessage>)> tell)
+  ServerGoalHandle(
+      std::shared_ptr<ServerBase> server, const GoalUUID& id,
+      std::shared_ptr<const typename ActionT::Goal> goal,
+      std::function<void(std::shared_ptr<typename ActionT::Impl::FeedbackMessage>)> tell)
       : ServerGoalHandleBase(server, id), goal_(std::move(goal)), tell_(std::move(tell)) {}
   ~ServerGoalHandle() override {
     // Who lets go of a goal that has not ended cancels it.
@@ -58,10 +59,10 @@ class ServerGoalHandle : public ServerGoalHandleBase {
   void canceled(typename Result::SharedPtr result) { end_with(5, result); }
   void execute() { execute_state(); }
   const std::shared_ptr<const typename ActionT::Goal> get_goal() const { return goal_; }
-  const GoalUUID &get_goal_id() const { return id_; }
+  const GoalUUID& get_goal_id() const { return id_; }
 
  private:
-  void end_with(int8_t status, const std::shared_ptr<Result> &result) {
+  void end_with(int8_t status, const std::shared_ptr<Result>& result) {
     auto response = std::make_shared<Response>();
     response->status = status;
     response->result = *result;

@@ -21,7 +21,7 @@ namespace rclcpp_components {
 
 class ComponentManagerException : public std::runtime_error {
  public:
-  explicit ComponentManagerException(const std::string &text) : std::runtime_error(text) {}
+  explicit ComponentManagerException(const std::string& text) : std::runtime_error(text) {}
 };
 
 /// A container: makes components by their names and runs them in its executor.
@@ -36,15 +36,15 @@ class RCLCPP_COMPONENTS_PUBLIC ComponentManager : public rclcpp::Node {
   explicit ComponentManager(
       std::weak_ptr<rclcpp::Executor> executor = std::weak_ptr<rclcpp::Executor>(),
       std::string node_name = "ComponentManager",
-      const rclcpp::NodeOptions &node_options = rclcpp::NodeOptions()
+      const rclcpp::NodeOptions& node_options = rclcpp::NodeOptions()
                                                     .start_parameter_services(false)
                                                     .start_parameter_event_publisher(false));
   ~ComponentManager() override;
 
   virtual std::vector<ComponentResource> get_component_resources(
-      const std::string &package_name,
-      const std::string &resource_index = "rclcpp_components") const;
-  virtual std::shared_ptr<NodeFactory> create_component_factory(const ComponentResource &resource);
+      const std::string& package_name,
+      const std::string& resource_index = "rclcpp_components") const;
+  virtual std::shared_ptr<NodeFactory> create_component_factory(const ComponentResource& resource);
 
  protected:
   virtual rclcpp::NodeOptions create_node_options(const std::shared_ptr<LoadNode::Request> request);

@@ -20,7 +20,7 @@ class ComponentManagerIsolated : public ComponentManager {
 
  protected:
   void add_node_to_executor(uint64_t node_id) override {
-    auto &run = runs_[node_id];
+    auto& run = runs_[node_id];
     run.executor = std::make_shared<ExecutorT>();
     run.executor->add_node(node_wrappers_[node_id].get_node_base_interface());
     run.thread = std::thread([executor = run.executor]() { executor->spin(); });

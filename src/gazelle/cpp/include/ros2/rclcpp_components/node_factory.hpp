@@ -10,7 +10,7 @@ class NodeFactory {
  public:
   NodeFactory() = default;
   virtual ~NodeFactory() = default;
-  virtual NodeInstanceWrapper create_node_instance(const rclcpp::NodeOptions &options) = 0;
+  virtual NodeInstanceWrapper create_node_instance(const rclcpp::NodeOptions& options) = 0;
 };
 
 }  // namespace rclcpp_components

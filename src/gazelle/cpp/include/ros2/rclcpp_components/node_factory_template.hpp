@@ -12,9 +12,9 @@ namespace rclcpp_components {
 template <typename NodeT>
 class NodeFactoryTemplate : public NodeFactory {
  public:
-  NodeInstanceWrapper create_node_instance(const rclcpp::NodeOptions &options) override {
+  NodeInstanceWrapper create_node_instance(const rclcpp::NodeOptions& options) override {
     auto node = std::make_shared<NodeT>(options);
-    return NodeInstanceWrapper(node, [](const std::shared_ptr<void> &instance) {
+    return NodeInstanceWrapper(node, [](const std::shared_ptr<void>& instance) {
       return std::static_pointer_cast<NodeT>(instance)->get_node_base_interface();
     });
   }

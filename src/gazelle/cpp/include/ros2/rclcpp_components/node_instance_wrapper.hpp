@@ -13,7 +13,7 @@ class NodeInstanceWrapper {
  public:
   using NodeBaseInterfaceGetter =
       std::function<rclcpp::node_interfaces::NodeBaseInterface::SharedPtr(
-          const std::shared_ptr<void> &)>;
+          const std::shared_ptr<void>&)>;
   NodeInstanceWrapper() = default;
   NodeInstanceWrapper(std::shared_ptr<void> instance, NodeBaseInterfaceGetter getter)
       : instance_(std::move(instance)), getter_(std::move(getter)) {}

@@ -17,16 +17,16 @@ class LifecyclePublisher : public SimpleManagedEntity, public rclcpp::Publisher<
   RCLCPP_SMART_PTR_DEFINITIONS(LifecyclePublisher)
   using Base = rclcpp::Publisher<MessageT, Alloc>;
 
-  LifecyclePublisher(rclcpp::node_interfaces::NodeBaseInterface *node, const std::string &topic,
-                     const rclcpp::QoS &qos,
-                     const rclcpp::PublisherOptionsWithAllocator<Alloc> &options)
+  LifecyclePublisher(rclcpp::node_interfaces::NodeBaseInterface* node, const std::string& topic,
+                     const rclcpp::QoS& qos,
+                     const rclcpp::PublisherOptionsWithAllocator<Alloc>& options)
       : Base(node, topic, qos, options), logger_(rclcpp::get_logger("LifecyclePublisher")) {}
 
-  void publish(const typename Base::ROSMessageType &message) override {
+  void publish(const typename Base::ROSMessageType& message) override {
     if (may_publish()) Base::publish(message);
   }
   template <typename T>
-  void publish(T &&message) {
+  void publish(T&& message) {
     if (may_publish()) Base::publish(std::forward<T>(message));
   }
   void on_activate() override {

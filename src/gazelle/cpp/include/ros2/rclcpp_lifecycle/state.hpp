@@ -13,7 +13,7 @@ namespace rclcpp_lifecycle {
 class State {
  public:
   State() = default;
-  State(uint8_t id, const std::string &label) : id_(id), label_(label) {
+  State(uint8_t id, const std::string& label) : id_(id), label_(label) {
     if (label.empty()) throw std::runtime_error("Lifecycle State cannot have an empty label.");
   }
   virtual ~State() = default;

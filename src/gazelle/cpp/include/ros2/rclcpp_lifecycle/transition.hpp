@@ -12,8 +12,8 @@ namespace rclcpp_lifecycle {
 /// A way from one state to another.
 class Transition {
  public:
-  explicit Transition(uint8_t id, const std::string &label = "") : id_(id), label_(label) {}
-  Transition(uint8_t id, const std::string &label, State start, State goal)
+  explicit Transition(uint8_t id, const std::string& label = "") : id_(id), label_(label) {}
+  Transition(uint8_t id, const std::string& label, State start, State goal)
       : id_(id), label_(label), start_(std::move(start)), goal_(std::move(goal)) {}
   virtual ~Transition() = default;
   uint8_t id() const { return id_; }

@@ -7,11 +7,11 @@ namespace rcpputils {
 
 /// Join what a container holds into a text.
 template <typename Container, typename Character>
-std::basic_string<Character> join(const Container &items,
-                                  const std::basic_string<Character> &between) {
+std::basic_string<Character> join(const Container& items,
+                                  const std::basic_string<Character>& between) {
   std::basic_ostringstream<Character> text;
   bool first = true;
-  for (const auto &item : items) {
+  for (const auto& item : items) {
     if (!first) text << between;
     text << item;
     first = false;
@@ -20,7 +20,7 @@ std::basic_string<Character> join(const Container &items,
 }
 
 template <typename Container, typename Character>
-std::basic_string<Character> join(const Container &items, const Character *between) {
+std::basic_string<Character> join(const Container& items, const Character* between) {
   return join(items, std::basic_string<Character>(between));
 }
 

@@ -11,7 +11,7 @@ struct pointer : std::false_type {
   using element = T;
 };
 template <class T>
-struct pointer<T *> : std::true_type {
+struct pointer<T*> : std::true_type {
   using element = T;
 };
 template <class T>

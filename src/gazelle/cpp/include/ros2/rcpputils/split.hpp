@@ -9,7 +9,7 @@ namespace rcpputils {
 
 /// Split a text at a character and put the parts through an iterator.
 template <class InsertIterator>
-void split(const std::string &text, char at, InsertIterator parts, bool skip_empty = false) {
+void split(const std::string& text, char at, InsertIterator parts, bool skip_empty = false) {
   std::size_t begin = 0;
   if (text.empty()) {
     if (!skip_empty) *parts = std::string();
@@ -24,7 +24,7 @@ void split(const std::string &text, char at, InsertIterator parts, bool skip_emp
   }
 }
 
-inline std::vector<std::string> split(const std::string &text, char at, bool skip_empty = false) {
+inline std::vector<std::string> split(const std::string& text, char at, bool skip_empty = false) {
   std::vector<std::string> parts;
   split(text, at, std::back_inserter(parts), skip_empty);
   return parts;

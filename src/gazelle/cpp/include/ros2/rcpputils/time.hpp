@@ -7,7 +7,7 @@ namespace rcpputils {
 
 /// Turn a duration into nanoseconds; throws where 64 bits do not hold them.
 template <typename Rep, typename Period>
-std::chrono::nanoseconds convert_to_nanoseconds(const std::chrono::duration<Rep, Period> &time) {
+std::chrono::nanoseconds convert_to_nanoseconds(const std::chrono::duration<Rep, Period>& time) {
   constexpr auto most = std::chrono::duration<long double, std::nano>(
       static_cast<long double>(std::chrono::nanoseconds::max().count()));
   const auto exact = std::chrono::duration<long double, std::nano>(time);

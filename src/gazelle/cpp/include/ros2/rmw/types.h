@@ -62,7 +62,7 @@ typedef struct rmw_qos_profile_s {
 } rmw_qos_profile_t;
 
 typedef struct rmw_gid_s {
-  const char *implementation_identifier;
+  const char* implementation_identifier;
   uint8_t data[RMW_GID_STORAGE_SIZE];
 } rmw_gid_t;
 

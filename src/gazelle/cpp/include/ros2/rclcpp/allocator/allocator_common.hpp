@@ -13,7 +13,7 @@ template <typename T, typename Alloc>
 using AllocRebind = typename std::allocator_traits<Alloc>::template rebind_traits<T>;
 
 template <typename T, typename Alloc>
-rcl_allocator_t get_rcl_allocator(Alloc &) {
+rcl_allocator_t get_rcl_allocator(Alloc&) {
   return rcl_get_default_allocator();
 }
 

@@ -18,17 +18,17 @@ using QOSRequestedIncompatibleQoSInfo = rmw_requested_qos_incompatible_event_sta
 using IncompatibleTypeInfo = rmw_incompatible_type_status_t;
 using MatchedInfo = rmw_matched_status_t;
 
-using QOSDeadlineRequestedCallbackType = std::function<void(QOSDeadlineRequestedInfo &)>;
-using QOSDeadlineOfferedCallbackType = std::function<void(QOSDeadlineOfferedInfo &)>;
-using QOSLivelinessChangedCallbackType = std::function<void(QOSLivelinessChangedInfo &)>;
-using QOSLivelinessLostCallbackType = std::function<void(QOSLivelinessLostInfo &)>;
-using QOSMessageLostCallbackType = std::function<void(QOSMessageLostInfo &)>;
-using QOSOfferedIncompatibleQoSCallbackType = std::function<void(QOSOfferedIncompatibleQoSInfo &)>;
+using QOSDeadlineRequestedCallbackType = std::function<void(QOSDeadlineRequestedInfo&)>;
+using QOSDeadlineOfferedCallbackType = std::function<void(QOSDeadlineOfferedInfo&)>;
+using QOSLivelinessChangedCallbackType = std::function<void(QOSLivelinessChangedInfo&)>;
+using QOSLivelinessLostCallbackType = std::function<void(QOSLivelinessLostInfo&)>;
+using QOSMessageLostCallbackType = std::function<void(QOSMessageLostInfo&)>;
+using QOSOfferedIncompatibleQoSCallbackType = std::function<void(QOSOfferedIncompatibleQoSInfo&)>;
 using QOSRequestedIncompatibleQoSCallbackType =
-    std::function<void(QOSRequestedIncompatibleQoSInfo &)>;
-using IncompatibleTypeCallbackType = std::function<void(IncompatibleTypeInfo &)>;
-using PublisherMatchedCallbackType = std::function<void(MatchedInfo &)>;
-using SubscriptionMatchedCallbackType = std::function<void(MatchedInfo &)>;
+    std::function<void(QOSRequestedIncompatibleQoSInfo&)>;
+using IncompatibleTypeCallbackType = std::function<void(IncompatibleTypeInfo&)>;
+using PublisherMatchedCallbackType = std::function<void(MatchedInfo&)>;
+using SubscriptionMatchedCallbackType = std::function<void(MatchedInfo&)>;
 
 struct PublisherEventCallbacks {
   QOSDeadlineOfferedCallbackType deadline_callback;

@@ -42,8 +42,8 @@ class RCLCPP_PUBLIC Executable {
  public:
   Executable();
   virtual ~Executable();
-  Executable(const Executable &) = delete;
-  Executable &operator=(const Executable &) = delete;
+  Executable(const Executable&) = delete;
+  Executable& operator=(const Executable&) = delete;
 
   virtual WorkKind kind() const = 0;
   virtual bool has_work() = 0;
@@ -52,8 +52,8 @@ class RCLCPP_PUBLIC Executable {
   /// How long it takes until there is work by itself (timers).
   virtual std::optional<std::chrono::nanoseconds> time_until_work() { return std::nullopt; }
 
-  virtual void add_waker(const std::shared_ptr<Waker> &waker);
-  virtual void remove_waker(const Waker *waker);
+  virtual void add_waker(const std::shared_ptr<Waker>& waker);
+  virtual void remove_waker(const Waker* waker);
   /// Called with the number of new pieces of work, with those that were there already at first.
   void set_on_new_work(std::function<void(std::size_t)> listener);
 

@@ -20,24 +20,24 @@ namespace rclcpp {
 namespace node_interfaces {
 
 // Free functions that ask a node, a pointer to one, or the interface itself.
-#define GAZELLE_RCLCPP_INTERFACE_OF(Interface, getter)                                    \
-  template <typename NodeT>                                                               \
-  std::shared_ptr<Interface> getter(NodeT &&node) {                                       \
-    using T = std::remove_cv_t<std::remove_reference_t<NodeT>>;                           \
-    if constexpr (std::is_convertible_v<T, std::shared_ptr<Interface>>) {                 \
-      return node;                                                                        \
-    } else if constexpr (requires_arrow<T>::value) {                                      \
-      return node->getter();                                                              \
-    } else {                                                                              \
-      return node.getter();                                                               \
-    }                                                                                     \
+#define GAZELLE_RCLCPP_INTERFACE_OF(Interface, getter)                    \
+  template <typename NodeT>                                               \
+  std::shared_ptr<Interface> getter(NodeT&& node) {                       \
+    using T = std::remove_cv_t<std::remove_reference_t<NodeT>>;           \
+    if constexpr (std::is_convertible_v<T, std::shared_ptr<Interface>>) { \
+      return node;                                                        \
+    } else if constexpr (requires_arrow<T>::value) {                      \
+      return node->getter();                                              \
+    } else {                                                              \
+      return node.getter();                                               \
+    }                                                                     \
   }
 
 template <typename T, typename = void>
 struct requires_arrow : std::is_pointer<T> {};
 template <typename T>
-struct requires_arrow<T, std::void_t<decltype(std::declval<T &>().operator->())>>
-    : std::true_type {};
+struct requires_arrow<T, std::void_t<decltype(std::declval<T&>().operator->())>> : std::true_type {
+};
 
 GAZELLE_RCLCPP_INTERFACE_OF(NodeBaseInterface, get_node_base_interface)
 GAZELLE_RCLCPP_INTERFACE_OF(NodeClockInterface, get_node_clock_interface)

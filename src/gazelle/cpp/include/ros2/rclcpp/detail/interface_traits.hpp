@@ -10,13 +10,13 @@ namespace rclcpp {
 namespace node_interfaces {
 
 // Whether a class has the getter of an interface of nodes.
-#define GAZELLE_RCLCPP_TRAIT(interface, Interface)                                           \
-  template <typename T, typename = void>                                                     \
-  struct has_##interface : std::false_type {};                                               \
-  template <typename T>                                                                      \
-  struct has_##interface<T, std::enable_if_t<std::is_same<                                   \
-                                std::shared_ptr<Interface>,                                  \
-                                decltype(std::declval<T &>().get_##interface())>::value>>    \
+#define GAZELLE_RCLCPP_TRAIT(interface, Interface)                                              \
+  template <typename T, typename = void>                                                        \
+  struct has_##interface : std::false_type {};                                                  \
+  template <typename T>                                                                         \
+  struct has_##interface<                                                                       \
+      T, std::enable_if_t<std::is_same<std::shared_ptr<Interface>,                              \
+                                       decltype(std::declval<T&>().get_##interface())>::value>> \
       : std::true_type {};
 GAZELLE_RCLCPP_TRAIT(node_base_interface, NodeBaseInterface)
 GAZELLE_RCLCPP_TRAIT(node_clock_interface, NodeClockInterface)

@@ -22,7 +22,7 @@ class InvalidNodeError : public std::runtime_error {
 /// A name is not one of ROS's.
 class NameValidationError : public std::invalid_argument {
  public:
-  NameValidationError(const char *name_type, const char *name, const char *error_text,
+  NameValidationError(const char* name_type, const char* name, const char* error_text,
                       std::size_t invalid_index)
       : std::invalid_argument(format_error(name_type, name, error_text, invalid_index)),
         name_type(name_type),
@@ -30,7 +30,7 @@ class NameValidationError : public std::invalid_argument {
         error_msg(error_text),
         invalid_index(invalid_index) {}
 
-  static std::string format_error(const char *name_type, const char *name, const char *error_text,
+  static std::string format_error(const char* name_type, const char* name, const char* error_text,
                                   std::size_t invalid_index) {
     return std::string("Invalid ") + name_type + ": " + error_text + ":\n  '" + name + "'\n   " +
            std::string(invalid_index, ' ') + "^\n";
@@ -44,39 +44,38 @@ class NameValidationError : public std::invalid_argument {
 
 class InvalidNodeNameError : public NameValidationError {
  public:
-  InvalidNodeNameError(const char *name, const char *text, std::size_t index)
+  InvalidNodeNameError(const char* name, const char* text, std::size_t index)
       : NameValidationError("node name", name, text, index) {}
 };
 
 class InvalidNamespaceError : public NameValidationError {
  public:
-  InvalidNamespaceError(const char *name, const char *text, std::size_t index)
+  InvalidNamespaceError(const char* name, const char* text, std::size_t index)
       : NameValidationError("namespace", name, text, index) {}
 };
 
 class InvalidTopicNameError : public NameValidationError {
  public:
-  InvalidTopicNameError(const char *name, const char *text, std::size_t index)
+  InvalidTopicNameError(const char* name, const char* text, std::size_t index)
       : NameValidationError("topic name", name, text, index) {}
 };
 
 class InvalidServiceNameError : public NameValidationError {
  public:
-  InvalidServiceNameError(const char *name, const char *text, std::size_t index)
+  InvalidServiceNameError(const char* name, const char* text, std::size_t index)
       : NameValidationError("service name", name, text, index) {}
 };
 
 class UnimplementedError : public std::runtime_error {
  public:
-  UnimplementedError()
-      : std::runtime_error("This code is unimplemented.") {}
-  explicit UnimplementedError(const std::string &text) : std::runtime_error(text) {}
+  UnimplementedError() : std::runtime_error("This code is unimplemented.") {}
+  explicit UnimplementedError(const std::string& text) : std::runtime_error(text) {}
 };
 
 /// What an error of C was.
 class RCLErrorBase {
  public:
-  RCLErrorBase(rcl_ret_t code, const std::string &text)
+  RCLErrorBase(rcl_ret_t code, const std::string& text)
       : ret(code), message(text), file(""), line(0), formatted_message(text) {}
   virtual ~RCLErrorBase() = default;
 
@@ -89,38 +88,38 @@ class RCLErrorBase {
 
 class RCLError : public RCLErrorBase, public std::runtime_error {
  public:
-  RCLError(rcl_ret_t code, const std::string &text)
+  RCLError(rcl_ret_t code, const std::string& text)
       : RCLErrorBase(code, text), std::runtime_error(text) {}
-  RCLError(const RCLErrorBase &base, const std::string &prefix)
+  RCLError(const RCLErrorBase& base, const std::string& prefix)
       : RCLErrorBase(base),
         std::runtime_error(prefix + (prefix.empty() ? "" : ": ") + base.formatted_message) {}
 };
 
 class RCLBadAlloc : public RCLErrorBase, public std::bad_alloc {
  public:
-  explicit RCLBadAlloc(const RCLErrorBase &base) : RCLErrorBase(base) {}
+  explicit RCLBadAlloc(const RCLErrorBase& base) : RCLErrorBase(base) {}
 };
 
 class RCLInvalidArgument : public RCLErrorBase, public std::invalid_argument {
  public:
-  RCLInvalidArgument(rcl_ret_t code, const std::string &text)
+  RCLInvalidArgument(rcl_ret_t code, const std::string& text)
       : RCLErrorBase(code, text), std::invalid_argument(text) {}
-  RCLInvalidArgument(const RCLErrorBase &base, const std::string &prefix)
+  RCLInvalidArgument(const RCLErrorBase& base, const std::string& prefix)
       : RCLErrorBase(base),
         std::invalid_argument(prefix + (prefix.empty() ? "" : ": ") + base.formatted_message) {}
 };
 
 class RCLInvalidROSArgsError : public RCLErrorBase, public std::runtime_error {
  public:
-  RCLInvalidROSArgsError(rcl_ret_t code, const std::string &text)
+  RCLInvalidROSArgsError(rcl_ret_t code, const std::string& text)
       : RCLErrorBase(code, text), std::runtime_error(text) {}
 };
 
 class UnknownROSArgsError : public std::runtime_error {
  public:
-  explicit UnknownROSArgsError(std::vector<std::string> &&unknown_in)
-      : std::runtime_error("found unknown ROS arguments: '" +
-                           rcpputils::join(unknown_in, "', '") + "'"),
+  explicit UnknownROSArgsError(std::vector<std::string>&& unknown_in)
+      : std::runtime_error("found unknown ROS arguments: '" + rcpputils::join(unknown_in, "', '") +
+                           "'"),
         unknown_ros_args(unknown_in) {}
   const std::vector<std::string> unknown_ros_args;
 };
@@ -147,15 +146,16 @@ class InvalidParameterValueException : public std::runtime_error {
 
 class InvalidParameterTypeException : public std::runtime_error {
  public:
-  InvalidParameterTypeException(const std::string &name, const std::string &message)
+  InvalidParameterTypeException(const std::string& name, const std::string& message)
       : std::runtime_error("parameter '" + name + "' has invalid type: " + message) {}
 };
 
 class UninitializedStaticallyTypedParameterException : public InvalidParameterTypeException {
  public:
-  explicit UninitializedStaticallyTypedParameterException(const std::string &name)
-      : InvalidParameterTypeException(name, "cannot declare a statically typed parameter with an "
-                                            "uninitialized value") {}
+  explicit UninitializedStaticallyTypedParameterException(const std::string& name)
+      : InvalidParameterTypeException(name,
+                                      "cannot declare a statically typed parameter with an "
+                                      "uninitialized value") {}
 };
 
 class ParameterAlreadyDeclaredException : public std::runtime_error {
@@ -180,7 +180,7 @@ class ParameterModifiedInCallbackException : public std::runtime_error {
 
 class ParameterUninitializedException : public std::runtime_error {
  public:
-  explicit ParameterUninitializedException(const std::string &name)
+  explicit ParameterUninitializedException(const std::string& name)
       : std::runtime_error("parameter '" + name + "' is not initialized") {}
 };
 
@@ -191,14 +191,14 @@ class QoSCheckCompatibleException : public std::runtime_error {
 
 class UnsupportedEventTypeException : public RCLErrorBase, public std::runtime_error {
  public:
-  UnsupportedEventTypeException(rcl_ret_t code, const std::string &text)
+  UnsupportedEventTypeException(rcl_ret_t code, const std::string& text)
       : RCLErrorBase(code, text), std::runtime_error(text) {}
 };
 
 /// Throw what a code of C means.
-[[noreturn]] RCLCPP_PUBLIC void throw_from_rcl_error(
-    rcl_ret_t code, const std::string &prefix = "", const void *error_state = nullptr,
-    void (*reset_error)() = nullptr);
+[[noreturn]] RCLCPP_PUBLIC void throw_from_rcl_error(rcl_ret_t code, const std::string& prefix = "",
+                                                     const void* error_state = nullptr,
+                                                     void (*reset_error)() = nullptr);
 
 }  // namespace exceptions
 

@@ -13,10 +13,10 @@ namespace executors {
 class RCLCPP_PUBLIC MultiThreadedExecutor : public Executor {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(MultiThreadedExecutor)
-  explicit MultiThreadedExecutor(
-      const ExecutorOptions &options = ExecutorOptions(), std::size_t number_of_threads = 0,
-      bool yield_before_execute = false,
-      std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
+  explicit MultiThreadedExecutor(const ExecutorOptions& options = ExecutorOptions(),
+                                 std::size_t number_of_threads = 0,
+                                 bool yield_before_execute = false,
+                                 std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1));
   ~MultiThreadedExecutor() override = default;
   void spin() override;
   std::size_t get_number_of_threads() { return number_of_threads_; }

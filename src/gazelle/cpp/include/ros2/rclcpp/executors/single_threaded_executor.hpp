@@ -9,7 +9,7 @@ namespace executors {
 class RCLCPP_PUBLIC SingleThreadedExecutor : public Executor {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(SingleThreadedExecutor)
-  explicit SingleThreadedExecutor(const ExecutorOptions &options = ExecutorOptions())
+  explicit SingleThreadedExecutor(const ExecutorOptions& options = ExecutorOptions())
       : Executor(options) {}
   ~SingleThreadedExecutor() override = default;
   void spin() override;

@@ -13,13 +13,13 @@ namespace detail {
 
 template <typename Interface>
 struct Getter;
-#define GAZELLE_RCLCPP_GETTER(Interface, getter)           \
-  template <>                                              \
-  struct Getter<Interface> {                               \
-    template <typename NodeT>                              \
-    static std::shared_ptr<Interface> of(NodeT &node) {    \
-      return node.getter();                                \
-    }                                                      \
+#define GAZELLE_RCLCPP_GETTER(Interface, getter)        \
+  template <>                                           \
+  struct Getter<Interface> {                            \
+    template <typename NodeT>                           \
+    static std::shared_ptr<Interface> of(NodeT& node) { \
+      return node.getter();                             \
+    }                                                   \
   };
 GAZELLE_RCLCPP_GETTER(NodeBaseInterface, get_node_base_interface)
 GAZELLE_RCLCPP_GETTER(NodeClockInterface, get_node_clock_interface)
@@ -41,7 +41,7 @@ template <typename... Interfaces>
 class NodeInterfaces {
  public:
   template <typename NodeT>
-  NodeInterfaces(NodeT &node)  // NOLINT(runtime/explicit)
+  NodeInterfaces(NodeT& node)  // NOLINT(runtime/explicit)
       : interfaces_(detail::Getter<Interfaces>::of(node)...) {}
   explicit NodeInterfaces(std::shared_ptr<Interfaces>... interfaces) : interfaces_(interfaces...) {}
 
@@ -53,10 +53,10 @@ class NodeInterfaces {
   std::shared_ptr<const Interface> get() const {
     return std::get<std::shared_ptr<Interface>>(interfaces_);
   }
-#define GAZELLE_RCLCPP_NAMED(Interface, getter)                                     \
-  template <typename I = Interface>                                                 \
-  std::shared_ptr<I> getter() const {                                               \
-    return std::get<std::shared_ptr<I>>(interfaces_);                               \
+#define GAZELLE_RCLCPP_NAMED(Interface, getter)       \
+  template <typename I = Interface>                   \
+  std::shared_ptr<I> getter() const {                 \
+    return std::get<std::shared_ptr<I>>(interfaces_); \
   }
   GAZELLE_RCLCPP_NAMED(NodeBaseInterface, get_node_base_interface)
   GAZELLE_RCLCPP_NAMED(NodeClockInterface, get_node_clock_interface)

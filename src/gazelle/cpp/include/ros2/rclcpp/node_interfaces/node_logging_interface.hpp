@@ -11,7 +11,7 @@ class RCLCPP_PUBLIC NodeLoggingInterface {
   RCLCPP_SMART_PTR_ALIASES_ONLY(NodeLoggingInterface)
   virtual ~NodeLoggingInterface() = default;
   virtual Logger get_logger() const = 0;
-  virtual const char *get_logger_name() const = 0;
+  virtual const char* get_logger_name() const = 0;
 };
 
 }  // namespace node_interfaces

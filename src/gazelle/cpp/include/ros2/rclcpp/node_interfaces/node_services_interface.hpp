@@ -18,7 +18,7 @@ class RCLCPP_PUBLIC NodeServicesInterface {
   virtual ~NodeServicesInterface() = default;
   virtual void add_client(ClientBase::SharedPtr client, CallbackGroup::SharedPtr group) = 0;
   virtual void add_service(ServiceBase::SharedPtr service, CallbackGroup::SharedPtr group) = 0;
-  virtual std::string resolve_service_name(const std::string &name,
+  virtual std::string resolve_service_name(const std::string& name,
                                            bool only_expand = false) const = 0;
 };
 

@@ -22,9 +22,9 @@ class RCLCPP_PUBLIC NodeTopicsInterface {
                              CallbackGroup::SharedPtr group) = 0;
   virtual void add_subscription(SubscriptionBase::SharedPtr subscription,
                                 CallbackGroup::SharedPtr group) = 0;
-  virtual NodeBaseInterface *get_node_base_interface() const = 0;
-  virtual NodeTimersInterface *get_node_timers_interface() const = 0;
-  virtual std::string resolve_topic_name(const std::string &name,
+  virtual NodeBaseInterface* get_node_base_interface() const = 0;
+  virtual NodeTimersInterface* get_node_timers_interface() const = 0;
+  virtual std::string resolve_topic_name(const std::string& name,
                                          bool only_expand = false) const = 0;
 };
 

@@ -8,8 +8,7 @@ namespace message_pool_memory_strategy {
 
 /// Messages of a subscription are made as they come: the pool's size is not asked for.
 template <typename MessageT, std::size_t Size, typename = void>
-class MessagePoolMemoryStrategy
-    : public message_memory_strategy::MessageMemoryStrategy<MessageT> {
+class MessagePoolMemoryStrategy : public message_memory_strategy::MessageMemoryStrategy<MessageT> {
  public:
   RCLCPP_SMART_PTR_DEFINITIONS(MessagePoolMemoryStrategy)
 };

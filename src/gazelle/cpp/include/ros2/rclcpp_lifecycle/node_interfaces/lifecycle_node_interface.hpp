@@ -19,12 +19,12 @@ class RCLCPP_LIFECYCLE_PUBLIC LifecycleNodeInterface {
     ERROR = lifecycle_msgs::msg::Transition::TRANSITION_CALLBACK_ERROR
   };
   virtual ~LifecycleNodeInterface() = default;
-  virtual CallbackReturn on_configure(const State &) { return CallbackReturn::SUCCESS; }
-  virtual CallbackReturn on_cleanup(const State &) { return CallbackReturn::SUCCESS; }
-  virtual CallbackReturn on_shutdown(const State &) { return CallbackReturn::SUCCESS; }
-  virtual CallbackReturn on_activate(const State &) { return CallbackReturn::SUCCESS; }
-  virtual CallbackReturn on_deactivate(const State &) { return CallbackReturn::SUCCESS; }
-  virtual CallbackReturn on_error(const State &) { return CallbackReturn::FAILURE; }
+  virtual CallbackReturn on_configure(const State&) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_cleanup(const State&) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_shutdown(const State&) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_activate(const State&) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_deactivate(const State&) { return CallbackReturn::SUCCESS; }
+  virtual CallbackReturn on_error(const State&) { return CallbackReturn::FAILURE; }
 };
 
 }  // namespace node_interfaces

@@ -7,7 +7,7 @@
 /// A list of texts in C.
 typedef struct rcutils_string_array_s {
   size_t size;
-  char **data;
+  char** data;
   rcutils_allocator_t allocator;
 } rcutils_string_array_t;
 
