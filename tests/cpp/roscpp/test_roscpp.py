@@ -231,8 +231,8 @@ def test_bags_of_python_are_read_and_written(probe: Probe, tmp_path: Any) -> Non
 
 
 def _write_bag(file: Any) -> None:
+    from gazelle.bag import Connection, Encoding
     from gazelle.bag.ros1.writer import Ros1Writer
-    from gazelle.bag.types import Connection, Encoding
     from gazelle.interfaces import md5sum, ros1_definition, to_ros1
 
     string, number = ros1_message_type("std_msgs/String"), ros1_message_type("std_msgs/Int32")
