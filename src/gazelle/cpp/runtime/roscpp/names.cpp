@@ -64,7 +64,7 @@ std::string append(const std::string& left, const std::string& right) {
 std::string remap(const std::string& name) {
   const std::string global = resolve(name, false);
   const M_string::const_iterator found = naming().remappings.find(global);
-  return found == naming().remappings.end() ? global : found->second;
+  return found == naming().remappings.end() ? name : found->second;
 }
 
 std::string resolve(const std::string& name, bool remap) {

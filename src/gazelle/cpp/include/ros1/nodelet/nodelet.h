@@ -78,7 +78,7 @@
 
 namespace nodelet {
 
-typedef boost::shared_ptr<class NodeHandle> NodeHandlePtr;
+typedef boost::shared_ptr<ros::NodeHandle> NodeHandlePtr;
 typedef std::map<std::string, std::string> M_string;
 typedef std::vector<std::string> V_string;
 
