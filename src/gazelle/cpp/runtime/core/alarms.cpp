@@ -28,8 +28,8 @@ struct Thread {
   bool started = false;
 };
 
-Thread &the_thread() {
-  static auto *one = new Thread;
+Thread& the_thread() {
+  static auto* one = new Thread;
   return *one;
 }
 
@@ -45,9 +45,9 @@ std::int64_t now_of(int base) {
 }
 
 // Take out what is due; `left` becomes how long the others have, in wall nanoseconds.
-std::vector<std::pair<Function, clock::Wake>> take_due(PageWait &page_wait, std::int64_t &left,
-                                                       std::int64_t &target) {
-  Thread &all = the_thread();
+std::vector<std::pair<Function, clock::Wake>> take_due(PageWait& page_wait, std::int64_t& left,
+                                                       std::int64_t& target) {
+  Thread& all = the_thread();
   std::vector<std::pair<Function, clock::Wake>> found;
   left = kHourNs;
   target = -1;
@@ -57,7 +57,7 @@ std::vector<std::pair<Function, clock::Wake>> take_due(PageWait &page_wait, std:
   const bool has_jumped = jumps != all.jumps;
   all.jumps = jumps;
   for (int base = 0; base < 3; ++base) {
-    Due &due = all.due[base];
+    Due& due = all.due[base];
     const bool is_clock = base == static_cast<int>(Alarms::Base::kClock);
     if (due.empty()) continue;
     const std::int64_t now = now_of(base);
@@ -84,13 +84,13 @@ std::vector<std::pair<Function, clock::Wake>> take_due(PageWait &page_wait, std:
 }
 
 void run() {
-  Waiting &all = waiting();
+  Waiting& all = waiting();
   PageWait page_wait;
   while (true) {
     std::int64_t left = 0;
     std::int64_t target = -1;
     if (is_clock_on_page()) look_at_clock();
-    for (auto &one : take_due(page_wait, left, target)) one.first(one.second);
+    for (auto& one : take_due(page_wait, left, target)) one.first(one.second);
     std::unique_lock lock(all.mutex);
     // Once more, with the lock: what was added meanwhile has told nobody who waits.
     auto due = take_due(page_wait, left, target);
@@ -101,7 +101,7 @@ void run() {
       continue;
     }
     lock.unlock();
-    for (auto &one : due) one.first(one.second);
+    for (auto& one : due) one.first(one.second);
   }
 }
 
@@ -115,7 +115,7 @@ void start() {
 
 std::uint64_t Alarms::at(Base base, std::int64_t when_ns,
                          std::function<void(clock::Wake)> function) {
-  Thread &all = the_thread();
+  Thread& all = the_thread();
   std::uint64_t number;
   bool is_first;
   {
@@ -125,22 +125,20 @@ std::uint64_t Alarms::at(Base base, std::int64_t when_ns,
       start();
     }
     number = ++all.last;
-    Due &due = all.due[static_cast<int>(base)];
+    Due& due = all.due[static_cast<int>(base)];
     const auto place = due.emplace(when_ns, std::make_pair(number, std::move(function)));
     all.places[number] = {static_cast<int>(base), place};
     is_first = place == due.begin();
   }
   if (is_first) {
-    {
-      std::lock_guard lock(waiting().mutex);
-    }
+    { std::lock_guard lock(waiting().mutex); }
     waiting().alarms.notify_all();
   }
   return number;
 }
 
 bool Alarms::cancel(std::uint64_t number) {
-  Thread &all = the_thread();
+  Thread& all = the_thread();
   std::lock_guard lock(all.mutex);
   const auto found = all.places.find(number);
   if (found == all.places.end()) return false;

@@ -39,13 +39,13 @@ struct Reading {
 
 struct Clock {
   std::atomic<bool> is_simulated{false};
-  std::atomic<const std::int64_t *> page{nullptr};
+  std::atomic<const std::int64_t*> page{nullptr};
   std::atomic<std::int64_t> told_ns{0};
   std::atomic<std::uint64_t> jumps{0};
   // Held while a page's jump is taken in, and while what the host tells is.
   std::mutex taking;
   std::int64_t page_jumps = 0;
-  Listeners<const clock::Jump &> on_jump;
+  Listeners<const clock::Jump&> on_jump;
   Listeners<std::int64_t> on_time;
 
   std::mutex rate_mutex;
@@ -57,8 +57,8 @@ struct Clock {
   bool mostly_short = false;
 };
 
-Clock &the_clock() {
-  static auto *one = new Clock;
+Clock& the_clock() {
+  static auto* one = new Clock;
   return *one;
 }
 
@@ -70,30 +70,30 @@ std::int64_t nanoseconds_of(clockid_t which) {
 
 // Written by another process at any time: each number is read at once, and the last one tells
 // whether they fit together.
-bool read_page(const std::int64_t *page, Reading &reading) {
-  const auto *numbers = reinterpret_cast<const std::atomic<std::int64_t> *>(page);
+bool read_page(const std::int64_t* page, Reading& reading) {
+  const auto* numbers = reinterpret_cast<const std::atomic<std::int64_t>*>(page);
   for (int i = 0; i < kTries; ++i) {
     reading.now_ns = numbers[0].load(std::memory_order_acquire);
     reading.jumps = numbers[1].load(std::memory_order_acquire);
     reading.jump_ns = numbers[2].load(std::memory_order_acquire);
     const std::int64_t check = numbers[3].load(std::memory_order_acquire);
-    const auto shifted = static_cast<std::int64_t>(static_cast<std::uint64_t>(reading.jumps)
-                                                   << kJumpBits);
+    const auto shifted =
+        static_cast<std::int64_t>(static_cast<std::uint64_t>(reading.jumps) << kJumpBits);
     if (check == ~(reading.now_ns ^ shifted ^ reading.jump_ns)) return true;
   }
   return false;
 }
 
-void tell_jump(const clock::Jump &jump) {
-  Clock &all = the_clock();
+void tell_jump(const clock::Jump& jump) {
+  Clock& all = the_clock();
   all.jumps.fetch_add(1);
   wake_all();
   all.on_jump.tell(jump);
 }
 
 // Take in a jump that a page shows, once for everybody.
-void take_jump(const Reading &reading) {
-  Clock &all = the_clock();
+void take_jump(const Reading& reading) {
+  Clock& all = the_clock();
   {
     std::lock_guard lock(all.taking);
     if (reading.jumps == all.page_jumps || all.page.load() == nullptr) return;
@@ -104,7 +104,7 @@ void take_jump(const Reading &reading) {
 }
 
 void note_rate(std::int64_t now_ns) {
-  Clock &all = the_clock();
+  Clock& all = the_clock();
   const std::int64_t wall = clock::steady_ns();
   std::lock_guard lock(all.rate_mutex);
   const std::int64_t since = wall - all.mark_wall_ns;
@@ -118,15 +118,13 @@ void note_rate(std::int64_t now_ns) {
 
 }  // namespace
 
-Waiting &waiting() {
-  static auto *one = new Waiting;
+Waiting& waiting() {
+  static auto* one = new Waiting;
   return *one;
 }
 
 void wake_all() {
-  {
-    std::lock_guard lock(waiting().mutex);
-  }
+  { std::lock_guard lock(waiting().mutex); }
   waiting().changed.notify_all();
   waiting().alarms.notify_all();
 }
@@ -139,13 +137,13 @@ bool is_clock_on_page() {
 
 void look_at_clock() {
   Reading reading;
-  const std::int64_t *page = the_clock().page.load();
+  const std::int64_t* page = the_clock().page.load();
   if (page == nullptr || !read_page(page, reading)) return;
   if (reading.jumps != the_clock().page_jumps) take_jump(reading);
 }
 
 void note_sleep(std::int64_t left_ns) {
-  Clock &all = the_clock();
+  Clock& all = the_clock();
   bool changed = false;
   bool mostly_short = false;
   {
@@ -185,9 +183,9 @@ std::int64_t steady_ns() { return nanoseconds_of(CLOCK_MONOTONIC); }
 bool uses_sim_time() { return the_clock().is_simulated.load(std::memory_order_relaxed); }
 
 std::int64_t now_ns() {
-  Clock &all = the_clock();
+  Clock& all = the_clock();
   if (!all.is_simulated.load(std::memory_order_acquire)) return wall_ns();
-  const std::int64_t *page = all.page.load(std::memory_order_acquire);
+  const std::int64_t* page = all.page.load(std::memory_order_acquire);
   if (page == nullptr) return all.told_ns.load(std::memory_order_acquire);
   Reading reading;
   if (!read_page(page, reading)) return all.told_ns.load(std::memory_order_acquire);
@@ -208,8 +206,8 @@ void use_sim_time(int choice) {
   call("clock/use", Json::object({{"sim_time", value}}));
 }
 
-Wake wait_until(std::int64_t target_ns, const Stop &stop) {
-  Waiting &all = waiting();
+Wake wait_until(std::int64_t target_ns, const Stop& stop) {
+  Waiting& all = waiting();
   const std::uint64_t jumps_before = jumps();
   PageWait page_wait;
   if (is_clock_on_page() && target_ns > now_ns()) note_sleep(target_ns - now_ns());
@@ -233,8 +231,8 @@ Wake wait_until(std::int64_t target_ns, const Stop &stop) {
   }
 }
 
-Wake wait_wall(std::int64_t duration_ns, const Stop &stop) {
-  Waiting &all = waiting();
+Wake wait_wall(std::int64_t duration_ns, const Stop& stop) {
+  Waiting& all = waiting();
   const std::int64_t end = steady_ns() + std::max<std::int64_t>(duration_ns, 0);
   std::unique_lock lock(all.mutex);
   while (true) {
@@ -247,7 +245,7 @@ Wake wait_wall(std::int64_t duration_ns, const Stop &stop) {
 
 void notify_waiters() { wake_all(); }
 
-std::uint64_t on_jump(std::function<void(const Jump &)> listener) {
+std::uint64_t on_jump(std::function<void(const Jump&)> listener) {
   return the_clock().on_jump.add(std::move(listener)) << 1;
 }
 
@@ -267,10 +265,10 @@ void remove_listener(std::uint64_t number) {
 
 }  // namespace gazelle
 
-extern "C" GAZELLE_EXPORT void gazelle_on_clock(int use_sim_time, const std::int64_t *page,
+extern "C" GAZELLE_EXPORT void gazelle_on_clock(int use_sim_time, const std::int64_t* page,
                                                 std::int64_t now_ns, std::int64_t jump_ns) {
   using namespace gazelle;  // NOLINT: the whole of it is ours
-  Clock &all = the_clock();
+  Clock& all = the_clock();
   bool switched = false;
   bool jumped = false;
   std::int64_t delta = jump_ns;
@@ -299,7 +297,7 @@ extern "C" GAZELLE_EXPORT void gazelle_on_clock(int use_sim_time, const std::int
     bool is_due = page != nullptr;
     {
       std::lock_guard lock(waiting().mutex);
-      const auto &targets = waiting().targets;
+      const auto& targets = waiting().targets;
       is_due = is_due || (!targets.empty() && *targets.begin() <= now_ns);
     }
     if (is_due) wake_all();

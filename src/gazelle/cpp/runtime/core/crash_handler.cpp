@@ -27,7 +27,7 @@ constexpr int kMostFrames = 40;
 constexpr unsigned kMostSeconds = 5;
 constexpr std::size_t kStackBytes = 256 * 1024;
 
-const char *name_of(int number) {
+const char* name_of(int number) {
   switch (number) {
     case SIGSEGV:
       return "SIGSEGV: memory that is not the program's";
@@ -46,7 +46,7 @@ const char *name_of(int number) {
   }
 }
 
-void say(const char *text) {
+void say(const char* text) {
   std::size_t left = std::strlen(text);
   while (left > 0) {
     const ssize_t size = write(STDERR_FILENO, text, left);
@@ -63,18 +63,18 @@ struct Place {
   char line[512] = "";
 };
 
-void take_line(const char *&at, char *into, std::size_t size) {
+void take_line(const char*& at, char* into, std::size_t size) {
   const std::size_t length = std::strcspn(at, "\n");
   if (length < size && at[0] != '?') {
     std::memcpy(into, at, length);
     into[length] = '\0';
     // "(discriminator 3)" is of interest to compilers only.
-    if (char *more = std::strstr(into, " (discriminator")) *more = '\0';
+    if (char* more = std::strstr(into, " (discriminator")) *more = '\0';
   }
   at += at[length] == '\n' ? length + 1 : length;
 }
 
-Place place_of(const char *file, std::uintptr_t offset) {
+Place place_of(const char* file, std::uintptr_t offset) {
   Place found;
   int ends[2];
   if (pipe(ends) != 0) return found;
@@ -100,30 +100,30 @@ Place place_of(const char *file, std::uintptr_t offset) {
   close(ends[0]);
   if (child > 0) waitpid(child, nullptr, 0);
   text[size] = '\0';
-  const char *at = text;
+  const char* at = text;
   take_line(at, found.name, sizeof found.name);
   take_line(at, found.line, sizeof found.line);
   return found;
 }
 
-const char *base_of(const char *path) {
-  const char *slash = path != nullptr ? std::strrchr(path, '/') : nullptr;
+const char* base_of(const char* path) {
+  const char* slash = path != nullptr ? std::strrchr(path, '/') : nullptr;
   return slash != nullptr ? slash + 1 : path != nullptr ? path : "";
 }
 
-bool begins(const char *text, const char *with) {
+bool begins(const char* text, const char* with) {
   return std::strncmp(text, with, std::strlen(with)) == 0;
 }
 
 // Where libraries of the system and of the runtime go wrong, whoever called them is to look.
-bool is_of_system(const char *base) {
+bool is_of_system(const char* base) {
   return begins(base, "libc.so") || begins(base, "libpthread") || begins(base, "libstdc++") ||
          begins(base, "libgcc_s") || begins(base, "libc++");
 }
 
-bool is_of_user(const char *base) { return !is_of_system(base) && !begins(base, "libgazelle_"); }
+bool is_of_user(const char* base) { return !is_of_system(base) && !begins(base, "libgazelle_"); }
 
-void say_frame(int number, void *address, bool is_return) {
+void say_frame(int number, void* address, bool is_return) {
   char text[64];
   Dl_info info = {};
   std::snprintf(text, sizeof text, "  #%-2d ", number);
@@ -133,7 +133,7 @@ void say_frame(int number, void *address, bool is_return) {
     say(text);
     return;
   }
-  const auto offset = static_cast<char *>(address) - static_cast<char *>(info.dli_fbase);
+  const auto offset = static_cast<char*>(address) - static_cast<char*>(info.dli_fbase);
   // Where a call returns to, the call stands before.
   Place place;
   if (is_of_user(base_of(info.dli_fname))) {
@@ -143,7 +143,7 @@ void say_frame(int number, void *address, bool is_return) {
     say(place.name);
   } else if (info.dli_sname != nullptr) {
     int status = 0;
-    char *readable = abi::__cxa_demangle(info.dli_sname, nullptr, nullptr, &status);
+    char* readable = abi::__cxa_demangle(info.dli_sname, nullptr, nullptr, &status);
     say(readable != nullptr ? readable : info.dli_sname);
     std::free(readable);
   } else {
@@ -162,21 +162,21 @@ void say_frame(int number, void *address, bool is_return) {
 }
 
 // What lies below the program's `main`.
-bool is_of_host(void *address) {
+bool is_of_host(void* address) {
   Dl_info info = {};
   if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return false;
-  const char *base = base_of(info.dli_fname);
-  const char *name = info.dli_sname != nullptr ? info.dli_sname : "";
+  const char* base = base_of(info.dli_fname);
+  const char* name = info.dli_sname != nullptr ? info.dli_sname : "";
   return begins(base, "libffi") || begins(base, "_ctypes") || begins(base, "python") ||
          begins(base, "libpython") || std::strcmp(name, "gazelle_run_main") == 0;
 }
 
-bool is_of_system(void *address) {
+bool is_of_system(void* address) {
   Dl_info info = {};
   return dladdr(address, &info) != 0 && is_of_system(base_of(info.dli_fname));
 }
 
-void on_crash(int number, siginfo_t *info, void *) {
+void on_crash(int number, siginfo_t* info, void*) {
   // What follows is more than a handler may do; a second crash, or a lock that is held, ends it.
   std::signal(SIGALRM, SIG_DFL);
   sigset_t alarms;
@@ -192,7 +192,7 @@ void on_crash(int number, siginfo_t *info, void *) {
     say(text);
   }
   say("\nthe crash came about in, latest first:\n");
-  void *frames[kMostFrames];
+  void* frames[kMostFrames];
   const int count = backtrace(frames, kMostFrames);
   // The first two are this handler and the kernel's way into it.
   int first = 2;
@@ -217,11 +217,11 @@ void on_crash(int number, siginfo_t *info, void *) {
 void install_crash_handler() {
   if (&__asan_init != nullptr) return;
   // Loads what backtrace() needs now: in a handler that would be too late.
-  void *frames[1];
+  void* frames[1];
   backtrace(frames, 1);
   // A stack of its own, as a stack that has run over is a crash, too.
-  void *memory = mmap(nullptr, kStackBytes, PROT_READ | PROT_WRITE,
-                      MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* memory =
+      mmap(nullptr, kStackBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory != MAP_FAILED) {
     stack_t stack = {};
     stack.ss_sp = memory;

@@ -13,10 +13,10 @@ struct Delivered::Shared {
   Bytes cdr;
   bool has_cdr = false;
   // The bytes read as other types than the publisher's, by type.
-  std::vector<std::pair<const MessageType *, std::shared_ptr<const void>>> read;
+  std::vector<std::pair<const MessageType*, std::shared_ptr<const void>>> read;
 };
 
-Delivered::Delivered(std::shared_ptr<const void> message, const MessageType *type, MessageInfo info)
+Delivered::Delivered(std::shared_ptr<const void> message, const MessageType* type, MessageInfo info)
     : info_(std::move(info)),
       type_name_(type->name),
       type_(type),
@@ -31,11 +31,11 @@ Delivered::Delivered(Bytes cdr, std::string type_name, MessageInfo info)
   shared_->has_cdr = true;
 }
 
-std::shared_ptr<const void> Delivered::object(const MessageType &wanted) const {
+std::shared_ptr<const void> Delivered::object(const MessageType& wanted) const {
   if (message_ && type_->is_same(wanted)) return message_;
   const Bytes bytes = cdr();
   std::lock_guard lock(shared_->mutex);
-  for (const auto &one : shared_->read) {
+  for (const auto& one : shared_->read) {
     if (one.first->is_same(wanted)) return one.second;
   }
   std::shared_ptr<const void> made = wanted.decode(bytes.data(), bytes.size());
@@ -43,7 +43,7 @@ std::shared_ptr<const void> Delivered::object(const MessageType &wanted) const {
   return made;
 }
 
-std::shared_ptr<void> Delivered::own_object(const MessageType &wanted) const {
+std::shared_ptr<void> Delivered::own_object(const MessageType& wanted) const {
   const Bytes bytes = cdr();
   return wanted.decode(bytes.data(), bytes.size());
 }

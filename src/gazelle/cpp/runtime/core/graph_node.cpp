@@ -12,7 +12,7 @@ namespace gazelle {
 
 namespace {
 
-Json json_of(const Qos &qos) {
+Json json_of(const Qos& qos) {
   return Json::object({{"depth", qos.keep_all ? std::size_t{0} : qos.depth},
                        {"reliable", qos.reliable},
                        {"latched", qos.transient_local},
@@ -24,8 +24,8 @@ Json json_of(const Qos &qos) {
 
 class Node;
 
-Registry<Node> &nodes() {
-  static auto *all = new Registry<Node>;
+Registry<Node>& nodes() {
+  static auto* all = new Registry<Node>;
   return *all;
 }
 
@@ -33,23 +33,23 @@ class Node final : public GraphNode {
  public:
   ~Node() override { shutdown(); }
 
-  void open(const NodeOptions &options) {
+  void open(const NodeOptions& options) {
     number_ = nodes().add(std::static_pointer_cast<Node>(shared_from_this()));
     ros_version_ = options.ros_version;
     Json::Array remappings;
-    for (const auto &one : options.remappings) {
+    for (const auto& one : options.remappings) {
       remappings.push_back(Json::array({one.first, one.second}));
     }
-    details_ = call("node/create", Json::object({{"core", number_},
-                                                 {"name", options.name},
-                                                 {"namespace", options.namespace_},
-                                                 {"ros_version", options.ros_version},
-                                                 {"anonymous", options.anonymous},
-                                                 {"rosout", options.rosout},
-                                                 {"use_global_arguments",
-                                                  options.use_global_arguments},
-                                                 {"arguments", options.arguments},
-                                                 {"remappings", remappings}}));
+    details_ =
+        call("node/create", Json::object({{"core", number_},
+                                          {"name", options.name},
+                                          {"namespace", options.namespace_},
+                                          {"ros_version", options.ros_version},
+                                          {"anonymous", options.anonymous},
+                                          {"rosout", options.rosout},
+                                          {"use_global_arguments", options.use_global_arguments},
+                                          {"arguments", options.arguments},
+                                          {"remappings", remappings}}));
     closed_ = details_.is_null();
     handle_ = static_cast<std::uint64_t>(details_["handle"].as_int());
     name_ = details_["name"].as_string(options.name);
@@ -59,70 +59,68 @@ class Node final : public GraphNode {
   }
 
   std::uint64_t handle() const override { return handle_; }
-  const std::string &name() const override { return name_; }
-  const std::string &namespace_() const override { return namespace_name_; }
-  const std::string &full_name() const override { return full_name_; }
+  const std::string& name() const override { return name_; }
+  const std::string& namespace_() const override { return namespace_name_; }
+  const std::string& full_name() const override { return full_name_; }
   int ros_version() const override { return ros_version_; }
-  const Json &details() const override { return details_; }
+  const Json& details() const override { return details_; }
 
-  std::string resolve(const std::string &name, bool remap) const override {
+  std::string resolve(const std::string& name, bool remap) const override {
     return call("node/resolve", Json::object({{"node", handle_}, {"name", name}, {"remap", remap}}))
         .as_string(name);
   }
 
-  std::shared_ptr<Publisher> advertise(const std::string &topic, const MessageType &type,
-                                       const Qos &qos, const PublisherOptions &options) override {
+  std::shared_ptr<Publisher> advertise(const std::string& topic, const MessageType& type,
+                                       const Qos& qos, const PublisherOptions& options) override {
     return advertised(topic, type.name, type.hash, type.definition, qos, options, &type);
   }
 
-  std::shared_ptr<Publisher> advertise(const std::string &topic, const std::string &type_name,
-                                       const std::string &definition, const Qos &qos,
-                                       const PublisherOptions &options) override {
-    Json request = Json::object({{"topic", topic},
-                                 {"type", type_name},
-                                 {"definition", definition},
-                                 {"qos", json_of(qos)}});
+  std::shared_ptr<Publisher> advertise(const std::string& topic, const std::string& type_name,
+                                       const std::string& definition, const Qos& qos,
+                                       const PublisherOptions& options) override {
+    Json request = Json::object(
+        {{"topic", topic}, {"type", type_name}, {"definition", definition}, {"qos", json_of(qos)}});
     auto end = std::make_shared<PublisherEnd>(handle_, full_name_, qos, options, nullptr);
     end->open(std::move(request));
     return end;
   }
 
-  std::shared_ptr<Subscription> subscribe(const std::string &topic, const MessageType *type,
-                                          const Qos &qos, std::function<void(Delivered)> function,
-                                          const SubscriptionOptions &options) override {
+  std::shared_ptr<Subscription> subscribe(const std::string& topic, const MessageType* type,
+                                          const Qos& qos, std::function<void(Delivered)> function,
+                                          const SubscriptionOptions& options) override {
     return subscribed(topic, type != nullptr ? type->name : "", type, qos, std::move(function),
                       options);
   }
 
-  std::shared_ptr<Subscription> subscribe(const std::string &topic, const std::string &type_name,
-                                          const Qos &qos, std::function<void(Delivered)> function,
-                                          const SubscriptionOptions &options) override {
+  std::shared_ptr<Subscription> subscribe(const std::string& topic, const std::string& type_name,
+                                          const Qos& qos, std::function<void(Delivered)> function,
+                                          const SubscriptionOptions& options) override {
     return subscribed(topic, type_name, nullptr, qos, std::move(function), options);
   }
 
-  std::shared_ptr<ServiceServer> offer(const std::string &service, const ServiceType &type,
+  std::shared_ptr<ServiceServer> offer(const std::string& service, const ServiceType& type,
                                        std::function<void(RequestId, Bytes)> handler) override {
     auto end = std::make_shared<ServerEnd>(std::move(handler));
     end->open(request_of(service, type));
     return end;
   }
 
-  std::shared_ptr<ServiceClient> client(const std::string &service,
-                                        const ServiceType &type) override {
+  std::shared_ptr<ServiceClient> client(const std::string& service,
+                                        const ServiceType& type) override {
     auto end = std::make_shared<ClientEnd>();
     end->open(request_of(service, type));
     return end;
   }
 
-  void log(Level level, const std::string &text, const std::string &logger, const char *file,
-           int line, const char *function) override {
-    if (const gazelle_host *host = host::table()) {
+  void log(Level level, const std::string& text, const std::string& logger, const char* file,
+           int line, const char* function) override {
+    if (const gazelle_host* host = host::table()) {
       host->log(handle_, static_cast<int>(level), text.data(), text.size(), logger.c_str(), file,
                 line, function);
     }
   }
 
-  void on_shutdown(std::function<void(const std::string &)> listener) override {
+  void on_shutdown(std::function<void(const std::string&)> listener) override {
     shutdown_.add(std::move(listener));
   }
 
@@ -135,22 +133,22 @@ class Node final : public GraphNode {
 
   bool closed() const override { return closed_; }
 
-  void on_shut_down(const std::string &reason) { shutdown_.tell(reason); }
+  void on_shut_down(const std::string& reason) { shutdown_.tell(reason); }
 
  private:
-  std::shared_ptr<Publisher> advertised(const std::string &topic, const char *name,
-                                        const char *hash, const char *(*definition)(),
-                                        const Qos &qos, const PublisherOptions &options,
-                                        const MessageType *type) {
+  std::shared_ptr<Publisher> advertised(const std::string& topic, const char* name,
+                                        const char* hash, const char* (*definition)(),
+                                        const Qos& qos, const PublisherOptions& options,
+                                        const MessageType* type) {
     auto end = std::make_shared<PublisherEnd>(handle_, full_name_, qos, options, type);
     end->open(typed(topic, name, hash, definition, type->is_ros1, qos));
     return end;
   }
 
-  std::shared_ptr<Subscription> subscribed(const std::string &topic, const std::string &name,
-                                           const MessageType *type, const Qos &qos,
+  std::shared_ptr<Subscription> subscribed(const std::string& topic, const std::string& name,
+                                           const MessageType* type, const Qos& qos,
                                            std::function<void(Delivered)> function,
-                                           const SubscriptionOptions &options) {
+                                           const SubscriptionOptions& options) {
     auto end = std::make_shared<SubscriptionEnd>(handle_, full_name_, type, qos,
                                                  std::move(function), options);
     Json request = type != nullptr
@@ -159,12 +157,12 @@ class Node final : public GraphNode {
     request.set("announced", options.announced_type);
     end->open(std::move(request));
     // The topic keeps the end while it lasts; whoever holds this decides how long that is.
-    Subscription *face = end.get();
-    return {face, [end](Subscription *) { end->close(); }};
+    Subscription* face = end.get();
+    return {face, [end](Subscription*) { end->close(); }};
   }
 
-  static Json typed(const std::string &topic, const char *name, const char *hash,
-                    const char *(*definition)(), bool is_ros1, const Qos &qos) {
+  static Json typed(const std::string& topic, const char* name, const char* hash,
+                    const char* (*definition)(), bool is_ros1, const Qos& qos) {
     Json request = Json::object({{"topic", topic},
                                  {"type", name},
                                  {"hash", hash != nullptr ? hash : ""},
@@ -174,7 +172,7 @@ class Node final : public GraphNode {
     return request;
   }
 
-  Json request_of(const std::string &service, const ServiceType &type) const {
+  Json request_of(const std::string& service, const ServiceType& type) const {
     return Json::object({{"node", handle_},
                          {"name", service},
                          {"type", type.name},
@@ -189,27 +187,26 @@ class Node final : public GraphNode {
   std::string full_name_;
   Json details_;
   std::atomic<bool> closed_{true};
-  Listeners<const std::string &> shutdown_;
+  Listeners<const std::string&> shutdown_;
 };
 
 }  // namespace
 
-std::shared_ptr<GraphNode> GraphNode::create(const NodeOptions &options) {
+std::shared_ptr<GraphNode> GraphNode::create(const NodeOptions& options) {
   auto node = std::make_shared<Node>();
   node->open(options);
   return node;
 }
 
-std::vector<std::string> set_arguments(int ros_version,
-                                       const std::vector<std::string> &arguments) {
+std::vector<std::string> set_arguments(int ros_version, const std::vector<std::string>& arguments) {
   return call("node/arguments",
               Json::object({{"ros_version", ros_version}, {"arguments", arguments}}))
       .as_strings();
 }
 
-void log(Level level, const std::string &text, const std::string &logger, const char *file,
-         int line, const char *function) {
-  if (const gazelle_host *host = host::table()) {
+void log(Level level, const std::string& text, const std::string& logger, const char* file,
+         int line, const char* function) {
+  if (const gazelle_host* host = host::table()) {
     host->log(0, static_cast<int>(level), text.data(), text.size(), logger.c_str(), file, line,
               function);
   }
@@ -217,6 +214,6 @@ void log(Level level, const std::string &text, const std::string &logger, const 
 
 }  // namespace gazelle
 
-extern "C" GAZELLE_EXPORT void gazelle_on_node_shutdown(std::uint64_t node, const char *reason) {
+extern "C" GAZELLE_EXPORT void gazelle_on_node_shutdown(std::uint64_t node, const char* reason) {
   if (const auto found = gazelle::nodes().find(node)) found->on_shut_down(reason);
 }

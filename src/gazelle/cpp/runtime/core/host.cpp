@@ -18,28 +18,28 @@ namespace {
 
 // Nothing of the core is ever destroyed: users' own statics may still call when exit() runs.
 struct Attached {
-  std::atomic<const gazelle_host *> table{nullptr};
+  std::atomic<const gazelle_host*> table{nullptr};
   Listeners<> on_detach;
   Listeners<> on_graph_change;
   std::mutex events_mutex;
-  std::unordered_map<std::uint64_t, std::shared_ptr<std::function<void(const Json &)>>> events;
+  std::unordered_map<std::uint64_t, std::shared_ptr<std::function<void(const Json&)>>> events;
   std::uint64_t last_event = 0;
 };
 
-Attached &attached() {
-  static auto *one = new Attached;
+Attached& attached() {
+  static auto* one = new Attached;
   return *one;
 }
 
-void append(void *context, const std::uint8_t *data, std::size_t size) {
-  static_cast<std::string *>(context)->append(reinterpret_cast<const char *>(data), size);
+void append(void* context, const std::uint8_t* data, std::size_t size) {
+  static_cast<std::string*>(context)->append(reinterpret_cast<const char*>(data), size);
 }
 
 }  // namespace
 
 namespace host {
 
-const gazelle_host *table() { return attached().table.load(std::memory_order_acquire); }
+const gazelle_host* table() { return attached().table.load(std::memory_order_acquire); }
 
 SignalsBlocked::SignalsBlocked() {
   sigset_t all;
@@ -54,17 +54,17 @@ SignalsBlocked::SignalsBlocked() {
 
 SignalsBlocked::~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
-Bytes lent(const std::uint8_t *data, std::size_t size, void *owner) {
+Bytes lent(const std::uint8_t* data, std::size_t size, void* owner) {
   if (owner == nullptr) return Bytes(std::vector<std::uint8_t>(data, data + size));
-  return {data, size, std::shared_ptr<const void>(owner, [](void *held) {
-            if (const gazelle_host *host = table()) host->release(held);
+  return {data, size, std::shared_ptr<const void>(owner, [](void* held) {
+            if (const gazelle_host* host = table()) host->release(held);
           })};
 }
 
-void call_at_end(const std::string &verb, const Json &request) {
+void call_at_end(const std::string& verb, const Json& request) {
   try {
     call(verb, request);
-  } catch (const std::exception &error) {
+  } catch (const std::exception& error) {
     std::cerr << verb << ": " << error.what() << std::endl;
   }
 }
@@ -73,15 +73,15 @@ void on_detach(std::function<void()> listener) { attached().on_detach.add(std::m
 
 }  // namespace host
 
-Json call(const std::string &verb, const Json &request) {
-  const gazelle_host *host = host::table();
+Json call(const std::string& verb, const Json& request) {
+  const gazelle_host* host = host::table();
   if (host == nullptr) return {};
   const std::string text = request.dump();
   std::string answer;
   int status;
   {
     host::SignalsBlocked quiet;
-    status = host->call(verb.c_str(), reinterpret_cast<const std::uint8_t *>(text.data()),
+    status = host->call(verb.c_str(), reinterpret_cast<const std::uint8_t*>(text.data()),
                         text.size(), &append, &answer);
   }
   if (status == GAZELLE_OK) return answer.empty() ? Json() : Json::parse(answer);
@@ -94,16 +94,16 @@ Json call(const std::string &verb, const Json &request) {
 
 bool is_attached() { return host::table() != nullptr; }
 
-std::uint64_t add_event_listener(std::function<void(const Json &)> listener) {
-  Attached &all = attached();
+std::uint64_t add_event_listener(std::function<void(const Json&)> listener) {
+  Attached& all = attached();
   std::lock_guard lock(all.events_mutex);
   all.events[++all.last_event] =
-      std::make_shared<std::function<void(const Json &)>>(std::move(listener));
+      std::make_shared<std::function<void(const Json&)>>(std::move(listener));
   return all.last_event;
 }
 
 void remove_event_listener(std::uint64_t number) {
-  Attached &all = attached();
+  Attached& all = attached();
   std::lock_guard lock(all.events_mutex);
   all.events.erase(number);
 }
@@ -118,7 +118,7 @@ void remove_graph_listener(std::uint64_t number) { attached().on_graph_change.re
 
 extern "C" {
 
-GAZELLE_EXPORT int gazelle_attach(const gazelle_host *host) {
+GAZELLE_EXPORT int gazelle_attach(const gazelle_host* host) {
   if (host->version != GAZELLE_ABI_VERSION || host->size < sizeof(gazelle_host)) return 1;
   gazelle::attached().table.store(host, std::memory_order_release);
   return 0;
@@ -131,16 +131,16 @@ GAZELLE_EXPORT void gazelle_detach(void) {
 
 GAZELLE_EXPORT void gazelle_on_graph_change(void) { gazelle::attached().on_graph_change.tell(); }
 
-GAZELLE_EXPORT void gazelle_on_event(std::uint64_t listener, const std::uint8_t *json,
+GAZELLE_EXPORT void gazelle_on_event(std::uint64_t listener, const std::uint8_t* json,
                                      std::size_t size) {
-  auto &all = gazelle::attached();
-  std::shared_ptr<std::function<void(const gazelle::Json &)>> function;
+  auto& all = gazelle::attached();
+  std::shared_ptr<std::function<void(const gazelle::Json&)>> function;
   {
     std::lock_guard lock(all.events_mutex);
     auto found = all.events.find(listener);
     if (found != all.events.end()) function = found->second;
   }
-  if (function) (*function)(gazelle::Json::parse(reinterpret_cast<const char *>(json), size));
+  if (function) (*function)(gazelle::Json::parse(reinterpret_cast<const char*>(json), size));
 }
 
 }  // extern "C"

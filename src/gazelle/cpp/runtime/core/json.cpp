@@ -13,8 +13,8 @@ namespace gazelle {
 
 namespace {
 
-const Json &nothing() {
-  static const auto *one = new Json;
+const Json& nothing() {
+  static const auto* one = new Json;
   return *one;
 }
 
@@ -22,7 +22,7 @@ constexpr int kMaxDepth = 500;
 
 class Reader {
  public:
-  Reader(const char *text, std::size_t size) : at_(text), begin_(text), end_(text + size) {}
+  Reader(const char* text, std::size_t size) : at_(text), begin_(text), end_(text + size) {}
 
   Json whole() {
     Json value = read(0);
@@ -32,7 +32,7 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void fail(const char *what) const {
+  [[noreturn]] void fail(const char* what) const {
     throw Error("JSON: " + std::string(what) + " at byte " + std::to_string(at_ - begin_));
   }
 
@@ -40,7 +40,7 @@ class Reader {
     while (at_ != end_ && (*at_ == ' ' || *at_ == '\n' || *at_ == '\t' || *at_ == '\r')) ++at_;
   }
 
-  bool takes(const char *word) {
+  bool takes(const char* word) {
     const std::size_t size = std::strlen(word);
     if (static_cast<std::size_t>(end_ - at_) < size || std::memcmp(at_, word, size) != 0) {
       return false;
@@ -135,7 +135,7 @@ class Reader {
     return value;
   }
 
-  static void put_utf8(std::string &out, unsigned code) {
+  static void put_utf8(std::string& out, unsigned code) {
     if (code < 0x80) {
       out += static_cast<char>(code);
     } else if (code < 0x800) {
@@ -153,7 +153,7 @@ class Reader {
     }
   }
 
-  void escape(std::string &out) {
+  void escape(std::string& out) {
     if (at_ == end_) fail("an escape is cut off");
     switch (const char what = *at_++; what) {
       case 'n':
@@ -194,7 +194,7 @@ class Reader {
     ++at_;
     std::string out;
     while (true) {
-      const char *start = at_;
+      const char* start = at_;
       while (at_ != end_ && *at_ != '"' && *at_ != '\\') ++at_;
       out.append(start, at_);
       if (at_ == end_) fail("a text has no end");
@@ -204,7 +204,7 @@ class Reader {
   }
 
   Json number() {
-    const char *start = at_;
+    const char* start = at_;
     bool is_whole = true;
     while (at_ != end_ && std::strchr("+-0123456789.eE", *at_) != nullptr && *at_ != '\0') {
       is_whole = is_whole && (*at_ == '-' || (*at_ >= '0' && *at_ <= '9'));
@@ -222,13 +222,13 @@ class Reader {
     return value;
   }
 
-  const char *at_;
-  const char *begin_;
-  const char *end_;
+  const char* at_;
+  const char* begin_;
+  const char* end_;
 };
 
 // The length of a UTF-8 sequence that begins here, 0 where there is none.
-std::size_t sequence_at(const unsigned char *at, const unsigned char *end) {
+std::size_t sequence_at(const unsigned char* at, const unsigned char* end) {
   std::size_t size = 0;
   unsigned code = 0;
   if (*at < 0x80) return 1;
@@ -254,10 +254,10 @@ std::size_t sequence_at(const unsigned char *at, const unsigned char *end) {
   return size;
 }
 
-void write_text(std::string &out, const std::string &text) {
+void write_text(std::string& out, const std::string& text) {
   out += '"';
-  const auto *at = reinterpret_cast<const unsigned char *>(text.data());
-  const auto *end = at + text.size();
+  const auto* at = reinterpret_cast<const unsigned char*>(text.data());
+  const auto* end = at + text.size();
   char code[8];
   while (at != end) {
     if (*at == '"' || *at == '\\') {
@@ -267,7 +267,7 @@ void write_text(std::string &out, const std::string &text) {
       std::snprintf(code, sizeof code, "\\u%04x", *at++);
       out += code;
     } else if (const std::size_t size = sequence_at(at, end)) {
-      out.append(reinterpret_cast<const char *>(at), size);
+      out.append(reinterpret_cast<const char*>(at), size);
       at += size;
     } else {
       std::snprintf(code, sizeof code, "\\udc%02x", *at++);
@@ -277,7 +277,7 @@ void write_text(std::string &out, const std::string &text) {
   out += '"';
 }
 
-void write_number(std::string &out, double value) {
+void write_number(std::string& out, double value) {
   if (std::isnan(value)) {
     out += "NaN";
   } else if (std::isinf(value)) {
@@ -294,9 +294,9 @@ void write_number(std::string &out, double value) {
 
 }  // namespace
 
-Json Json::parse(const std::string &text) { return parse(text.data(), text.size()); }
+Json Json::parse(const std::string& text) { return parse(text.data(), text.size()); }
 
-Json Json::parse(const char *text, std::size_t size) { return Reader(text, size).whole(); }
+Json Json::parse(const char* text, std::size_t size) { return Reader(text, size).whole(); }
 
 std::string Json::dump() const {
   std::string text;
@@ -304,7 +304,7 @@ std::string Json::dump() const {
   return text;
 }
 
-void Json::dump_to(std::string &out) const {
+void Json::dump_to(std::string& out) const {
   switch (kind()) {
     case Kind::kNull:
       out += "null";
@@ -322,8 +322,8 @@ void Json::dump_to(std::string &out) const {
       write_text(out, std::get<std::string>(value_));
       break;
     case Kind::kArray: {
-      const char *before = "[";
-      for (const Json &one : items()) {
+      const char* before = "[";
+      for (const Json& one : items()) {
         out += before;
         one.dump_to(out);
         before = ",";
@@ -332,8 +332,8 @@ void Json::dump_to(std::string &out) const {
       break;
     }
     case Kind::kObject: {
-      const char *before = "{";
-      for (const Member &one : members()) {
+      const char* before = "{";
+      for (const Member& one : members()) {
         out += before;
         write_text(out, one.first);
         out += ':';
@@ -347,67 +347,67 @@ void Json::dump_to(std::string &out) const {
 }
 
 bool Json::as_bool(bool fallback) const {
-  const bool *value = std::get_if<bool>(&value_);
+  const bool* value = std::get_if<bool>(&value_);
   return value != nullptr ? *value : fallback;
 }
 
 std::int64_t Json::as_int(std::int64_t fallback) const {
-  if (const auto *value = std::get_if<std::int64_t>(&value_)) return *value;
-  const auto *value = std::get_if<double>(&value_);
+  if (const auto* value = std::get_if<std::int64_t>(&value_)) return *value;
+  const auto* value = std::get_if<double>(&value_);
   if (value == nullptr || !(std::abs(*value) < 9.2e18)) return fallback;
   return static_cast<std::int64_t>(*value);
 }
 
 double Json::as_double(double fallback) const {
-  if (const auto *value = std::get_if<double>(&value_)) return *value;
-  if (const auto *value = std::get_if<std::int64_t>(&value_)) return static_cast<double>(*value);
+  if (const auto* value = std::get_if<double>(&value_)) return *value;
+  if (const auto* value = std::get_if<std::int64_t>(&value_)) return static_cast<double>(*value);
   return fallback;
 }
 
-std::string Json::as_string(const std::string &fallback) const {
-  const auto *value = std::get_if<std::string>(&value_);
+std::string Json::as_string(const std::string& fallback) const {
+  const auto* value = std::get_if<std::string>(&value_);
   return value != nullptr ? *value : fallback;
 }
 
 std::vector<std::string> Json::as_strings() const {
   std::vector<std::string> found;
-  for (const Json &one : items()) found.push_back(one.as_string());
+  for (const Json& one : items()) found.push_back(one.as_string());
   return found;
 }
 
-const Json::Array &Json::items() const {
-  static const auto *none = new Array;
-  const auto *value = std::get_if<Array>(&value_);
+const Json::Array& Json::items() const {
+  static const auto* none = new Array;
+  const auto* value = std::get_if<Array>(&value_);
   return value != nullptr ? *value : *none;
 }
 
-const Json::Object &Json::members() const {
-  static const auto *none = new Object;
-  const auto *value = std::get_if<Object>(&value_);
+const Json::Object& Json::members() const {
+  static const auto* none = new Object;
+  const auto* value = std::get_if<Object>(&value_);
   return value != nullptr ? *value : *none;
 }
 
 std::size_t Json::size() const { return is_object() ? members().size() : items().size(); }
 
-const Json *Json::find(const std::string &key) const {
-  for (const Member &one : members()) {
+const Json* Json::find(const std::string& key) const {
+  for (const Member& one : members()) {
     if (one.first == key) return &one.second;
   }
   return nullptr;
 }
 
-const Json &Json::operator[](const std::string &key) const {
-  const Json *found = find(key);
+const Json& Json::operator[](const std::string& key) const {
+  const Json* found = find(key);
   return found != nullptr ? *found : nothing();
 }
 
-const Json &Json::operator[](std::size_t index) const {
+const Json& Json::operator[](std::size_t index) const {
   return index < items().size() ? items()[index] : nothing();
 }
 
-Json &Json::set(const std::string &key, Json value) {
+Json& Json::set(const std::string& key, Json value) {
   if (!is_object()) value_ = Object();
-  for (Member &one : std::get<Object>(value_)) {
+  for (Member& one : std::get<Object>(value_)) {
     if (one.first == key) {
       one.second = std::move(value);
       return *this;
@@ -417,7 +417,7 @@ Json &Json::set(const std::string &key, Json value) {
   return *this;
 }
 
-Json &Json::push(Json value) {
+Json& Json::push(Json value) {
   if (!is_array()) value_ = Array();
   std::get<Array>(value_).push_back(std::move(value));
   return *this;

@@ -27,7 +27,7 @@ class Listeners {
   }
 
   void tell(Arguments... arguments) const {
-    for (const auto &one : copies()) one(arguments...);
+    for (const auto& one : copies()) one(arguments...);
   }
 
   bool empty() const {
@@ -40,14 +40,14 @@ class Listeners {
     std::lock_guard lock(mutex_);
     std::vector<Function> found;
     found.reserve(functions_.size());
-    for (const auto &one : functions_) found.push_back(one.second);
+    for (const auto& one : functions_) found.push_back(one.second);
     return found;
   }
 
   std::vector<Function> take() {
     std::lock_guard lock(mutex_);
     std::vector<Function> found;
-    for (auto &one : functions_) found.push_back(std::move(one.second));
+    for (auto& one : functions_) found.push_back(std::move(one.second));
     functions_.clear();
     return found;
   }

@@ -28,23 +28,23 @@ struct Life {
   std::mutex mutex;
   bool was_told = false;
   std::string reason;
-  Listeners<const std::string &> listeners;
+  Listeners<const std::string&> listeners;
   std::once_flag at_exit;
 };
 
-Life &life() {
-  static auto *one = new Life;
+Life& life() {
+  static auto* one = new Life;
   return *one;
 }
 
 // What a signal handler may touch.
 std::atomic<int> signal_pipe{-1};
-std::atomic<bool> *is_ending_flag = nullptr;
+std::atomic<bool>* is_ending_flag = nullptr;
 std::atomic<int> last_signal{0};
 struct sigaction previous_actions[NSIG];
 std::atomic<bool> is_installed[NSIG];
 
-void on_signal(int number, siginfo_t *info, void *context) {
+void on_signal(int number, siginfo_t* info, void* context) {
   const int error = errno;
   last_signal.store(number);
   is_ending_flag->store(true);
@@ -52,7 +52,7 @@ void on_signal(int number, siginfo_t *info, void *context) {
   if (write(signal_pipe.load(), &word, 1) < 0) {
     // The pipe is full of signals: the thread is on its way already.
   }
-  const struct sigaction &before = previous_actions[number];
+  const struct sigaction& before = previous_actions[number];
   if ((before.sa_flags & SA_SIGINFO) != 0) {
     if (before.sa_sigaction != nullptr) before.sa_sigaction(number, info, context);
   } else if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN) {
@@ -96,8 +96,8 @@ void leave_graph_at_exit() {
 
 bool ok() { return !life().is_ending.load(std::memory_order_relaxed); }
 
-void request_shutdown(const std::string &reason) {
-  Life &all = life();
+void request_shutdown(const std::string& reason) {
+  Life& all = life();
   {
     std::lock_guard lock(all.mutex);
     all.is_ending = true;
@@ -119,7 +119,7 @@ std::string shutdown_reason() {
   return life().reason;
 }
 
-std::uint64_t on_shutdown(std::function<void(const std::string &)> listener) {
+std::uint64_t on_shutdown(std::function<void(const std::string&)> listener) {
   return life().listeners.add(std::move(listener));
 }
 
@@ -133,7 +133,7 @@ void reset_shutdown() {
   life().reason.clear();
 }
 
-void install_signal_handlers(const std::vector<int> &numbers) {
+void install_signal_handlers(const std::vector<int>& numbers) {
   start_signal_thread();
   for (int number : numbers) {
     if (number <= 0 || number >= NSIG || is_installed[number].exchange(true)) continue;
@@ -163,19 +163,19 @@ void uninstall_signal_handlers() {
 }
 
 void leave_graph() {
-  const gazelle_host *host = host::table();
+  const gazelle_host* host = host::table();
   if (host == nullptr) return;
   std::cout.flush();
   try {
     call("process/leave");
-  } catch (const std::exception &error) {
+  } catch (const std::exception& error) {
     std::cerr << "leaving the graph: " << error.what() << std::endl;
   }
 }
 
-std::string demangled(const char *name) {
+std::string demangled(const char* name) {
   int status = 0;
-  char *found = abi::__cxa_demangle(name, nullptr, nullptr, &status);
+  char* found = abi::__cxa_demangle(name, nullptr, nullptr, &status);
   if (found == nullptr) return name;
   std::string text = found;
   std::free(found);
@@ -191,7 +191,7 @@ GAZELLE_EXPORT void gazelle_prepare_process(void) {
   gazelle::leave_graph_at_exit();
 }
 
-GAZELLE_EXPORT int gazelle_run_main(int (*main)(int, char **, char **), int argc, char **argv) {
+GAZELLE_EXPORT int gazelle_run_main(int (*main)(int, char**, char**), int argc, char** argv) {
   // What the program does not catch nobody below catches either: it ends in std::terminate where
   // it was thrown, with nothing unwound, as in any other process.
   std::exit(main(argc, argv, environ));

@@ -33,7 +33,7 @@ class Registry {
   std::vector<std::shared_ptr<T>> all() const {
     std::vector<std::shared_ptr<T>> found;
     std::shared_lock lock(mutex_);
-    for (const auto &one : objects_) {
+    for (const auto& one : objects_) {
       if (auto object = one.second.lock()) found.push_back(std::move(object));
     }
     return found;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::int64_t kLookNs = 100'000'000;
 
-Registry<ServerEnd> &servers() {
-  static auto *all = new Registry<ServerEnd>;
+Registry<ServerEnd>& servers() {
+  static auto* all = new Registry<ServerEnd>;
   return *all;
 }
 
@@ -40,8 +40,8 @@ struct Calls {
   }
 };
 
-Calls &calls() {
-  static auto *all = new Calls;
+Calls& calls() {
+  static auto* all = new Calls;
   return *all;
 }
 
@@ -73,15 +73,15 @@ void ServerEnd::take(RequestId request, Bytes bytes) {
   }
 }
 
-void ServerEnd::respond(const RequestId &request, Bytes response) {
-  if (const gazelle_host *host = host::table()) {
+void ServerEnd::respond(const RequestId& request, Bytes response) {
+  if (const gazelle_host* host = host::table()) {
     host->respond(request.number, 0, response.data(), response.size());
   }
 }
 
-void ServerEnd::fail(const RequestId &request, const std::string &text) {
-  if (const gazelle_host *host = host::table()) {
-    host->respond(request.number, 1, reinterpret_cast<const std::uint8_t *>(text.data()),
+void ServerEnd::fail(const RequestId& request, const std::string& text) {
+  if (const gazelle_host* host = host::table()) {
+    host->respond(request.number, 1, reinterpret_cast<const std::uint8_t*>(text.data()),
                   text.size());
   }
 }
@@ -119,7 +119,7 @@ std::int64_t ClientEnd::call_async(Bytes request, std::function<void(CallResult)
     });
     under_way_[own] = number;
   }
-  const gazelle_host *host = closed_ ? nullptr : host::table();
+  const gazelle_host* host = closed_ ? nullptr : host::table();
   int status = GAZELLE_CLOSED;
   if (host != nullptr) {
     host::SignalsBlocked quiet;
@@ -147,7 +147,7 @@ void ClientEnd::cancel(std::int64_t number) {
 
 CallResult ClientEnd::call(Bytes request, double timeout_s) {
   std::optional<CallResult> found;
-  const gazelle_host *host = closed_ ? nullptr : host::table();
+  const gazelle_host* host = closed_ ? nullptr : host::table();
   if (host != nullptr) {
     const std::uint64_t number =
         calls().add([&found](CallResult result) { found = std::move(result); });
@@ -170,8 +170,8 @@ bool ClientEnd::wait_for(double timeout_s) {
   while (!closed_) {
     const std::int64_t left = std::max<std::int64_t>(end - clock::steady_ns(), 0);
     const double slice_s = static_cast<double>(std::min(left, kLookNs)) * 1e-9;
-    const Json answer = gazelle::call(
-        "service/wait", Json::object({{"handle", handle_}, {"timeout_s", slice_s}}));
+    const Json answer =
+        gazelle::call("service/wait", Json::object({{"handle", handle_}, {"timeout_s", slice_s}}));
     if (answer.as_bool()) return true;
     if (left <= kLookNs || !ok() || answer.is_null()) return false;
   }
@@ -182,7 +182,7 @@ void ClientEnd::close() {
   if (closed_.exchange(true)) return;
   {
     std::lock_guard lock(mutex_);
-    for (const auto &one : under_way_) calls().take(one.second);
+    for (const auto& one : under_way_) calls().take(one.second);
     under_way_.clear();
   }
   host::call_at_end("end/close", Json::object({{"handle", handle_}}));
@@ -193,9 +193,9 @@ void ClientEnd::close() {
 extern "C" {
 
 GAZELLE_EXPORT void gazelle_on_request(std::uint64_t server, std::uint64_t request,
-                                       const std::uint8_t *cdr, std::size_t size, void *owner,
-                                       const std::uint8_t *client, std::int64_t sequence,
-                                       std::int64_t stamp_ns, const char *caller) {
+                                       const std::uint8_t* cdr, std::size_t size, void* owner,
+                                       const std::uint8_t* client, std::int64_t sequence,
+                                       std::int64_t stamp_ns, const char* caller) {
   using namespace gazelle;  // NOLINT: the whole of it is ours
   Bytes bytes = host::lent(cdr, size, owner);
   RequestId id;
@@ -206,14 +206,14 @@ GAZELLE_EXPORT void gazelle_on_request(std::uint64_t server, std::uint64_t reque
   id.number = request;
   if (const auto end = servers().find(server)) {
     end->take(std::move(id), std::move(bytes));
-  } else if (const gazelle_host *host = host::table()) {
+  } else if (const gazelle_host* host = host::table()) {
     static constexpr char kText[] = "the service was shut down";
-    host->respond(request, 1, reinterpret_cast<const std::uint8_t *>(kText), sizeof kText - 1);
+    host->respond(request, 1, reinterpret_cast<const std::uint8_t*>(kText), sizeof kText - 1);
   }
 }
 
-GAZELLE_EXPORT void gazelle_on_response(std::uint64_t call, int status, const std::uint8_t *data,
-                                        std::size_t size, void *owner, std::int64_t sequence,
+GAZELLE_EXPORT void gazelle_on_response(std::uint64_t call, int status, const std::uint8_t* data,
+                                        std::size_t size, void* owner, std::int64_t sequence,
                                         std::int64_t stamp_ns) {
   using namespace gazelle;  // NOLINT
   (void)sequence;
@@ -226,7 +226,7 @@ GAZELLE_EXPORT void gazelle_on_response(std::uint64_t call, int status, const st
   if (status == 0) {
     result.response = std::move(bytes);
   } else {
-    result.text.assign(reinterpret_cast<const char *>(data), size);
+    result.text.assign(reinterpret_cast<const char*>(data), size);
   }
   done(std::move(result));
 }

@@ -21,9 +21,9 @@ class ServerEnd final : public ServiceServer, public std::enable_shared_from_thi
 
   void open(Json request);
 
-  void respond(const RequestId &request, Bytes response) override;
-  void fail(const RequestId &request, const std::string &text) override;
-  const std::string &name() const override { return name_; }
+  void respond(const RequestId& request, Bytes response) override;
+  void fail(const RequestId& request, const std::string& text) override;
+  const std::string& name() const override { return name_; }
   void close() override;
 
   void take(RequestId request, Bytes bytes);
@@ -48,7 +48,7 @@ class ClientEnd final : public ServiceClient, public std::enable_shared_from_thi
   CallResult call(Bytes request, double timeout_s) override;
   bool is_ready() const override;
   bool wait_for(double timeout_s) override;
-  const std::string &name() const override { return name_; }
+  const std::string& name() const override { return name_; }
   void close() override;
 
  private:

@@ -11,31 +11,31 @@ namespace gazelle {
 
 namespace {
 
-Registry<PublisherEnd> &publishers() {
-  static auto *all = new Registry<PublisherEnd>;
+Registry<PublisherEnd>& publishers() {
+  static auto* all = new Registry<PublisherEnd>;
   return *all;
 }
 
-Registry<SubscriptionEnd> &subscriptions() {
-  static auto *all = new Registry<SubscriptionEnd>;
+Registry<SubscriptionEnd>& subscriptions() {
+  static auto* all = new Registry<SubscriptionEnd>;
   return *all;
 }
 
 // The subscriptions whose function this thread is in: one that closes itself waits for nobody.
-thread_local std::vector<const SubscriptionEnd *> running_here;
+thread_local std::vector<const SubscriptionEnd*> running_here;
 
 struct Running {
-  explicit Running(const SubscriptionEnd *one) { running_here.push_back(one); }
+  explicit Running(const SubscriptionEnd* one) { running_here.push_back(one); }
   ~Running() { running_here.pop_back(); }
-  Running(const Running &) = delete;
-  Running &operator=(const Running &) = delete;
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
 };
 
 int digit(char character) {
   return character <= '9' ? character - '0' : (character | 0x20) - 'a' + 10;
 }
 
-std::array<std::uint8_t, 16> gid_of(const std::string &text) {
+std::array<std::uint8_t, 16> gid_of(const std::string& text) {
   std::array<std::uint8_t, 16> gid{};
   for (std::size_t i = 0; i < gid.size() && 2 * i + 1 < text.size(); ++i) {
     gid[i] = static_cast<std::uint8_t>(digit(text[2 * i]) << 4 | digit(text[2 * i + 1]));
@@ -43,7 +43,7 @@ std::array<std::uint8_t, 16> gid_of(const std::string &text) {
   return gid;
 }
 
-void replace(LocalTopic &topic, SubscriptionEnds ends) {
+void replace(LocalTopic& topic, SubscriptionEnds ends) {
   std::atomic_store_explicit(
       &topic.subscriptions,
       std::shared_ptr<const SubscriptionEnds>(std::make_shared<SubscriptionEnds>(std::move(ends))),
@@ -52,19 +52,19 @@ void replace(LocalTopic &topic, SubscriptionEnds ends) {
 
 }  // namespace
 
-std::shared_ptr<LocalTopic> local_topic(const std::string &name) {
-  static auto *mutex = new std::mutex;
-  static auto *topics = new std::unordered_map<std::string, std::shared_ptr<LocalTopic>>;
+std::shared_ptr<LocalTopic> local_topic(const std::string& name) {
+  static auto* mutex = new std::mutex;
+  static auto* topics = new std::unordered_map<std::string, std::shared_ptr<LocalTopic>>;
   std::lock_guard lock(*mutex);
-  auto &found = (*topics)[name];
+  auto& found = (*topics)[name];
   if (!found) found = std::make_shared<LocalTopic>();
   return found;
 }
 
 // ---- Publishers ---------------------------------------------------------------------------------
 
-PublisherEnd::PublisherEnd(std::uint64_t node, std::string node_name, const Qos &qos,
-                           const PublisherOptions &options, const MessageType *type)
+PublisherEnd::PublisherEnd(std::uint64_t node, std::string node_name, const Qos& qos,
+                           const PublisherOptions& options, const MessageType* type)
     : node_(node),
       node_name_(std::move(node_name)),
       qos_(qos),
@@ -97,7 +97,7 @@ MessageInfo PublisherEnd::next_info() {
   return info;
 }
 
-void PublisherEnd::publish(std::shared_ptr<const void> message, const MessageType &type) {
+void PublisherEnd::publish(std::shared_ptr<const void> message, const MessageType& type) {
   if (closed() || !message) return;
   if (!latched_ && local_->listeners()->empty()) {
     if (is_wanted_elsewhere_.load(std::memory_order_relaxed)) {
@@ -110,8 +110,8 @@ void PublisherEnd::publish(std::shared_ptr<const void> message, const MessageTyp
   deliver(Delivered(std::move(message), &type, next_info()));
 }
 
-void PublisherEnd::publish_copy(const void *message, const MessageType &type,
-                                std::shared_ptr<const void> (*copy)(const void *)) {
+void PublisherEnd::publish_copy(const void* message, const MessageType& type,
+                                std::shared_ptr<const void> (*copy)(const void*)) {
   if (closed()) return;
   const bool is_kept = latched_ || !local_->listeners()->empty();
   if (!is_kept) {
@@ -136,7 +136,7 @@ void PublisherEnd::publish_cdr(Bytes cdr) {
   deliver(Delivered(std::move(cdr), type_name_, next_info()));
 }
 
-void PublisherEnd::deliver(const Delivered &message) {
+void PublisherEnd::deliver(const Delivered& message) {
   if (!latched_) {
     hand(message, *local_->listeners());
     if (is_wanted_elsewhere_.load(std::memory_order_relaxed)) send(message);
@@ -154,30 +154,30 @@ void PublisherEnd::deliver(const Delivered &message) {
   send(message);
 }
 
-void PublisherEnd::hand(const Delivered &message, const SubscriptionEnds &subscriptions) const {
-  for (const auto &one : subscriptions) {
+void PublisherEnd::hand(const Delivered& message, const SubscriptionEnds& subscriptions) const {
+  for (const auto& one : subscriptions) {
     if (one->takes(message.type_name(), node_name_)) one->take(message);
   }
 }
 
-void PublisherEnd::hand_latched(SubscriptionEnd &subscription) const {
+void PublisherEnd::hand_latched(SubscriptionEnd& subscription) const {
   if (last_ && subscription.takes(last_->type_name(), node_name_)) subscription.take(*last_);
 }
 
-void PublisherEnd::send(const Delivered &message) {
+void PublisherEnd::send(const Delivered& message) {
   const Bytes bytes = message.cdr();
   send_bytes(bytes.data(), bytes.size(), message.info());
 }
 
-void PublisherEnd::send(const void *message, const MessageType &type, const MessageInfo &info) {
+void PublisherEnd::send(const void* message, const MessageType& type, const MessageInfo& info) {
   // Kept by the thread: a large message then meets memory that is there already.
   static thread_local std::vector<std::uint8_t> bytes;
   type.encode(message, bytes);
   send_bytes(bytes.data(), bytes.size(), info);
 }
 
-void PublisherEnd::send_bytes(const std::uint8_t *data, std::size_t size, const MessageInfo &info) {
-  if (const gazelle_host *host = host::table()) {
+void PublisherEnd::send_bytes(const std::uint8_t* data, std::size_t size, const MessageInfo& info) {
+  if (const gazelle_host* host = host::table()) {
     host->publish(handle_, data, size, static_cast<std::int64_t>(info.sequence), info.stamp_ns);
   }
 }
@@ -197,7 +197,7 @@ void PublisherEnd::on_matched(std::size_t count, bool is_wanted_elsewhere) {
   if (count_.exchange(count) != count && options_.matched) options_.matched(count);
 }
 
-void PublisherEnd::on_subscriber(const std::string &node, bool is_there) {
+void PublisherEnd::on_subscriber(const std::string& node, bool is_there) {
   if (options_.subscriber_changed) options_.subscriber_changed(node, is_there);
 }
 
@@ -206,7 +206,7 @@ void PublisherEnd::close() {
   if (closed_.exchange(true)) return;
   {
     std::lock_guard lock(local_->mutex);
-    auto &all = local_->publishers;
+    auto& all = local_->publishers;
     all.erase(std::remove(all.begin(), all.end(), this), all.end());
   }
   host::call_at_end("end/close", Json::object({{"handle", handle_}}));
@@ -214,10 +214,9 @@ void PublisherEnd::close() {
 
 // ---- Subscriptions ------------------------------------------------------------------------------
 
-SubscriptionEnd::SubscriptionEnd(std::uint64_t node, std::string node_name,
-                                 const MessageType *type, const Qos &qos,
-                                 std::function<void(Delivered)> function,
-                                 const SubscriptionOptions &options)
+SubscriptionEnd::SubscriptionEnd(std::uint64_t node, std::string node_name, const MessageType* type,
+                                 const Qos& qos, std::function<void(Delivered)> function,
+                                 const SubscriptionOptions& options)
     : node_(node),
       node_name_(std::move(node_name)),
       type_(type),
@@ -247,14 +246,14 @@ void SubscriptionEnd::open(Json request) {
   local_ = local_topic(topic_);
   std::lock_guard lock(local_->mutex);
   if (options_.latched) {
-    for (const PublisherEnd *one : local_->publishers) one->hand_latched(*this);
+    for (const PublisherEnd* one : local_->publishers) one->hand_latched(*this);
   }
   SubscriptionEnds ends = *local_->listeners();
   ends.push_back(shared_from_this());
   replace(*local_, std::move(ends));
 }
 
-bool SubscriptionEnd::takes(const std::string &type_name, const std::string &node_name) {
+bool SubscriptionEnd::takes(const std::string& type_name, const std::string& node_name) {
   if (options_.ignore_local && node_name == node_name_) return false;
   if (type_name_.empty() || type_name_ == type_name) return true;
   {
@@ -262,7 +261,8 @@ bool SubscriptionEnd::takes(const std::string &type_name, const std::string &nod
     if (!refused_.insert(type_name).second) return false;
   }
   call("topic/refuse",
-       Json::object({{"node", node_}, {"topic", topic_}, {"wanted", type_name_}, {"type", type_name}}));
+       Json::object(
+           {{"node", node_}, {"topic", topic_}, {"wanted", type_name_}, {"type", type_name}}));
   return false;
 }
 
@@ -287,7 +287,7 @@ void SubscriptionEnd::close() {
     std::lock_guard lock(local_->mutex);
     SubscriptionEnds ends = *local_->listeners();
     const auto mine = std::find_if(ends.begin(), ends.end(),
-                                   [this](const auto &one) { return one.get() == this; });
+                                   [this](const auto& one) { return one.get() == this; });
     if (mine != ends.end()) ends.erase(mine);
     replace(*local_, std::move(ends));
   }
@@ -301,10 +301,10 @@ void SubscriptionEnd::close() {
 
 extern "C" {
 
-GAZELLE_EXPORT void gazelle_on_message(std::uint64_t subscription, const std::uint8_t *cdr,
-                                       std::size_t size, void *owner, const char *type_name,
+GAZELLE_EXPORT void gazelle_on_message(std::uint64_t subscription, const std::uint8_t* cdr,
+                                       std::size_t size, void* owner, const char* type_name,
                                        std::int64_t sequence, std::int64_t stamp_ns,
-                                       const std::uint8_t *gid, const char *publisher) {
+                                       const std::uint8_t* gid, const char* publisher) {
   using namespace gazelle;  // NOLINT: the whole of it is ours
   Bytes bytes = host::lent(cdr, size, owner);
   const auto end = subscriptions().find(subscription);
@@ -328,8 +328,7 @@ GAZELLE_EXPORT void gazelle_on_matched(std::uint64_t end, std::uint64_t count,
   }
 }
 
-GAZELLE_EXPORT void gazelle_on_subscriber(std::uint64_t publisher, const char *node,
-                                          int is_there) {
+GAZELLE_EXPORT void gazelle_on_subscriber(std::uint64_t publisher, const char* node, int is_there) {
   using namespace gazelle;  // NOLINT
   if (const auto found = publishers().find(publisher)) found->on_subscriber(node, is_there != 0);
 }

@@ -16,7 +16,7 @@ struct Waiting {
   std::multiset<std::int64_t> targets;
 };
 
-Waiting &waiting();
+Waiting& waiting();
 
 // Let everybody look again, the thread of the timers included.
 void wake_all();
