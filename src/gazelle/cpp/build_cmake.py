@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+import signal
 import subprocess
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -302,7 +305,7 @@ def _run(
     command: Sequence[str], environ: Mapping[str, str], unit: Unit, said: Said | None
 ) -> CMakeRun:
     run = CMakeRun(0)
-    with subprocess.Popen(
+    with _children_heard(), subprocess.Popen(
         command,
         env=_environment(environ, unit),
         stdin=subprocess.DEVNULL,
@@ -320,6 +323,23 @@ def _run(
         run.code = process.wait()
     run.failures = _failures(run.lines)
     return run
+
+
+@contextmanager
+def _children_heard() -> Iterator[None]:
+    """Let what this thread starts hear of its own children, as CMake has to.
+
+    Threads of nodes hold signals, and a program inherits that: a nodelet that is loaded is
+    compiled in such a thread.
+    """
+    if sys.platform == "win32":
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGCHLD})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _failures(lines: Sequence[str]) -> dict[str, str]:
