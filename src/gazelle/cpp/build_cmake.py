@@ -305,15 +305,18 @@ def _run(
     command: Sequence[str], environ: Mapping[str, str], unit: Unit, said: Said | None
 ) -> CMakeRun:
     run = CMakeRun(0)
-    with _children_heard(), subprocess.Popen(
-        command,
-        env=_environment(environ, unit),
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-    ) as process:
+    with (
+        _children_heard(),
+        subprocess.Popen(
+            command,
+            env=_environment(environ, unit),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+        ) as process,
+    ):
         assert process.stdout is not None
         for line in process.stdout:
             text = line.rstrip("\n")
