@@ -112,7 +112,12 @@ def test_simulated_time_comes_by_messages_and_jumps_are_told(graph: Graph, probe
     running = probe("sleep")
     running.wait_for_line("ready 1")
     eventually(lambda: publisher.subscription_count > 0 and publisher.matched)
-    eventually(lambda: (show(1), any(line.startswith("start") for line in running.lines))[1])
+
+    def has_started() -> bool:
+        show(1)
+        return any(line.startswith("start") for line in running.lines)
+
+    eventually(has_started)
     running.wait_for_line("start 1000000000")
     show(2)
     running.wait_for_line("reached 0")
