@@ -86,7 +86,7 @@ def test_a_container_compiles_loads_and_unloads_components(
 ) -> None:
     del shared_cpp_cache
     running = gazelle(
-        "ros2", "run", "rclcpp_components", "component_container", cwd=parts.parent.parent
+        "rclcpp_components/component_container", module="gazelle.nodes", cwd=parts.parent.parent
     )
     node, got = graph.create_node("tester"), []
     string = message_type("std_msgs/msg/String")
