@@ -14,14 +14,14 @@
 
 namespace {
 
-void said(const char *what, const geometry_msgs::Point &point) {
+void said(const char* what, const geometry_msgs::Point& point) {
   std::printf("%s %.3f %.3f %.3f\n", what, point.x, point.y, point.z);
   std::fflush(stdout);
 }
 
 }  // namespace
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   ros::init(argc, argv, "frames");
   ros::NodeHandle node;
 
@@ -36,7 +36,7 @@ int main(int argc, char **argv) {
   still.sendTransform(mount);
 
   tf::TransformBroadcaster moving;
-  ros::Timer timer = node.createTimer(ros::Duration(0.02), [&](const ros::TimerEvent &) {
+  ros::Timer timer = node.createTimer(ros::Duration(0.02), [&](const ros::TimerEvent&) {
     tf::Transform pose(tf::createQuaternionFromYaw(M_PI / 2), tf::Vector3(1.0, 2.0, 0.0));
     moving.sendTransform(tf::StampedTransform(pose, ros::Time::now(), "/odom", "/base_link"));
   });
@@ -47,16 +47,16 @@ int main(int argc, char **argv) {
 
   message_filters::Subscriber<geometry_msgs::PointStamped> points(node, "points", 10);
   tf2_ros::MessageFilter<geometry_msgs::PointStamped> filter(points, buffer, "odom", 10, node);
-  filter.registerCallback([&](const geometry_msgs::PointStampedConstPtr &point) {
+  filter.registerCallback([&](const geometry_msgs::PointStampedConstPtr& point) {
     said("filtered", buffer.transform(*point, "odom").point);
   });
-  filter.registerFailureCallback([](const geometry_msgs::PointStampedConstPtr &point,
-                                    tf2_ros::FilterFailureReason reason) {
-    std::printf("given up %s %d\n", point->header.frame_id.c_str(), static_cast<int>(reason));
-    std::fflush(stdout);
-  });
+  filter.registerFailureCallback(
+      [](const geometry_msgs::PointStampedConstPtr& point, tf2_ros::FilterFailureReason reason) {
+        std::printf("given up %s %d\n", point->header.frame_id.c_str(), static_cast<int>(reason));
+        std::fflush(stdout);
+      });
   tf::MessageFilter<geometry_msgs::PointStamped> old_filter(points, old_listener, "odom", 10);
-  old_filter.registerCallback([&](const geometry_msgs::PointStampedConstPtr &point) {
+  old_filter.registerCallback([&](const geometry_msgs::PointStampedConstPtr& point) {
     geometry_msgs::PointStamped out;
     old_listener.transformPoint("odom", *point, out);
     said("old", out.point);
@@ -77,7 +77,7 @@ int main(int argc, char **argv) {
   }
   try {
     buffer.lookupTransform("odom", "nowhere", ros::Time(0));
-  } catch (const tf2::TransformException &error) {
+  } catch (const tf2::TransformException& error) {
     std::printf("error %s\n", error.what());
     std::fflush(stdout);
   }

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-void said(const char *what, double x, double y, double z) {
+void said(const char* what, double x, double y, double z) {
   std::printf("%s %.3f %.3f %.3f\n", what, x, y, z);
   std::fflush(stdout);
 }
@@ -34,7 +34,7 @@ class Frames : public rclcpp::Node {
     geometry_msgs::msg::TransformStamped mount;
     mount.header.frame_id = "base_link";
     mount.transform.translation.z = 0.5;
-    for (const char *child : {"camera", "laser"}) {
+    for (const char* child : {"camera", "laser"}) {
       mount.child_frame_id = child;
       still_.sendTransform(mount);
     }
@@ -54,7 +54,7 @@ class Frames : public rclcpp::Node {
         3s);
     filter_->registerCallback(&Frames::placed, this);
     buffer_->waitForTransform("odom", "gripper", tf2::TimePointZero, 20s,
-                              [this](const tf2_ros::TransformStampedFuture &answer) {
+                              [this](const tf2_ros::TransformStampedFuture& answer) {
                                 const auto t = answer.get().transform.translation;
                                 said("gripper", t.x, t.y, t.z);
                                 tell_errors();
@@ -62,14 +62,14 @@ class Frames : public rclcpp::Node {
   }
 
  private:
-  void placed(const PointStamped::ConstSharedPtr &point) {
+  void placed(const PointStamped::ConstSharedPtr& point) {
     const PointStamped out = buffer_->transform(*point, "odom");
     said("filtered", out.point.x, out.point.y, out.point.z);
   }
   void tell_errors() {
     try {
       buffer_->lookupTransform("odom", "nowhere", tf2::TimePointZero);
-    } catch (const tf2::LookupException &error) {
+    } catch (const tf2::LookupException& error) {
       std::printf("error %s\n", error.what());
     }
     std::string why;
@@ -89,7 +89,7 @@ class Frames : public rclcpp::Node {
 
 }  // namespace
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
   rclcpp::spin(std::make_shared<Frames>());
   rclcpp::shutdown();

@@ -11,13 +11,13 @@ namespace KDL {
 namespace {
 
 // What moving a mass by c adds to the inertia about the place that it left.
-RotationalInertia of_point(double m, const Vector &c) {
+RotationalInertia of_point(double m, const Vector& c) {
   return RotationalInertia(m * (c[1] * c[1] + c[2] * c[2]), m * (c[0] * c[0] + c[2] * c[2]),
                            m * (c[0] * c[0] + c[1] * c[1]), -m * c[0] * c[1], -m * c[0] * c[2],
                            -m * c[1] * c[2]);
 }
 
-RotationalInertia turned(const Rotation &r, const RotationalInertia &inertia) {
+RotationalInertia turned(const Rotation& r, const RotationalInertia& inertia) {
   Rotation middle;
   for (int i = 0; i < 9; ++i) middle.data[i] = inertia.data[i];
   middle = r * middle * r.Inverse();
@@ -28,15 +28,15 @@ RotationalInertia turned(const Rotation &r, const RotationalInertia &inertia) {
 
 }  // namespace
 
-RigidBodyInertia::RigidBodyInertia(double m, const Vector &cog, const RotationalInertia &Ic)
+RigidBodyInertia::RigidBodyInertia(double m, const Vector& cog, const RotationalInertia& Ic)
     : m_(m), h_(cog * m), I_(Ic + of_point(m, cog)) {}
 
-RigidBodyInertia RigidBodyInertia::RefPoint(const Vector &p) const {
+RigidBodyInertia RigidBodyInertia::RefPoint(const Vector& p) const {
   const Vector cog = getCOG();
   return RigidBodyInertia(m_, cog - p, I_ + -1.0 * of_point(m_, cog));
 }
 
-RigidBodyInertia operator+(const RigidBodyInertia &a, const RigidBodyInertia &b) {
+RigidBodyInertia operator+(const RigidBodyInertia& a, const RigidBodyInertia& b) {
   RigidBodyInertia out = a;
   out.m_ += b.m_;
   out.h_ += b.h_;
@@ -44,25 +44,25 @@ RigidBodyInertia operator+(const RigidBodyInertia &a, const RigidBodyInertia &b)
   return out;
 }
 
-RigidBodyInertia operator*(double s, const RigidBodyInertia &inertia) {
+RigidBodyInertia operator*(double s, const RigidBodyInertia& inertia) {
   const Vector cog = inertia.getCOG();
   const RotationalInertia about_cog =
       inertia.getRotationalInertia() + -1.0 * of_point(inertia.getMass(), cog);
   return RigidBodyInertia(s * inertia.getMass(), cog, s * about_cog);
 }
 
-RigidBodyInertia operator*(const Rotation &rotation, const RigidBodyInertia &inertia) {
+RigidBodyInertia operator*(const Rotation& rotation, const RigidBodyInertia& inertia) {
   RigidBodyInertia out = inertia;
   out.h_ = rotation * inertia.h_;
   out.I_ = turned(rotation, inertia.I_);
   return out;
 }
 
-RigidBodyInertia operator*(const Frame &frame, const RigidBodyInertia &inertia) {
+RigidBodyInertia operator*(const Frame& frame, const RigidBodyInertia& inertia) {
   return (frame.M * inertia).RefPoint(-frame.p);
 }
 
-Wrench operator*(const RigidBodyInertia &inertia, const Twist &t) {
+Wrench operator*(const RigidBodyInertia& inertia, const Twist& t) {
   return Wrench(inertia.m_ * t.vel - inertia.h_ * t.rot, inertia.I_ * t.rot + inertia.h_ * t.vel);
 }
 
@@ -91,7 +91,7 @@ Vector named_axis(Joint::JointType type) {
 
 }  // namespace
 
-Joint::Joint(const std::string &name, const JointType &type, double scale, double offset,
+Joint::Joint(const std::string& name, const JointType& type, double scale, double offset,
              double inertia, double damping, double stiffness)
     : name_(name),
       type_(type),
@@ -102,12 +102,12 @@ Joint::Joint(const std::string &name, const JointType &type, double scale, doubl
       stiffness_(stiffness),
       axis_(named_axis(type)) {}
 
-Joint::Joint(const JointType &type, double scale, double offset, double inertia, double damping,
+Joint::Joint(const JointType& type, double scale, double offset, double inertia, double damping,
              double stiffness)
     : Joint("NoName", type, scale, offset, inertia, damping, stiffness) {}
 
-Joint::Joint(const std::string &name, const Vector &origin, const Vector &axis,
-             const JointType &type, double scale, double offset, double inertia, double damping,
+Joint::Joint(const std::string& name, const Vector& origin, const Vector& axis,
+             const JointType& type, double scale, double offset, double inertia, double damping,
              double stiffness)
     : name_(name),
       type_(type),
@@ -123,7 +123,7 @@ Joint::Joint(const std::string &name, const Vector &origin, const Vector &axis,
   axis_.Normalize();
 }
 
-Joint::Joint(const Vector &origin, const Vector &axis, const JointType &type, double scale,
+Joint::Joint(const Vector& origin, const Vector& axis, const JointType& type, double scale,
              double offset, double inertia, double damping, double stiffness)
     : Joint("NoName", origin, axis, type, scale, offset, inertia, damping, stiffness) {}
 
@@ -143,38 +143,38 @@ Twist Joint::twist(double qdot) const {
 Vector Joint::JointAxis() const { return axis_; }
 
 const std::string Joint::getTypeName() const {
-  static const char *const names[] = {"RotAxis",   "RotX",   "RotY",   "RotZ", "TransAxis",
-                                      "TransX", "TransY", "TransZ", "Fixed"};
+  static const char* const names[] = {"RotAxis", "RotX",   "RotY",   "RotZ", "TransAxis",
+                                      "TransX",  "TransY", "TransZ", "Fixed"};
   return names[type_];
 }
 
 // ---- Segment, chain ---------------------------------------------------------------------------
 
-Segment::Segment(const std::string &name, const Joint &joint, const Frame &f_tip,
-                 const RigidBodyInertia &I)
+Segment::Segment(const std::string& name, const Joint& joint, const Frame& f_tip,
+                 const RigidBodyInertia& I)
     : name_(name), joint_(joint), inertia_(I), f_tip_(joint.pose(0.0).Inverse() * f_tip) {}
 
-Segment::Segment(const Joint &joint, const Frame &f_tip, const RigidBodyInertia &I)
+Segment::Segment(const Joint& joint, const Frame& f_tip, const RigidBodyInertia& I)
     : Segment("NoName", joint, f_tip, I) {}
 
-void Chain::addSegment(const Segment &segment) {
+void Chain::addSegment(const Segment& segment) {
   segments.push_back(segment);
   if (segment.getJoint().getType() != Joint::Fixed) ++joints_;
 }
 
-void Chain::addChain(const Chain &chain) {
-  for (const Segment &one : std::vector<Segment>(chain.segments)) addSegment(one);
+void Chain::addChain(const Chain& chain) {
+  for (const Segment& one : std::vector<Segment>(chain.segments)) addSegment(one);
 }
 
 // ---- Tree -------------------------------------------------------------------------------------
 
-Tree::Tree(const std::string &root_name) : root_(root_name) {
+Tree::Tree(const std::string& root_name) : root_(root_name) {
   segments_.insert(std::make_pair(root_, TreeElement::Root(root_)));
 }
 
-Tree::Tree(const Tree &other) : Tree(other.root_) { add_all(other.getRootSegment(), root_); }
+Tree::Tree(const Tree& other) : Tree(other.root_) { add_all(other.getRootSegment(), root_); }
 
-Tree &Tree::operator=(const Tree &other) {
+Tree& Tree::operator=(const Tree& other) {
   if (this == &other) return *this;
   segments_.clear();
   joints_ = 0;
@@ -184,7 +184,7 @@ Tree &Tree::operator=(const Tree &other) {
   return *this;
 }
 
-bool Tree::addSegment(const Segment &segment, const std::string &hook_name) {
+bool Tree::addSegment(const Segment& segment, const std::string& hook_name) {
   const auto parent = segments_.find(hook_name);
   if (parent == segments_.end()) return false;
   const bool moves = segment.getJoint().getType() != Joint::Fixed;
@@ -196,21 +196,21 @@ bool Tree::addSegment(const Segment &segment, const std::string &hook_name) {
   return true;
 }
 
-bool Tree::addChain(const Chain &chain, const std::string &hook_name) {
+bool Tree::addChain(const Chain& chain, const std::string& hook_name) {
   std::string hook = hook_name;
-  for (const Segment &one : chain.segments) {
+  for (const Segment& one : chain.segments) {
     if (!addSegment(one, hook)) return false;
     hook = one.getName();
   }
   return true;
 }
 
-bool Tree::addTree(const Tree &tree, const std::string &hook_name) {
+bool Tree::addTree(const Tree& tree, const std::string& hook_name) {
   return add_all(tree.getRootSegment(), hook_name);
 }
 
-bool Tree::add_all(SegmentMap::const_iterator root, const std::string &hook_name) {
-  for (const SegmentMap::const_iterator &child : root->second.children) {
+bool Tree::add_all(SegmentMap::const_iterator root, const std::string& hook_name) {
+  for (const SegmentMap::const_iterator& child : root->second.children) {
     if (!addSegment(child->second.segment, hook_name)) return false;
     if (!add_all(child, child->first)) return false;
   }
@@ -220,8 +220,8 @@ bool Tree::add_all(SegmentMap::const_iterator root, const std::string &hook_name
 namespace {
 
 // The segment the other way round: from its tip to its root, with the same joint.
-Segment reversed(const Segment &segment, const std::string &parent_name) {
-  const Joint &joint = segment.getJoint();
+Segment reversed(const Segment& segment, const std::string& parent_name) {
+  const Joint& joint = segment.getJoint();
   const Frame back = segment.getFrameToTip().Inverse();
   if (joint.getType() == Joint::Fixed)
     return Segment(parent_name, Joint(joint.getName(), Joint::Fixed), back);
@@ -235,8 +235,8 @@ Segment reversed(const Segment &segment, const std::string &parent_name) {
 
 }  // namespace
 
-bool Tree::getChain(const std::string &chain_root, const std::string &chain_tip,
-                    Chain &chain) const {
+bool Tree::getChain(const std::string& chain_root, const std::string& chain_tip,
+                    Chain& chain) const {
   chain = Chain();
   const auto root = segments_.find(chain_root), tip = segments_.find(chain_tip);
   if (root == segments_.end() || tip == segments_.end()) return false;
@@ -253,7 +253,7 @@ bool Tree::getChain(const std::string &chain_root, const std::string &chain_tip,
     down.pop_back();
   }
   for (std::size_t i = 0; i < up.size(); ++i) {
-    const std::string &parent = i + 1 < up.size() ? up[i + 1]->first : meeting->first;
+    const std::string& parent = i + 1 < up.size() ? up[i + 1]->first : meeting->first;
     chain.addSegment(reversed(up[i]->second.segment, parent));
   }
   for (auto one = down.rbegin(); one != down.rend(); ++one)

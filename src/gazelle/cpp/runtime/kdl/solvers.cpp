@@ -5,7 +5,7 @@
 
 namespace KDL {
 
-const char *SolverI::strError(const int error) const {
+const char* SolverI::strError(const int error) const {
   switch (error) {
     case E_NOERROR:
       return "No error";
@@ -35,26 +35,26 @@ const char *SolverI::strError(const int error) const {
 namespace {
 
 // How many segments a number means, -1 where it means none.
-int count_of(const Chain &chain, int number) {
+int count_of(const Chain& chain, int number) {
   const int all = static_cast<int>(chain.getNrOfSegments());
   if (number < 0) return all;
   return number > all ? -1 : number;
 }
 
-bool moves(const Segment &segment) { return segment.getJoint().getType() != Joint::Fixed; }
+bool moves(const Segment& segment) { return segment.getJoint().getType() != Joint::Fixed; }
 
 }  // namespace
 
 // ---- Forward ----------------------------------------------------------------------------------
 
-int ChainFkSolverPos_recursive::JntToCart(const JntArray &q_in, Frame &p_out, int segmentNr) {
+int ChainFkSolverPos_recursive::JntToCart(const JntArray& q_in, Frame& p_out, int segmentNr) {
   std::vector<Frame> frames(static_cast<std::size_t>(std::max(count_of(chain_, segmentNr), 0)));
   const int result = JntToCart(q_in, frames, segmentNr);
   if (result == E_NOERROR) p_out = frames.empty() ? Frame() : frames.back();
   return result;
 }
 
-int ChainFkSolverPos_recursive::JntToCart(const JntArray &q_in, std::vector<Frame> &p_out,
+int ChainFkSolverPos_recursive::JntToCart(const JntArray& q_in, std::vector<Frame>& p_out,
                                           int segmentNr) {
   const int count = count_of(chain_, segmentNr);
   if (q_in.rows() != chain_.getNrOfJoints()) return error = E_SIZE_MISMATCH;
@@ -63,21 +63,21 @@ int ChainFkSolverPos_recursive::JntToCart(const JntArray &q_in, std::vector<Fram
   Frame here;
   unsigned int joint = 0;
   for (int i = 0; i < count; ++i) {
-    const Segment &segment = chain_.getSegment(i);
+    const Segment& segment = chain_.getSegment(i);
     here = here * segment.pose(moves(segment) ? q_in(joint++) : 0.0);
     p_out[i] = here;
   }
   return error = E_NOERROR;
 }
 
-int ChainFkSolverVel_recursive::JntToCart(const JntArrayVel &q_in, FrameVel &out, int segmentNr) {
+int ChainFkSolverVel_recursive::JntToCart(const JntArrayVel& q_in, FrameVel& out, int segmentNr) {
   std::vector<FrameVel> frames(static_cast<std::size_t>(std::max(count_of(chain_, segmentNr), 0)));
   const int result = JntToCart(q_in, frames, segmentNr);
   if (result == E_NOERROR) out = frames.empty() ? FrameVel() : frames.back();
   return result;
 }
 
-int ChainFkSolverVel_recursive::JntToCart(const JntArrayVel &q_in, std::vector<FrameVel> &out,
+int ChainFkSolverVel_recursive::JntToCart(const JntArrayVel& q_in, std::vector<FrameVel>& out,
                                           int segmentNr) {
   const int count = count_of(chain_, segmentNr);
   if (q_in.q.rows() != chain_.getNrOfJoints() || q_in.qdot.rows() != chain_.getNrOfJoints())
@@ -88,7 +88,7 @@ int ChainFkSolverVel_recursive::JntToCart(const JntArrayVel &q_in, std::vector<F
   Twist twist;
   unsigned int joint = 0;
   for (int i = 0; i < count; ++i) {
-    const Segment &segment = chain_.getSegment(i);
+    const Segment& segment = chain_.getSegment(i);
     const double q = moves(segment) ? q_in.q(joint) : 0.0;
     const double qdot = moves(segment) ? q_in.qdot(joint) : 0.0;
     if (moves(segment)) ++joint;
@@ -100,7 +100,7 @@ int ChainFkSolverVel_recursive::JntToCart(const JntArrayVel &q_in, std::vector<F
   return error = E_NOERROR;
 }
 
-ChainJntToJacSolver::ChainJntToJacSolver(const Chain &chain)
+ChainJntToJacSolver::ChainJntToJacSolver(const Chain& chain)
     : chain_(chain), locked_(chain.getNrOfJoints(), false) {}
 
 void ChainJntToJacSolver::updateInternalDataStructures() {
@@ -113,11 +113,10 @@ int ChainJntToJacSolver::setLockedJoints(const std::vector<bool> locked_joints) 
   return error = E_NOERROR;
 }
 
-int ChainJntToJacSolver::JntToJac(const JntArray &q_in, Jacobian &jac, int segmentNR) {
+int ChainJntToJacSolver::JntToJac(const JntArray& q_in, Jacobian& jac, int segmentNR) {
   if (locked_.size() != chain_.getNrOfJoints()) return error = E_NOT_UP_TO_DATE;
   const int count = count_of(chain_, segmentNR);
-  const auto free =
-      static_cast<unsigned int>(std::count(locked_.begin(), locked_.end(), false));
+  const auto free = static_cast<unsigned int>(std::count(locked_.begin(), locked_.end(), false));
   if (q_in.rows() != chain_.getNrOfJoints() || jac.columns() != free)
     return error = E_SIZE_MISMATCH;
   if (count < 0) return error = E_OUT_OF_RANGE;
@@ -125,7 +124,7 @@ int ChainJntToJacSolver::JntToJac(const JntArray &q_in, Jacobian &jac, int segme
   Frame here;
   unsigned int joint = 0, column = 0;
   for (int i = 0; i < count; ++i) {
-    const Segment &segment = chain_.getSegment(i);
+    const Segment& segment = chain_.getSegment(i);
     const double q = moves(segment) ? q_in(joint) : 0.0;
     const Frame next = here * segment.pose(q);
     jac.changeRefPoint(next.p - here.p);
@@ -144,7 +143,7 @@ namespace {
 
 using Twist6 = Eigen::Matrix<double, 6, 1>;
 
-Twist6 as_eigen(const Twist &t) {
+Twist6 as_eigen(const Twist& t) {
   Twist6 out;
   for (int i = 0; i < 6; ++i) out(i) = t(i);
   return out;
@@ -152,15 +151,15 @@ Twist6 as_eigen(const Twist &t) {
 
 }  // namespace
 
-ChainIkSolverVel_pinv::ChainIkSolverVel_pinv(const Chain &chain, double eps, int)
+ChainIkSolverVel_pinv::ChainIkSolverVel_pinv(const Chain& chain, double eps, int)
     : chain_(chain), jacobian_(chain), eps_(eps) {}
 
-const char *ChainIkSolverVel_pinv::strError(const int error) const {
+const char* ChainIkSolverVel_pinv::strError(const int error) const {
   return error == E_CONVERGE_PINV_SINGULAR ? "Converged put pseudo inverse of jacobian is singular."
                                            : SolverI::strError(error);
 }
 
-int ChainIkSolverVel_pinv::CartToJnt(const JntArray &q_in, const Twist &v_in, JntArray &qdot_out) {
+int ChainIkSolverVel_pinv::CartToJnt(const JntArray& q_in, const Twist& v_in, JntArray& qdot_out) {
   const unsigned int count = chain_.getNrOfJoints();
   if (q_in.rows() != count || qdot_out.rows() != count) return error = E_SIZE_MISMATCH;
   Jacobian jac(count);
@@ -184,27 +183,27 @@ int ChainIkSolverVel_pinv::CartToJnt(const JntArray &q_in, const Twist &v_in, Jn
   return error = is_singular ? E_CONVERGE_PINV_SINGULAR : static_cast<int>(E_NOERROR);
 }
 
-ChainIkSolverVel_wdls::ChainIkSolverVel_wdls(const Chain &chain, double eps, int)
+ChainIkSolverVel_wdls::ChainIkSolverVel_wdls(const Chain& chain, double eps, int)
     : chain_(chain),
       jacobian_(chain),
       eps_(eps),
       weight_js_(Eigen::MatrixXd::Identity(chain.getNrOfJoints(), chain.getNrOfJoints())),
       weight_ts_(Eigen::MatrixXd::Identity(6, 6)) {}
 
-int ChainIkSolverVel_wdls::setWeightJS(const Eigen::MatrixXd &Mq) {
+int ChainIkSolverVel_wdls::setWeightJS(const Eigen::MatrixXd& Mq) {
   if (Mq.rows() != weight_js_.rows() || Mq.cols() != weight_js_.cols())
     return error = E_SIZE_MISMATCH;
   weight_js_ = Mq;
   return error = E_NOERROR;
 }
 
-int ChainIkSolverVel_wdls::setWeightTS(const Eigen::MatrixXd &Mx) {
+int ChainIkSolverVel_wdls::setWeightTS(const Eigen::MatrixXd& Mx) {
   if (Mx.rows() != 6 || Mx.cols() != 6) return error = E_SIZE_MISMATCH;
   weight_ts_ = Mx;
   return error = E_NOERROR;
 }
 
-int ChainIkSolverVel_wdls::CartToJnt(const JntArray &q_in, const Twist &v_in, JntArray &qdot_out) {
+int ChainIkSolverVel_wdls::CartToJnt(const JntArray& q_in, const Twist& v_in, JntArray& qdot_out) {
   const unsigned int count = chain_.getNrOfJoints();
   if (q_in.rows() != count || qdot_out.rows() != count) return error = E_SIZE_MISMATCH;
   Jacobian jac(count);
@@ -225,7 +224,7 @@ int ChainIkSolverVel_wdls::CartToJnt(const JntArray &q_in, const Twist &v_in, Jn
   return error = is_singular ? E_CONVERGE_PINV_SINGULAR : static_cast<int>(E_NOERROR);
 }
 
-int ChainIkSolverPos_NR::CartToJnt(const JntArray &q_init, const Frame &p_in, JntArray &q_out) {
+int ChainIkSolverPos_NR::CartToJnt(const JntArray& q_init, const Frame& p_in, JntArray& q_out) {
   const unsigned int count = chain_.getNrOfJoints();
   if (q_init.rows() != count || q_out.rows() != count) return error = E_SIZE_MISMATCH;
   q_out = q_init;
@@ -237,15 +236,16 @@ int ChainIkSolverPos_NR::CartToJnt(const JntArray &q_init, const Frame &p_in, Jn
     const int result = ik_.CartToJnt(q_out, left, delta);
     if (result < E_NOERROR) return error = E_IKSOLVER_FAILED;
     if (Equal(left, Twist::Zero(), eps_))
-      return error = result > E_NOERROR ? static_cast<int>(E_DEGRADED) : static_cast<int>(E_NOERROR);
+      return error =
+                 result > E_NOERROR ? static_cast<int>(E_DEGRADED) : static_cast<int>(E_NOERROR);
     Add(q_out, delta, q_out);
     limit(q_out);
   }
   return error = E_MAX_ITERATIONS_EXCEEDED;
 }
 
-ChainIkSolverPos_NR_JL::ChainIkSolverPos_NR_JL(const Chain &chain, ChainFkSolverPos &fksolver,
-                                               ChainIkSolverVel &iksolver, unsigned int maxiter,
+ChainIkSolverPos_NR_JL::ChainIkSolverPos_NR_JL(const Chain& chain, ChainFkSolverPos& fksolver,
+                                               ChainIkSolverVel& iksolver, unsigned int maxiter,
                                                double eps)
     : ChainIkSolverPos_NR(chain, fksolver, iksolver, maxiter, eps),
       min_(chain.getNrOfJoints()),
@@ -254,7 +254,7 @@ ChainIkSolverPos_NR_JL::ChainIkSolverPos_NR_JL(const Chain &chain, ChainFkSolver
   max_.data.setConstant(1e300);
 }
 
-int ChainIkSolverPos_NR_JL::setJointLimits(const JntArray &q_min, const JntArray &q_max) {
+int ChainIkSolverPos_NR_JL::setJointLimits(const JntArray& q_min, const JntArray& q_max) {
   if (q_min.rows() != chain_.getNrOfJoints() || q_max.rows() != chain_.getNrOfJoints())
     return error = E_SIZE_MISMATCH;
   min_ = q_min;
@@ -262,13 +262,12 @@ int ChainIkSolverPos_NR_JL::setJointLimits(const JntArray &q_min, const JntArray
   return error = E_NOERROR;
 }
 
-void ChainIkSolverPos_NR_JL::limit(JntArray &q) const {
+void ChainIkSolverPos_NR_JL::limit(JntArray& q) const {
   q.data = q.data.cwiseMax(min_.data).cwiseMin(max_.data);
 }
 
-ChainIkSolverPos_LMA::ChainIkSolverPos_LMA(const Chain &chain,
-                                           const Eigen::Matrix<double, 6, 1> &L, double eps,
-                                           int maxiter, double eps_joints)
+ChainIkSolverPos_LMA::ChainIkSolverPos_LMA(const Chain& chain, const Eigen::Matrix<double, 6, 1>& L,
+                                           double eps, int maxiter, double eps_joints)
     : chain_(chain),
       fk_(chain),
       jacobian_(chain),
@@ -288,14 +287,14 @@ Twist6 usual_weight() {
 
 }  // namespace
 
-ChainIkSolverPos_LMA::ChainIkSolverPos_LMA(const Chain &chain, double eps, int maxiter,
+ChainIkSolverPos_LMA::ChainIkSolverPos_LMA(const Chain& chain, double eps, int maxiter,
                                            double eps_joints)
     : ChainIkSolverPos_LMA(chain, usual_weight(), eps, maxiter, eps_joints) {}
 
-int ChainIkSolverPos_LMA::CartToJnt(const JntArray &q_init, const Frame &p_in, JntArray &q_out) {
+int ChainIkSolverPos_LMA::CartToJnt(const JntArray& q_init, const Frame& p_in, JntArray& q_out) {
   const unsigned int count = chain_.getNrOfJoints();
   if (q_init.rows() != count || q_out.rows() != count) return error = E_SIZE_MISMATCH;
-  const auto residual = [&](const JntArray &q) {
+  const auto residual = [&](const JntArray& q) {
     Frame here;
     fk_.JntToCart(q, here);
     return Twist6(weight_.cwiseProduct(as_eigen(diff(here, p_in))));
@@ -340,9 +339,8 @@ int ChainIkSolverPos_LMA::CartToJnt(const JntArray &q_init, const Frame &p_in, J
 
 // ---- Dynamics ---------------------------------------------------------------------------------
 
-int ChainIdSolver_RNE::CartToJnt(const JntArray &q, const JntArray &q_dot,
-                                 const JntArray &q_dotdot, const Wrenches &f_ext,
-                                 JntArray &torques) {
+int ChainIdSolver_RNE::CartToJnt(const JntArray& q, const JntArray& q_dot, const JntArray& q_dotdot,
+                                 const Wrenches& f_ext, JntArray& torques) {
   const unsigned int joints = chain_.getNrOfJoints(), segments = chain_.getNrOfSegments();
   if (q.rows() != joints || q_dot.rows() != joints || q_dotdot.rows() != joints ||
       torques.rows() != joints || f_ext.size() != segments)
@@ -353,7 +351,7 @@ int ChainIdSolver_RNE::CartToJnt(const JntArray &q, const JntArray &q_dot,
   std::vector<Wrench> force(segments);
   unsigned int joint = 0;
   for (unsigned int i = 0; i < segments; ++i) {
-    const Segment &segment = chain_.getSegment(i);
+    const Segment& segment = chain_.getSegment(i);
     double q_i = 0.0, qdot_i = 0.0, qdotdot_i = 0.0;
     if (moves(segment)) {
       q_i = q(joint);
@@ -368,12 +366,11 @@ int ChainIdSolver_RNE::CartToJnt(const JntArray &q, const JntArray &q_dot,
     const Twist pushed = i == 0 ? gravity_ : acceleration[i - 1];
     velocity[i] = pose[i].Inverse(before) + own;
     acceleration[i] = pose[i].Inverse(pushed) + along[i] * qdotdot_i + velocity[i] * own;
-    const RigidBodyInertia &inertia = segment.getInertia();
-    force[i] =
-        inertia * acceleration[i] + velocity[i] * (inertia * velocity[i]) - f_ext[i];
+    const RigidBodyInertia& inertia = segment.getInertia();
+    force[i] = inertia * acceleration[i] + velocity[i] * (inertia * velocity[i]) - f_ext[i];
   }
   for (unsigned int i = segments; i-- > 0;) {
-    const Segment &segment = chain_.getSegment(i);
+    const Segment& segment = chain_.getSegment(i);
     if (moves(segment)) {
       --joint;
       torques(joint) = dot(along[i], force[i]) + segment.getJoint().getInertia() * q_dotdot(joint);
@@ -383,13 +380,13 @@ int ChainIdSolver_RNE::CartToJnt(const JntArray &q, const JntArray &q_dot,
   return error = E_NOERROR;
 }
 
-int ChainDynParam::JntToCoriolis(const JntArray &q, const JntArray &q_dot, JntArray &coriolis) {
+int ChainDynParam::JntToCoriolis(const JntArray& q, const JntArray& q_dot, JntArray& coriolis) {
   const JntArray none(chain_.getNrOfJoints());
   const Wrenches free(chain_.getNrOfSegments());
   return error = at_rest_.CartToJnt(q, q_dot, none, free, coriolis);
 }
 
-int ChainDynParam::JntToMass(const JntArray &q, JntSpaceInertiaMatrix &H) {
+int ChainDynParam::JntToMass(const JntArray& q, JntSpaceInertiaMatrix& H) {
   const unsigned int count = chain_.getNrOfJoints();
   if (q.rows() != count || H.rows() != count) return error = E_SIZE_MISMATCH;
   const JntArray none(count);
@@ -405,7 +402,7 @@ int ChainDynParam::JntToMass(const JntArray &q, JntSpaceInertiaMatrix &H) {
   return error;
 }
 
-int ChainDynParam::JntToGravity(const JntArray &q, JntArray &gravity) {
+int ChainDynParam::JntToGravity(const JntArray& q, JntArray& gravity) {
   const JntArray none(chain_.getNrOfJoints());
   const Wrenches free(chain_.getNrOfSegments());
   return error = hanging_.CartToJnt(q, none, none, free, gravity);
@@ -413,36 +410,34 @@ int ChainDynParam::JntToGravity(const JntArray &q, JntArray &gravity) {
 
 // ---- Trees ------------------------------------------------------------------------------------
 
-int TreeFkSolverPos_recursive::JntToCart(const JntArray &q_in, Frame &p_out,
+int TreeFkSolverPos_recursive::JntToCart(const JntArray& q_in, Frame& p_out,
                                          std::string segmentName) {
   if (q_in.rows() != tree_.getNrOfJoints()) return -1;
   auto here = tree_.getSegment(segmentName);
   if (here == tree_.getSegments().end()) return -2;
   p_out = Frame();
   for (; here != tree_.getRootSegment(); here = here->second.parent) {
-    const Segment &segment = here->second.segment;
+    const Segment& segment = here->second.segment;
     p_out = segment.pose(moves(segment) ? q_in(here->second.q_nr) : 0.0) * p_out;
   }
   return 0;
 }
 
-int TreeJntToJacSolver::JntToJac(const JntArray &q_in, Jacobian &jac,
-                                 const std::string &segmentname) {
+int TreeJntToJacSolver::JntToJac(const JntArray& q_in, Jacobian& jac,
+                                 const std::string& segmentname) {
   if (q_in.rows() != tree_.getNrOfJoints() || jac.columns() != tree_.getNrOfJoints()) return -1;
   auto here = tree_.getSegment(segmentname);
   if (here == tree_.getSegments().end()) return -2;
   SetToZero(jac);
   Frame to_tip;  // the tip, seen from the segment's own tip
   for (; here != tree_.getRootSegment(); here = here->second.parent) {
-    const Segment &segment = here->second.segment;
+    const Segment& segment = here->second.segment;
     const double q = moves(segment) ? q_in(here->second.q_nr) : 0.0;
     const Frame step = segment.pose(q);
     const Frame from_root = step * to_tip;
-    for (unsigned int i = 0; i < jac.columns(); ++i)
-      jac.setColumn(i, step.M * jac.getColumn(i));
+    for (unsigned int i = 0; i < jac.columns(); ++i) jac.setColumn(i, step.M * jac.getColumn(i));
     if (moves(segment))
-      jac.setColumn(here->second.q_nr,
-                    segment.twist(q, 1.0).RefPoint(from_root.p - step.p));
+      jac.setColumn(here->second.q_nr, segment.twist(q, 1.0).RefPoint(from_root.p - step.p));
     to_tip = from_root;
   }
   return 0;

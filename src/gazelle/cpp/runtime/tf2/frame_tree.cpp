@@ -82,9 +82,8 @@ bool FrameTree::set(const std::string& frame, const std::string& child, std::int
                     const tf2::Vector3& translation, const tf2::Quaternion& rotation,
                     const std::string& authority, bool is_static) {
   const std::string parent_name = without_slash(frame), child_name = without_slash(child);
-  const std::string problem =
-      frame_texts::problem(parent_name, child_name, translation, rotation, norm_tolerance,
-                           authority);
+  const std::string problem = frame_texts::problem(parent_name, child_name, translation, rotation,
+                                                   norm_tolerance, authority);
   if (!problem.empty()) {
     warn(problem);
     return false;
@@ -352,8 +351,7 @@ FoundTransform FrameTree::look_up(const std::string& target, std::int64_t target
 bool FrameTree::can_locked(FrameId target, FrameId source, std::int64_t stamp_ns,
                            std::string* why) const {
   if (target == source) return true;
-  if (stamp_ns == 0 && common_time(target, source, stamp_ns, why) != FrameFault::none)
-    return false;
+  if (stamp_ns == 0 && common_time(target, source, stamp_ns, why) != FrameFault::none) return false;
   return walk(target, source, stamp_ns, nullptr, nullptr, why) == FrameFault::none;
 }
 
@@ -372,8 +370,8 @@ bool FrameTree::can(const std::string& target, const std::string& source, std::i
   std::lock_guard<std::mutex> hold(lock_);
   std::string text;
   const bool both = known("target_frame", target, &text) & known("source_frame", source, &text);
-  const bool is_there = both && can_locked(find(target), find(source), stamp_ns,
-                                           why == nullptr ? nullptr : &text);
+  const bool is_there =
+      both && can_locked(find(target), find(source), stamp_ns, why == nullptr ? nullptr : &text);
   if (!is_there && why != nullptr) *why = text;
   return is_there;
 }
@@ -423,8 +421,8 @@ void FrameTree::answer_requests() {
     for (Request& one : requests_) {
       const FrameId to = find(one.target), from = find(one.source);
       std::int64_t newest = 0;
-      const bool is_connected = to != 0 && from != 0 &&
-                                common_time(to, from, newest, nullptr) == FrameFault::none;
+      const bool is_connected =
+          to != 0 && from != 0 && common_time(to, from, newest, nullptr) == FrameFault::none;
       if (is_connected && can_locked(to, from, one.stamp_ns, nullptr)) {
         answered.emplace_back(std::move(one), true);
       } else if (is_connected && newest != 0 && one.stamp_ns != 0 &&
@@ -495,8 +493,7 @@ FrameId FrameTree::number_or_new(const std::string& frame) {
 const std::string& FrameTree::name(FrameId number) const {
   std::lock_guard<std::mutex> hold(lock_);
   if (number >= frames_.size())
-    throw tf2::LookupException("Reverse lookup of frame id " + std::to_string(number) +
-                               " failed!");
+    throw tf2::LookupException("Reverse lookup of frame id " + std::to_string(number) + " failed!");
   return frames_[number].name;
 }
 
@@ -579,8 +576,8 @@ std::string FrameTree::as_yaml(double now_s) const {
     if (!frame.has_parent()) continue;
     const double newest = static_cast<double>(frame.newest_ns()) / 1e9;
     const double oldest = static_cast<double>(frame.oldest_ns()) / 1e9;
-    out += frame_texts::yaml(frame.name, frames_[frame.samples.back().parent].name,
-                             frame.authority, rate(frame), newest, oldest, now_s);
+    out += frame_texts::yaml(frame.name, frames_[frame.samples.back().parent].name, frame.authority,
+                             rate(frame), newest, oldest, now_s);
   }
   return out.empty() ? "{}" : out;
 }
@@ -596,8 +593,7 @@ std::string FrameTree::as_dot(double now_s) const {
     out += frame_texts::dot_edge(frame.name, parent.name, frame.authority, rate(frame),
                                  static_cast<double>(frame.newest_ns()) / 1e9,
                                  static_cast<double>(frame.oldest_ns()) / 1e9, now_s);
-    if (!parent.has_parent() &&
-        std::find(roots.begin(), roots.end(), parent.name) == roots.end())
+    if (!parent.has_parent() && std::find(roots.begin(), roots.end(), parent.name) == roots.end())
       roots.push_back(parent.name);
   }
   return frame_texts::dot_graph(out, roots, now_s);

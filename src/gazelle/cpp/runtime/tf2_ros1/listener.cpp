@@ -12,27 +12,27 @@ constexpr std::uint32_t queue_size = 100;
 
 }  // namespace
 
-TransformListener::TransformListener(tf2::BufferCore &buffer, bool spin_thread,
+TransformListener::TransformListener(tf2::BufferCore& buffer, bool spin_thread,
                                      ros::TransportHints transport_hints)
     : buffer_(buffer) {
   listen(spin_thread, transport_hints);
 }
 
-TransformListener::TransformListener(tf2::BufferCore &buffer, const ros::NodeHandle &nh,
+TransformListener::TransformListener(tf2::BufferCore& buffer, const ros::NodeHandle& nh,
                                      bool spin_thread, ros::TransportHints transport_hints)
     : buffer_(buffer), node_(nh) {
   listen(spin_thread, transport_hints);
 }
 
-void TransformListener::listen(bool spin_thread, const ros::TransportHints &hints) {
+void TransformListener::listen(bool spin_thread, const ros::TransportHints& hints) {
   if (spin_thread) node_.setCallbackQueue(&queue_);
   using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
-  const auto subscribe = [&](const char *topic, bool is_static) {
-    boost::function<void(const Event &)> taken = [this, is_static](const Event &event) {
+  const auto subscribe = [&](const char* topic, bool is_static) {
+    boost::function<void(const Event&)> taken = [this, is_static](const Event& event) {
       take(event, is_static);
     };
     ros::SubscribeOptions options;
-    options.initByFullCallbackType<const Event &>(topic, queue_size, taken);
+    options.initByFullCallbackType<const Event&>(topic, queue_size, taken);
     options.transport_hints = hints;
     return node_.subscribe(options);
   };
@@ -53,7 +53,7 @@ TransformListener::~TransformListener() {
   static_.shutdown();
 }
 
-void TransformListener::take(const ros::MessageEvent<tf2_msgs::TFMessage const> &event,
+void TransformListener::take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event,
                              bool is_static) {
   const ros::Time now = ros::Time::now();
   if (now < last_update_) {
@@ -63,10 +63,10 @@ void TransformListener::take(const ros::MessageEvent<tf2_msgs::TFMessage const> 
   }
   last_update_ = now;
   const std::string authority = event.getPublisherName();
-  for (const geometry_msgs::TransformStamped &one : event.getConstMessage()->transforms) {
+  for (const geometry_msgs::TransformStamped& one : event.getConstMessage()->transforms) {
     try {
       buffer_.setTransform(one, authority, is_static);
-    } catch (const tf2::TransformException &error) {
+    } catch (const tf2::TransformException& error) {
       ROS_ERROR("Failure to set received transform from %s to %s with error: %s\n",
                 one.child_frame_id.c_str(), one.header.frame_id.c_str(), error.what());
     }
@@ -76,12 +76,12 @@ void TransformListener::take(const ros::MessageEvent<tf2_msgs::TFMessage const> 
 TransformBroadcaster::TransformBroadcaster()
     : publisher_(node_.advertise<tf2_msgs::TFMessage>("/tf", queue_size)) {}
 
-void TransformBroadcaster::sendTransform(const geometry_msgs::TransformStamped &transform) {
+void TransformBroadcaster::sendTransform(const geometry_msgs::TransformStamped& transform) {
   sendTransform(std::vector<geometry_msgs::TransformStamped>{transform});
 }
 
 void TransformBroadcaster::sendTransform(
-    const std::vector<geometry_msgs::TransformStamped> &transforms) {
+    const std::vector<geometry_msgs::TransformStamped>& transforms) {
   tf2_msgs::TFMessage message;
   message.transforms = transforms;
   publisher_.publish(message);
@@ -90,15 +90,15 @@ void TransformBroadcaster::sendTransform(
 StaticTransformBroadcaster::StaticTransformBroadcaster()
     : publisher_(node_.advertise<tf2_msgs::TFMessage>("/tf_static", queue_size, true)) {}
 
-void StaticTransformBroadcaster::sendTransform(const geometry_msgs::TransformStamped &transform) {
+void StaticTransformBroadcaster::sendTransform(const geometry_msgs::TransformStamped& transform) {
   sendTransform(std::vector<geometry_msgs::TransformStamped>{transform});
 }
 
 void StaticTransformBroadcaster::sendTransform(
-    const std::vector<geometry_msgs::TransformStamped> &transforms) {
-  auto &known = net_message_.transforms;
-  for (const geometry_msgs::TransformStamped &one : transforms) {
-    const auto place = std::find_if(known.begin(), known.end(), [&](const auto &other) {
+    const std::vector<geometry_msgs::TransformStamped>& transforms) {
+  auto& known = net_message_.transforms;
+  for (const geometry_msgs::TransformStamped& one : transforms) {
+    const auto place = std::find_if(known.begin(), known.end(), [&](const auto& other) {
       return other.child_frame_id == one.child_frame_id;
     });
     if (place == known.end()) {

@@ -13,8 +13,8 @@ constexpr std::int64_t look_again_ns = 10000000;
 constexpr tf2::Duration longest_wait = std::chrono::hours(24 * 365);
 
 template <class Can>
-bool wait_until(const tf2::BufferCore &buffer, rclcpp::Clock &clock, const tf2::Duration &timeout,
-                std::string *why, Can can) {
+bool wait_until(const tf2::BufferCore& buffer, rclcpp::Clock& clock, const tf2::Duration& timeout,
+                std::string* why, Can can) {
   const auto start = clock.now();
   const rclcpp::Duration length(timeout);
   const rclcpp::Duration backwards = rclcpp::Duration::from_seconds(3.0);
@@ -52,7 +52,7 @@ void Buffer::begin() {
   threshold.on_clock_change = true;
   threshold.min_forward.nanoseconds = 0;
   threshold.min_backward.nanoseconds = -1;
-  const auto jumped = [this](const rcl_time_jump_t &jump) {
+  const auto jumped = [this](const rcl_time_jump_t& jump) {
     const bool is_other_clock = jump.clock_change == RCL_ROS_TIME_ACTIVATED ||
                                 jump.clock_change == RCL_ROS_TIME_DEACTIVATED;
     if (!is_other_clock && jump.delta.nanoseconds >= 0) return;
@@ -69,54 +69,54 @@ rclcpp::Logger Buffer::logger() const {
   return logging_ ? logging_->get_logger() : rclcpp::get_logger("tf2_buffer");
 }
 
-bool Buffer::has_thread(std::string *errstr) const {
+bool Buffer::has_thread(std::string* errstr) const {
   if (isUsingDedicatedThread()) return true;
   if (errstr != nullptr) *errstr = threading_error;
   RCLCPP_ERROR(logger(), "%s", threading_error);
   return false;
 }
 
-TransformStamped Buffer::lookupTransform(const std::string &target_frame,
-                                         const std::string &source_frame,
-                                         const tf2::TimePoint &time,
+TransformStamped Buffer::lookupTransform(const std::string& target_frame,
+                                         const std::string& source_frame,
+                                         const tf2::TimePoint& time,
                                          const tf2::Duration timeout) const {
   canTransform(target_frame, source_frame, time, timeout);
   return lookupTransform(target_frame, source_frame, time);
 }
 
-TransformStamped Buffer::lookupTransform(const std::string &target_frame,
-                                         const tf2::TimePoint &target_time,
-                                         const std::string &source_frame,
-                                         const tf2::TimePoint &source_time,
-                                         const std::string &fixed_frame,
+TransformStamped Buffer::lookupTransform(const std::string& target_frame,
+                                         const tf2::TimePoint& target_time,
+                                         const std::string& source_frame,
+                                         const tf2::TimePoint& source_time,
+                                         const std::string& fixed_frame,
                                          const tf2::Duration timeout) const {
   canTransform(target_frame, target_time, source_frame, source_time, fixed_frame, timeout);
   return lookupTransform(target_frame, target_time, source_frame, source_time, fixed_frame);
 }
 
-bool Buffer::canTransform(const std::string &target_frame, const std::string &source_frame,
-                          const tf2::TimePoint &target_time, const tf2::Duration timeout,
-                          std::string *errstr) const {
+bool Buffer::canTransform(const std::string& target_frame, const std::string& source_frame,
+                          const tf2::TimePoint& target_time, const tf2::Duration timeout,
+                          std::string* errstr) const {
   if (timeout > tf2::Duration::zero() && !has_thread(errstr)) return false;
-  return wait_until(*this, *clock_, timeout, errstr, [&](std::string *why) {
+  return wait_until(*this, *clock_, timeout, errstr, [&](std::string* why) {
     return canTransform(target_frame, source_frame, target_time, why);
   });
 }
 
-bool Buffer::canTransform(const std::string &target_frame, const tf2::TimePoint &target_time,
-                          const std::string &source_frame, const tf2::TimePoint &source_time,
-                          const std::string &fixed_frame, const tf2::Duration timeout,
-                          std::string *errstr) const {
+bool Buffer::canTransform(const std::string& target_frame, const tf2::TimePoint& target_time,
+                          const std::string& source_frame, const tf2::TimePoint& source_time,
+                          const std::string& fixed_frame, const tf2::Duration timeout,
+                          std::string* errstr) const {
   if (timeout > tf2::Duration::zero() && !has_thread(errstr)) return false;
-  return wait_until(*this, *clock_, timeout, errstr, [&](std::string *why) {
+  return wait_until(*this, *clock_, timeout, errstr, [&](std::string* why) {
     return canTransform(target_frame, target_time, source_frame, source_time, fixed_frame, why);
   });
 }
 
-TransformStampedFuture Buffer::waitForTransform(const std::string &target_frame,
-                                                const std::string &source_frame,
-                                                const tf2::TimePoint &time,
-                                                const tf2::Duration &timeout,
+TransformStampedFuture Buffer::waitForTransform(const std::string& target_frame,
+                                                const std::string& source_frame,
+                                                const tf2::TimePoint& time,
+                                                const tf2::Duration& timeout,
                                                 TransformReadyCallback callback) {
   if (!timers_)
     throw CreateTimerInterfaceException("timer interface not set before call to waitForTransform");
@@ -125,8 +125,8 @@ TransformStampedFuture Buffer::waitForTransform(const std::string &target_frame,
   wait->source = source_frame;
   wait->time = time;
   wait->callback = std::move(callback);
-  const auto answered = [this, wait](tf2::TransformableRequestHandle, const std::string &,
-                                     const std::string &, tf2::TimePoint,
+  const auto answered = [this, wait](tf2::TransformableRequestHandle, const std::string&,
+                                     const std::string&, tf2::TimePoint,
                                      tf2::TransformableResult result) {
     end_waiting(wait, result == tf2::TransformAvailable
                           ? ""
@@ -146,15 +146,15 @@ TransformStampedFuture Buffer::waitForTransform(const std::string &target_frame,
   }
   waits_[handle] = wait;
   if (timeout < longest_wait) {
-    wait->timer = timers_->createTimer(clock_, timeout, [this, wait](const TimerHandle &) {
-      end_waiting(wait, "Timed out waiting for transform from " + wait->source + " to " +
-                            wait->target);
+    wait->timer = timers_->createTimer(clock_, timeout, [this, wait](const TimerHandle&) {
+      end_waiting(wait,
+                  "Timed out waiting for transform from " + wait->source + " to " + wait->target);
     });
   }
   return future;
 }
 
-void Buffer::end_waiting(const std::shared_ptr<Wait> &wait, const std::string &why) {
+void Buffer::end_waiting(const std::shared_ptr<Wait>& wait, const std::string& why) {
   {
     std::lock_guard<std::mutex> hold(wait->lock);
     if (wait->is_over) return;
@@ -172,7 +172,7 @@ void Buffer::end_waiting(const std::shared_ptr<Wait> &wait, const std::string &w
   if (why.empty()) {
     try {
       wait->promise.set_value(lookupTransform(wait->target, wait->source, wait->time));
-    } catch (const tf2::TransformException &) {
+    } catch (const tf2::TransformException&) {
       wait->promise.set_exception(std::current_exception());  // e.g. cleared in between
     }
   } else if (why.compare(0, 5, "Timed") == 0) {
@@ -184,7 +184,7 @@ void Buffer::end_waiting(const std::shared_ptr<Wait> &wait, const std::string &w
   wait->callback = nullptr;
 }
 
-void Buffer::cancel(const TransformStampedFuture &ts_future) {
+void Buffer::cancel(const TransformStampedFuture& ts_future) {
   std::shared_ptr<Wait> wait;
   {
     std::lock_guard<std::mutex> hold(waits_lock_);
@@ -201,16 +201,15 @@ void Buffer::cancel(const TransformStampedFuture &ts_future) {
   if (wait->timer != 0) timers_->remove(wait->timer);
 }
 
-CreateTimerROS::CreateTimerROS(
-    rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base,
-    rclcpp::node_interfaces::NodeTimersInterface::SharedPtr node_timers,
-    rclcpp::CallbackGroup::SharedPtr callback_group)
+CreateTimerROS::CreateTimerROS(rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base,
+                               rclcpp::node_interfaces::NodeTimersInterface::SharedPtr node_timers,
+                               rclcpp::CallbackGroup::SharedPtr callback_group)
     : node_base_(std::move(node_base)),
       node_timers_(std::move(node_timers)),
       callback_group_(std::move(callback_group)) {}
 
-TimerHandle CreateTimerROS::createTimer(rclcpp::Clock::SharedPtr clock,
-                                        const tf2::Duration &period, TimerCallbackType callback) {
+TimerHandle CreateTimerROS::createTimer(rclcpp::Clock::SharedPtr clock, const tf2::Duration& period,
+                                        TimerCallbackType callback) {
   std::lock_guard<std::mutex> hold(lock_);
   const TimerHandle handle = ++last_;
   const auto once = [this, handle, callback] {
@@ -222,7 +221,7 @@ TimerHandle CreateTimerROS::createTimer(rclcpp::Clock::SharedPtr clock,
   return handle;
 }
 
-rclcpp::TimerBase::SharedPtr CreateTimerROS::timer_of(const TimerHandle &timer_handle) {
+rclcpp::TimerBase::SharedPtr CreateTimerROS::timer_of(const TimerHandle& timer_handle) {
   std::lock_guard<std::mutex> hold(lock_);
   const auto found = timers_.find(timer_handle);
   if (found == timers_.end())
@@ -230,11 +229,11 @@ rclcpp::TimerBase::SharedPtr CreateTimerROS::timer_of(const TimerHandle &timer_h
   return found->second;
 }
 
-void CreateTimerROS::cancel(const TimerHandle &timer_handle) { timer_of(timer_handle)->cancel(); }
+void CreateTimerROS::cancel(const TimerHandle& timer_handle) { timer_of(timer_handle)->cancel(); }
 
-void CreateTimerROS::reset(const TimerHandle &timer_handle) { timer_of(timer_handle)->reset(); }
+void CreateTimerROS::reset(const TimerHandle& timer_handle) { timer_of(timer_handle)->reset(); }
 
-void CreateTimerROS::remove(const TimerHandle &timer_handle) {
+void CreateTimerROS::remove(const TimerHandle& timer_handle) {
   const auto timer = timer_of(timer_handle);
   timer->cancel();
   std::lock_guard<std::mutex> hold(lock_);

@@ -22,7 +22,7 @@ std::string own_name() {
 
 }  // namespace
 
-TransformListener::TransformListener(tf2::BufferCore &buffer, bool spin_thread, bool static_only)
+TransformListener::TransformListener(tf2::BufferCore& buffer, bool spin_thread, bool static_only)
     : buffer_(buffer) {
   rclcpp::NodeOptions options;
   // Remaps of the program's name are not for this node.
@@ -41,8 +41,8 @@ TransformListener::TransformListener(tf2::BufferCore &buffer, bool spin_thread, 
   }
   using Message = tf2_msgs::msg::TFMessage;
   if (!static_only)
-    moving_ = own_node_->create_subscription<Message>("/tf", DynamicListenerQoS(), taker(false),
-                                                      moving);
+    moving_ =
+        own_node_->create_subscription<Message>("/tf", DynamicListenerQoS(), taker(false), moving);
   static_ = own_node_->create_subscription<Message>("/tf_static", StaticListenerQoS(), taker(true),
                                                     still);
   if (spin_thread) spin();
@@ -71,11 +71,11 @@ TransformListener::~TransformListener() {
 
 void TransformListener::subscription_callback(tf2_msgs::msg::TFMessage::ConstSharedPtr msg,
                                               bool is_static) {
-  for (const geometry_msgs::msg::TransformStamped &one : msg->transforms) {
+  for (const geometry_msgs::msg::TransformStamped& one : msg->transforms) {
     try {
       // Who sent it is not told with a message in ROS 2.
       buffer_.setTransform(one, "Authority undetectable", is_static);
-    } catch (const tf2::TransformException &error) {
+    } catch (const tf2::TransformException& error) {
       RCLCPP_ERROR(node_logging_->get_logger(),
                    "Failure to set received transform from %s to %s with error: %s\n",
                    one.child_frame_id.c_str(), one.header.frame_id.c_str(), error.what());
@@ -83,27 +83,27 @@ void TransformListener::subscription_callback(tf2_msgs::msg::TFMessage::ConstSha
   }
 }
 
-void TransformBroadcaster::sendTransform(const geometry_msgs::msg::TransformStamped &transform) {
+void TransformBroadcaster::sendTransform(const geometry_msgs::msg::TransformStamped& transform) {
   sendTransform(std::vector<geometry_msgs::msg::TransformStamped>{transform});
 }
 
 void TransformBroadcaster::sendTransform(
-    const std::vector<geometry_msgs::msg::TransformStamped> &transforms) {
+    const std::vector<geometry_msgs::msg::TransformStamped>& transforms) {
   tf2_msgs::msg::TFMessage message;
   message.transforms = transforms;
   publisher_->publish(message);
 }
 
 void StaticTransformBroadcaster::sendTransform(
-    const geometry_msgs::msg::TransformStamped &transform) {
+    const geometry_msgs::msg::TransformStamped& transform) {
   sendTransform(std::vector<geometry_msgs::msg::TransformStamped>{transform});
 }
 
 void StaticTransformBroadcaster::sendTransform(
-    const std::vector<geometry_msgs::msg::TransformStamped> &transforms) {
-  auto &known = net_message_.transforms;
-  for (const geometry_msgs::msg::TransformStamped &one : transforms) {
-    const auto place = std::find_if(known.begin(), known.end(), [&](const auto &other) {
+    const std::vector<geometry_msgs::msg::TransformStamped>& transforms) {
+  auto& known = net_message_.transforms;
+  for (const geometry_msgs::msg::TransformStamped& one : transforms) {
+    const auto place = std::find_if(known.begin(), known.end(), [&](const auto& other) {
       return other.child_frame_id == one.child_frame_id;
     });
     if (place == known.end()) {

@@ -32,7 +32,7 @@ inline double two_pi_complement(double angle) {
 
 // How far it is down and up from an angle to the limits; false where it lies outside.
 inline bool find_min_max_delta(double from, double left_limit, double right_limit,
-                               double &result_min_delta, double &result_max_delta) {
+                               double& result_min_delta, double& result_max_delta) {
   const double down = shortest_angular_distance(from, left_limit);
   const double up = shortest_angular_distance(from, right_limit);
   const double down_other = two_pi_complement(down), up_other = two_pi_complement(up);
@@ -63,7 +63,7 @@ inline bool find_min_max_delta(double from, double left_limit, double right_limi
 // to a limit that is nearest.
 inline bool shortest_angular_distance_with_large_limits(double from, double to, double left_limit,
                                                         double right_limit,
-                                                        double &shortest_angle) {
+                                                        double& shortest_angle) {
   const double way = shortest_angular_distance(from, to);
   shortest_angle = way;
   if (left_limit > right_limit) return false;
@@ -84,7 +84,7 @@ inline bool shortest_angular_distance_with_large_limits(double from, double to, 
 
 // The way from one angle to another that stays within limits; false where an end lies outside.
 inline bool shortest_angular_distance_with_limits(double from, double to, double left_limit,
-                                                  double right_limit, double &shortest_angle) {
+                                                  double right_limit, double& shortest_angle) {
   double min_delta = -2.0 * M_PI, max_delta = 2.0 * M_PI;
   double min_delta_to = -2.0 * M_PI, max_delta_to = 2.0 * M_PI;
   const bool is_from_inside =

@@ -71,8 +71,8 @@ class __attribute__((visibility("default"))) FrameTree {
 
   // Calls once when the transform comes (true) or is out of reach (false). 0: it is there already,
   // `never`: it is too old; then nothing is called.
-  std::uint64_t request(const std::string& target, const std::string& source,
-                        std::int64_t stamp_ns, Waiting done);
+  std::uint64_t request(const std::string& target, const std::string& source, std::int64_t stamp_ns,
+                        Waiting done);
   void cancel(std::uint64_t handle);
   // Waits, wall time, until transforms come in; false where none did.
   bool wait_for_change(std::int64_t timeout_ns) const;

@@ -36,7 +36,7 @@ struct LaserPoint {
 
 // Beams from the least range up to the cutoff, which is the greatest where negative.
 template <class Scan>
-std::vector<LaserPoint> laser_points(const Scan &scan, double range_cutoff) {
+std::vector<LaserPoint> laser_points(const Scan& scan, double range_cutoff) {
   const double limit = range_cutoff < 0 ? static_cast<double>(scan.range_max) : range_cutoff;
   std::vector<LaserPoint> points;
   points.reserve(scan.ranges.size());
@@ -56,13 +56,13 @@ std::vector<LaserPoint> laser_points(const Scan &scan, double range_cutoff) {
 
 // Moves points as the sensor moved while it scanned: from the transform at the first beam to that
 // at the last one.
-inline void move_laser_points(std::vector<LaserPoint> &points, std::size_t beams,
-                              const tf2::Quaternion &first_rotation,
-                              const tf2::Vector3 &first_origin,
-                              const tf2::Quaternion &last_rotation,
-                              const tf2::Vector3 &last_origin) {
+inline void move_laser_points(std::vector<LaserPoint>& points, std::size_t beams,
+                              const tf2::Quaternion& first_rotation,
+                              const tf2::Vector3& first_origin,
+                              const tf2::Quaternion& last_rotation,
+                              const tf2::Vector3& last_origin) {
   const double last = beams > 1 ? static_cast<double>(beams - 1) : 1.0;
-  for (LaserPoint &point : points) {
+  for (LaserPoint& point : points) {
     const double ratio = static_cast<double>(point.index) / last;
     tf2::Vector3 origin;
     origin.setInterpolate3(first_origin, last_origin, ratio);
@@ -73,37 +73,38 @@ inline void move_laser_points(std::vector<LaserPoint> &points, std::size_t beams
 }
 
 template <class Scan, class Cloud>
-void laser_cloud2(const Scan &scan, const std::vector<LaserPoint> &points, int channels,
-                  Cloud &cloud) {
-  using Value = std::function<double(const LaserPoint &)>;
+void laser_cloud2(const Scan& scan, const std::vector<LaserPoint>& points, int channels,
+                  Cloud& cloud) {
+  using Value = std::function<double(const LaserPoint&)>;
   constexpr std::uint8_t whole = 5, real = 7;  // INT32 and FLOAT32
   struct Column {
-    const char *name;
+    const char* name;
     std::uint8_t datatype;
     Value value;
   };
   std::vector<Column> columns{
-      {"x", real, [](const LaserPoint &p) { return p.position.x(); }},
-      {"y", real, [](const LaserPoint &p) { return p.position.y(); }},
-      {"z", real, [](const LaserPoint &p) { return p.position.z(); }},
+      {"x", real, [](const LaserPoint& p) { return p.position.x(); }},
+      {"y", real, [](const LaserPoint& p) { return p.position.y(); }},
+      {"z", real, [](const LaserPoint& p) { return p.position.z(); }},
   };
   if ((channels & laser_channel::Intensity) != 0 && !scan.intensities.empty())
-    columns.push_back({"intensity", real, [&scan](const LaserPoint &p) {
-                         return p.index < scan.intensities.size() ? scan.intensities[p.index] : 0.0F;
+    columns.push_back({"intensity", real, [&scan](const LaserPoint& p) {
+                         return p.index < scan.intensities.size() ? scan.intensities[p.index]
+                                                                  : 0.0F;
                        }});
   if ((channels & laser_channel::Index) != 0)
     columns.push_back(
-        {"index", whole, [](const LaserPoint &p) { return static_cast<double>(p.index); }});
+        {"index", whole, [](const LaserPoint& p) { return static_cast<double>(p.index); }});
   if ((channels & laser_channel::Distance) != 0)
-    columns.push_back({"distances", real, [](const LaserPoint &p) { return p.range; }});
+    columns.push_back({"distances", real, [](const LaserPoint& p) { return p.range; }});
   if ((channels & laser_channel::Timestamp) != 0)
-    columns.push_back({"stamps", real, [&scan](const LaserPoint &p) {
+    columns.push_back({"stamps", real, [&scan](const LaserPoint& p) {
                          return static_cast<double>(p.index) * scan.time_increment;
                        }});
   if ((channels & laser_channel::Viewpoint) != 0) {
-    columns.push_back({"vp_x", real, [](const LaserPoint &p) { return p.viewpoint.x(); }});
-    columns.push_back({"vp_y", real, [](const LaserPoint &p) { return p.viewpoint.y(); }});
-    columns.push_back({"vp_z", real, [](const LaserPoint &p) { return p.viewpoint.z(); }});
+    columns.push_back({"vp_x", real, [](const LaserPoint& p) { return p.viewpoint.x(); }});
+    columns.push_back({"vp_y", real, [](const LaserPoint& p) { return p.viewpoint.y(); }});
+    columns.push_back({"vp_z", real, [](const LaserPoint& p) { return p.viewpoint.z(); }});
   }
 
   cloud.header = scan.header;
@@ -121,9 +122,9 @@ void laser_cloud2(const Scan &scan, const std::vector<LaserPoint> &points, int c
   cloud.point_step = static_cast<std::uint32_t>(4 * columns.size());
   cloud.row_step = cloud.point_step * cloud.width;
   cloud.data.resize(cloud.row_step);
-  std::uint8_t *out = cloud.data.data();
-  for (const LaserPoint &point : points) {
-    for (const Column &column : columns) {
+  std::uint8_t* out = cloud.data.data();
+  for (const LaserPoint& point : points) {
+    for (const Column& column : columns) {
       const double value = column.value(point);
       if (column.datatype == whole) {
         const std::int32_t number = static_cast<std::int32_t>(value);
@@ -138,8 +139,8 @@ void laser_cloud2(const Scan &scan, const std::vector<LaserPoint> &points, int c
 }
 
 template <class Scan, class Cloud>
-void laser_cloud(const Scan &scan, const std::vector<LaserPoint> &points, int channels,
-                 Cloud &cloud) {
+void laser_cloud(const Scan& scan, const std::vector<LaserPoint>& points, int channels,
+                 Cloud& cloud) {
   cloud.header = scan.header;
   cloud.points.resize(points.size());
   cloud.channels.clear();
@@ -148,23 +149,22 @@ void laser_cloud(const Scan &scan, const std::vector<LaserPoint> &points, int ch
     cloud.points[i].y = static_cast<float>(points[i].position.y());
     cloud.points[i].z = static_cast<float>(points[i].position.z());
   }
-  const auto add = [&](const char *name, const std::function<float(const LaserPoint &)> &value) {
+  const auto add = [&](const char* name, const std::function<float(const LaserPoint&)>& value) {
     cloud.channels.emplace_back();
     cloud.channels.back().name = name;
-    for (const LaserPoint &point : points) cloud.channels.back().values.push_back(value(point));
+    for (const LaserPoint& point : points) cloud.channels.back().values.push_back(value(point));
   };
   if ((channels & laser_channel::Intensity) != 0 && !scan.intensities.empty())
-    add("intensities", [&scan](const LaserPoint &p) {
+    add("intensities", [&scan](const LaserPoint& p) {
       return p.index < scan.intensities.size() ? scan.intensities[p.index] : 0.0F;
     });
   if ((channels & laser_channel::Index) != 0)
-    add("index", [](const LaserPoint &p) { return static_cast<float>(p.index); });
+    add("index", [](const LaserPoint& p) { return static_cast<float>(p.index); });
   if ((channels & laser_channel::Distance) != 0)
-    add("distances", [](const LaserPoint &p) { return static_cast<float>(p.range); });
+    add("distances", [](const LaserPoint& p) { return static_cast<float>(p.range); });
   if ((channels & laser_channel::Timestamp) != 0)
-    add("stamps", [&scan](const LaserPoint &p) {
-      return static_cast<float>(p.index) * scan.time_increment;
-    });
+    add("stamps",
+        [&scan](const LaserPoint& p) { return static_cast<float>(p.index) * scan.time_increment; });
 }
 
 }  // namespace gazelle

@@ -12,8 +12,8 @@ class JntArrayVel {
 
   JntArrayVel() {}
   explicit JntArrayVel(unsigned int size) : q(size), qdot(size) {}
-  explicit JntArrayVel(const JntArray &q_in) : q(q_in), qdot(q_in.rows()) {}
-  JntArrayVel(const JntArray &q_in, const JntArray &qdot_in) : q(q_in), qdot(qdot_in) {}
+  explicit JntArrayVel(const JntArray& q_in) : q(q_in), qdot(q_in.rows()) {}
+  JntArrayVel(const JntArray& q_in, const JntArray& qdot_in) : q(q_in), qdot(qdot_in) {}
   void resize(unsigned int size) {
     q.resize(size);
     qdot.resize(size);
@@ -30,7 +30,7 @@ class JntArrayAcc {
 
   JntArrayAcc() {}
   explicit JntArrayAcc(unsigned int size) : q(size), qdot(size), qdotdot(size) {}
-  JntArrayAcc(const JntArray &q_in, const JntArray &qdot_in, const JntArray &qdotdot_in)
+  JntArrayAcc(const JntArray& q_in, const JntArray& qdot_in, const JntArray& qdotdot_in)
       : q(q_in), qdot(qdot_in), qdotdot(qdotdot_in) {}
   void resize(unsigned int size) {
     q.resize(size);
@@ -43,8 +43,8 @@ struct VectorVel {
   Vector p;  // where
   Vector v;  // how fast
   VectorVel() {}
-  explicit VectorVel(const Vector &position) : p(position) {}
-  VectorVel(const Vector &position, const Vector &velocity) : p(position), v(velocity) {}
+  explicit VectorVel(const Vector& position) : p(position) {}
+  VectorVel(const Vector& position, const Vector& velocity) : p(position), v(velocity) {}
   Vector value() const { return p; }
   Vector deriv() const { return v; }
 };
@@ -53,8 +53,8 @@ struct RotationVel {
   Rotation R;
   Vector w;
   RotationVel() {}
-  explicit RotationVel(const Rotation &rotation) : R(rotation) {}
-  RotationVel(const Rotation &rotation, const Vector &rate) : R(rotation), w(rate) {}
+  explicit RotationVel(const Rotation& rotation) : R(rotation) {}
+  RotationVel(const Rotation& rotation, const Vector& rate) : R(rotation), w(rate) {}
   Rotation value() const { return R; }
   Vector deriv() const { return w; }
 };
@@ -65,8 +65,8 @@ class FrameVel {
   VectorVel p;
 
   FrameVel() {}
-  explicit FrameVel(const Frame &frame) : M(frame.M), p(frame.p) {}
-  FrameVel(const Frame &frame, const Twist &twist) : M(frame.M, twist.rot), p(frame.p, twist.vel) {}
+  explicit FrameVel(const Frame& frame) : M(frame.M), p(frame.p) {}
+  FrameVel(const Frame& frame, const Twist& twist) : M(frame.M, twist.rot), p(frame.p, twist.vel) {}
   Frame GetFrame() const { return Frame(M.R, p.p); }
   Twist GetTwist() const { return Twist(p.v, M.w); }
   Frame value() const { return GetFrame(); }

@@ -32,7 +32,7 @@ class GAZELLE_KDL SolverI {
 
   virtual ~SolverI() = default;
   virtual int getError() const { return error; }
-  virtual const char *strError(const int error) const;
+  virtual const char* strError(const int error) const;
   virtual void updateInternalDataStructures() {}
 
  protected:
@@ -44,47 +44,47 @@ class GAZELLE_KDL SolverI {
 class GAZELLE_KDL ChainFkSolverPos : public SolverI {
  public:
   // A negative segment number asks for the tip.
-  virtual int JntToCart(const JntArray &q_in, Frame &p_out, int segmentNr = -1) = 0;
-  virtual int JntToCart(const JntArray &q_in, std::vector<Frame> &p_out, int segmentNr = -1) = 0;
+  virtual int JntToCart(const JntArray& q_in, Frame& p_out, int segmentNr = -1) = 0;
+  virtual int JntToCart(const JntArray& q_in, std::vector<Frame>& p_out, int segmentNr = -1) = 0;
 };
 
 class GAZELLE_KDL ChainFkSolverPos_recursive : public ChainFkSolverPos {
  public:
-  explicit ChainFkSolverPos_recursive(const Chain &chain) : chain_(chain) {}
-  int JntToCart(const JntArray &q_in, Frame &p_out, int segmentNr = -1) override;
-  int JntToCart(const JntArray &q_in, std::vector<Frame> &p_out, int segmentNr = -1) override;
+  explicit ChainFkSolverPos_recursive(const Chain& chain) : chain_(chain) {}
+  int JntToCart(const JntArray& q_in, Frame& p_out, int segmentNr = -1) override;
+  int JntToCart(const JntArray& q_in, std::vector<Frame>& p_out, int segmentNr = -1) override;
 
  private:
-  const Chain &chain_;
+  const Chain& chain_;
 };
 
 class GAZELLE_KDL ChainFkSolverVel : public SolverI {
  public:
-  virtual int JntToCart(const JntArrayVel &q_in, FrameVel &out, int segmentNr = -1) = 0;
-  virtual int JntToCart(const JntArrayVel &q_in, std::vector<FrameVel> &out,
+  virtual int JntToCart(const JntArrayVel& q_in, FrameVel& out, int segmentNr = -1) = 0;
+  virtual int JntToCart(const JntArrayVel& q_in, std::vector<FrameVel>& out,
                         int segmentNr = -1) = 0;
 };
 
 class GAZELLE_KDL ChainFkSolverVel_recursive : public ChainFkSolverVel {
  public:
-  explicit ChainFkSolverVel_recursive(const Chain &chain) : chain_(chain) {}
-  int JntToCart(const JntArrayVel &q_in, FrameVel &out, int segmentNr = -1) override;
-  int JntToCart(const JntArrayVel &q_in, std::vector<FrameVel> &out, int segmentNr = -1) override;
+  explicit ChainFkSolverVel_recursive(const Chain& chain) : chain_(chain) {}
+  int JntToCart(const JntArrayVel& q_in, FrameVel& out, int segmentNr = -1) override;
+  int JntToCart(const JntArrayVel& q_in, std::vector<FrameVel>& out, int segmentNr = -1) override;
 
  private:
-  const Chain &chain_;
+  const Chain& chain_;
 };
 
 // The Jacobian at the tip, along the base's axes.
 class GAZELLE_KDL ChainJntToJacSolver : public SolverI {
  public:
-  explicit ChainJntToJacSolver(const Chain &chain);
-  int JntToJac(const JntArray &q_in, Jacobian &jac, int segmentNR = -1);
+  explicit ChainJntToJacSolver(const Chain& chain);
+  int JntToJac(const JntArray& q_in, Jacobian& jac, int segmentNR = -1);
   int setLockedJoints(const std::vector<bool> locked_joints);
   void updateInternalDataStructures() override;
 
  private:
-  const Chain &chain_;
+  const Chain& chain_;
   std::vector<bool> locked_;
 };
 
@@ -92,12 +92,12 @@ class GAZELLE_KDL ChainJntToJacSolver : public SolverI {
 
 class GAZELLE_KDL ChainIkSolverVel : public SolverI {
  public:
-  virtual int CartToJnt(const JntArray &q_in, const Twist &v_in, JntArray &qdot_out) = 0;
+  virtual int CartToJnt(const JntArray& q_in, const Twist& v_in, JntArray& qdot_out) = 0;
 };
 
 class GAZELLE_KDL ChainIkSolverPos : public SolverI {
  public:
-  virtual int CartToJnt(const JntArray &q_init, const Frame &p_in, JntArray &q_out) = 0;
+  virtual int CartToJnt(const JntArray& q_init, const Frame& p_in, JntArray& q_out) = 0;
 };
 
 // By the pseudoinverse; singular values below eps count as zero.
@@ -105,13 +105,13 @@ class GAZELLE_KDL ChainIkSolverVel_pinv : public ChainIkSolverVel {
  public:
   static const int E_CONVERGE_PINV_SINGULAR = +100;
 
-  explicit ChainIkSolverVel_pinv(const Chain &chain, double eps = 0.00001, int maxiter = 150);
-  int CartToJnt(const JntArray &q_in, const Twist &v_in, JntArray &qdot_out) override;
+  explicit ChainIkSolverVel_pinv(const Chain& chain, double eps = 0.00001, int maxiter = 150);
+  int CartToJnt(const JntArray& q_in, const Twist& v_in, JntArray& qdot_out) override;
   unsigned int getNrZeroSigmas() const { return zero_sigmas_; }
-  const char *strError(const int error) const override;
+  const char* strError(const int error) const override;
 
  private:
-  const Chain &chain_;
+  const Chain& chain_;
   ChainJntToJacSolver jacobian_;
   double eps_;
   unsigned int zero_sigmas_ = 0;
@@ -122,15 +122,15 @@ class GAZELLE_KDL ChainIkSolverVel_wdls : public ChainIkSolverVel {
  public:
   static const int E_CONVERGE_PINV_SINGULAR = +100;
 
-  explicit ChainIkSolverVel_wdls(const Chain &chain, double eps = 0.00001, int maxiter = 150);
-  int CartToJnt(const JntArray &q_in, const Twist &v_in, JntArray &qdot_out) override;
-  int setWeightJS(const Eigen::MatrixXd &Mq);
-  int setWeightTS(const Eigen::MatrixXd &Mx);
+  explicit ChainIkSolverVel_wdls(const Chain& chain, double eps = 0.00001, int maxiter = 150);
+  int CartToJnt(const JntArray& q_in, const Twist& v_in, JntArray& qdot_out) override;
+  int setWeightJS(const Eigen::MatrixXd& Mq);
+  int setWeightTS(const Eigen::MatrixXd& Mx);
   void setLambda(const double lambda) { lambda_ = lambda; }
   void setEps(const double eps) { eps_ = eps; }
 
  private:
-  const Chain &chain_;
+  const Chain& chain_;
   ChainJntToJacSolver jacobian_;
   double eps_;
   double lambda_ = 0.0;
@@ -143,20 +143,20 @@ class GAZELLE_KDL ChainIkSolverPos_NR : public ChainIkSolverPos {
   static const int E_IKSOLVER_FAILED = -100;
   static const int E_FKSOLVERPOS_FAILED = -101;
 
-  ChainIkSolverPos_NR(const Chain &chain, ChainFkSolverPos &fksolver, ChainIkSolverVel &iksolver,
+  ChainIkSolverPos_NR(const Chain& chain, ChainFkSolverPos& fksolver, ChainIkSolverVel& iksolver,
                       unsigned int maxiter = 100, double eps = 1e-6)
       : chain_(chain), fk_(fksolver), ik_(iksolver), maxiter_(maxiter), eps_(eps) {}
-  int CartToJnt(const JntArray &q_init, const Frame &p_in, JntArray &q_out) override;
+  int CartToJnt(const JntArray& q_init, const Frame& p_in, JntArray& q_out) override;
 
  protected:
   // After each step.
-  virtual void limit(JntArray &) const {}
+  virtual void limit(JntArray&) const {}
 
-  const Chain &chain_;
+  const Chain& chain_;
 
  private:
-  ChainFkSolverPos &fk_;
-  ChainIkSolverVel &ik_;
+  ChainFkSolverPos& fk_;
+  ChainIkSolverVel& ik_;
   unsigned int maxiter_;
   double eps_;
 };
@@ -164,16 +164,16 @@ class GAZELLE_KDL ChainIkSolverPos_NR : public ChainIkSolverPos {
 // The same within the joints' limits.
 class GAZELLE_KDL ChainIkSolverPos_NR_JL : public ChainIkSolverPos_NR {
  public:
-  ChainIkSolverPos_NR_JL(const Chain &chain, const JntArray &q_min, const JntArray &q_max,
-                         ChainFkSolverPos &fksolver, ChainIkSolverVel &iksolver,
+  ChainIkSolverPos_NR_JL(const Chain& chain, const JntArray& q_min, const JntArray& q_max,
+                         ChainFkSolverPos& fksolver, ChainIkSolverVel& iksolver,
                          unsigned int maxiter = 100, double eps = 1e-6)
       : ChainIkSolverPos_NR(chain, fksolver, iksolver, maxiter, eps), min_(q_min), max_(q_max) {}
-  ChainIkSolverPos_NR_JL(const Chain &chain, ChainFkSolverPos &fksolver,
-                         ChainIkSolverVel &iksolver, unsigned int maxiter = 100, double eps = 1e-6);
-  int setJointLimits(const JntArray &q_min, const JntArray &q_max);
+  ChainIkSolverPos_NR_JL(const Chain& chain, ChainFkSolverPos& fksolver, ChainIkSolverVel& iksolver,
+                         unsigned int maxiter = 100, double eps = 1e-6);
+  int setJointLimits(const JntArray& q_min, const JntArray& q_max);
 
  protected:
-  void limit(JntArray &q) const override;
+  void limit(JntArray& q) const override;
 
  private:
   JntArray min_, max_;
@@ -185,14 +185,14 @@ class GAZELLE_KDL ChainIkSolverPos_LMA : public ChainIkSolverPos {
   static const int E_GRADIENT_JOINTS_TOO_SMALL = -100;
   static const int E_INCREMENT_JOINTS_TOO_SMALL = -101;
 
-  ChainIkSolverPos_LMA(const Chain &chain, const Eigen::Matrix<double, 6, 1> &L, double eps = 1e-5,
+  ChainIkSolverPos_LMA(const Chain& chain, const Eigen::Matrix<double, 6, 1>& L, double eps = 1e-5,
                        int maxiter = 500, double eps_joints = 1e-15);
-  explicit ChainIkSolverPos_LMA(const Chain &chain, double eps = 1e-5, int maxiter = 500,
+  explicit ChainIkSolverPos_LMA(const Chain& chain, double eps = 1e-5, int maxiter = 500,
                                 double eps_joints = 1e-15);
-  int CartToJnt(const JntArray &q_init, const Frame &p_in, JntArray &q_out) override;
+  int CartToJnt(const JntArray& q_init, const Frame& p_in, JntArray& q_out) override;
 
  private:
-  const Chain &chain_;
+  const Chain& chain_;
   ChainFkSolverPos_recursive fk_;
   ChainJntToJacSolver jacobian_;
   Eigen::Matrix<double, 6, 1> weight_;
@@ -204,32 +204,32 @@ class GAZELLE_KDL ChainIkSolverPos_LMA : public ChainIkSolverPos {
 
 class GAZELLE_KDL ChainIdSolver : public SolverI {
  public:
-  virtual int CartToJnt(const JntArray &q, const JntArray &q_dot, const JntArray &q_dotdot,
-                        const Wrenches &f_ext, JntArray &torques) = 0;
+  virtual int CartToJnt(const JntArray& q, const JntArray& q_dot, const JntArray& q_dotdot,
+                        const Wrenches& f_ext, JntArray& torques) = 0;
 };
 
 // Newton and Euler, from the base to the tip and back.
 class GAZELLE_KDL ChainIdSolver_RNE : public ChainIdSolver {
  public:
-  ChainIdSolver_RNE(const Chain &chain, Vector grav) : chain_(chain), gravity_(-grav, Vector()) {}
-  int CartToJnt(const JntArray &q, const JntArray &q_dot, const JntArray &q_dotdot,
-                const Wrenches &f_ext, JntArray &torques) override;
+  ChainIdSolver_RNE(const Chain& chain, Vector grav) : chain_(chain), gravity_(-grav, Vector()) {}
+  int CartToJnt(const JntArray& q, const JntArray& q_dot, const JntArray& q_dotdot,
+                const Wrenches& f_ext, JntArray& torques) override;
 
  private:
-  const Chain &chain_;
+  const Chain& chain_;
   Twist gravity_;
 };
 
 class GAZELLE_KDL ChainDynParam : public SolverI {
  public:
-  ChainDynParam(const Chain &chain, Vector grav)
+  ChainDynParam(const Chain& chain, Vector grav)
       : chain_(chain), at_rest_(chain, Vector()), hanging_(chain, grav) {}
-  int JntToCoriolis(const JntArray &q, const JntArray &q_dot, JntArray &coriolis);
-  int JntToMass(const JntArray &q, JntSpaceInertiaMatrix &H);
-  int JntToGravity(const JntArray &q, JntArray &gravity);
+  int JntToCoriolis(const JntArray& q, const JntArray& q_dot, JntArray& coriolis);
+  int JntToMass(const JntArray& q, JntSpaceInertiaMatrix& H);
+  int JntToGravity(const JntArray& q, JntArray& gravity);
 
  private:
-  const Chain &chain_;
+  const Chain& chain_;
   ChainIdSolver_RNE at_rest_, hanging_;
 };
 
@@ -237,8 +237,8 @@ class GAZELLE_KDL ChainDynParam : public SolverI {
 
 class GAZELLE_KDL TreeFkSolverPos_recursive {
  public:
-  explicit TreeFkSolverPos_recursive(const Tree &tree) : tree_(tree) {}
-  int JntToCart(const JntArray &q_in, Frame &p_out, std::string segmentName);
+  explicit TreeFkSolverPos_recursive(const Tree& tree) : tree_(tree) {}
+  int JntToCart(const JntArray& q_in, Frame& p_out, std::string segmentName);
 
  private:
   Tree tree_;
@@ -246,8 +246,8 @@ class GAZELLE_KDL TreeFkSolverPos_recursive {
 
 class GAZELLE_KDL TreeJntToJacSolver {
  public:
-  explicit TreeJntToJacSolver(const Tree &tree) : tree_(tree) {}
-  int JntToJac(const JntArray &q_in, Jacobian &jac, const std::string &segmentname);
+  explicit TreeJntToJacSolver(const Tree& tree) : tree_(tree) {}
+  int JntToJac(const JntArray& q_in, Jacobian& jac, const std::string& segmentname);
 
  private:
   Tree tree_;

@@ -28,9 +28,9 @@ enum class TF2Error : unsigned char {
 };
 
 // Visible from every library, so that what one throws another can catch.
-#define GAZELLE_TF2_EXCEPTION(name, base)                              \
-  class __attribute__((visibility("default"))) name : public base {    \
-   public:                                                             \
+#define GAZELLE_TF2_EXCEPTION(name, base)                                \
+  class __attribute__((visibility("default"))) name : public base {      \
+   public:                                                               \
     explicit name(const std::string& description) : base(description) {} \
   }
 

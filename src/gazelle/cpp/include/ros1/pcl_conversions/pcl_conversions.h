@@ -18,10 +18,10 @@
 namespace pcl_conversions {
 namespace impl {
 
-inline std::uint64_t microseconds(const ros::Time &stamp) { return stamp.toNSec() / 1000; }
+inline std::uint64_t microseconds(const ros::Time& stamp) { return stamp.toNSec() / 1000; }
 inline ros::Time stamp_of(std::uint64_t us) { return ros::Time().fromNSec(us * 1000); }
-inline std::uint32_t sequence(const std_msgs::Header &header) { return header.seq; }
-inline void set_sequence(std_msgs::Header &header, std::uint32_t seq) { header.seq = seq; }
+inline std::uint32_t sequence(const std_msgs::Header& header) { return header.seq; }
+inline void set_sequence(std_msgs::Header& header, std::uint32_t seq) { header.seq = seq; }
 
 }  // namespace impl
 }  // namespace pcl_conversions

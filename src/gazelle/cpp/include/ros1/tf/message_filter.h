@@ -19,9 +19,9 @@ class MessageFilterBase {
  public:
   virtual ~MessageFilterBase() = default;
   virtual void clear() = 0;
-  virtual void setTargetFrame(const std::string &target_frame) = 0;
-  virtual void setTargetFrames(const std::vector<std::string> &target_frames) = 0;
-  virtual void setTolerance(const ros::Duration &tolerance) = 0;
+  virtual void setTargetFrame(const std::string& target_frame) = 0;
+  virtual void setTargetFrames(const std::vector<std::string>& target_frames) = 0;
+  virtual void setTolerance(const ros::Duration& tolerance) = 0;
   virtual void setQueueSize(uint32_t new_queue_size) = 0;
   virtual uint32_t getQueueSize() = 0;
 };
@@ -32,9 +32,9 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
  public:
   typedef boost::shared_ptr<M const> MConstPtr;
   typedef ros::MessageEvent<M const> MEvent;
-  typedef boost::function<void(const MConstPtr &, FilterFailureReason)> FailureCallback;
+  typedef boost::function<void(const MConstPtr&, FilterFailureReason)> FailureCallback;
 
-  MessageFilter(Transformer &tf, const std::string &target_frame, uint32_t queue_size,
+  MessageFilter(Transformer& tf, const std::string& target_frame, uint32_t queue_size,
                 ros::NodeHandle nh = ros::NodeHandle(),
                 ros::Duration max_rate = ros::Duration(0.01))
       : buffer_(tf.getTF2BufferPtr()),
@@ -43,7 +43,7 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     filter_.registerCallback(&MessageFilter::ready, this);
   }
   template <class F>
-  MessageFilter(F &f, Transformer &tf, const std::string &target_frame, uint32_t queue_size,
+  MessageFilter(F& f, Transformer& tf, const std::string& target_frame, uint32_t queue_size,
                 ros::NodeHandle nh = ros::NodeHandle(),
                 ros::Duration max_rate = ros::Duration(0.01))
       : MessageFilter(tf, target_frame, queue_size, nh, max_rate) {
@@ -51,31 +51,31 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
   }
 
   template <class F>
-  void connectInput(F &f) {
+  void connectInput(F& f) {
     filter_.connectInput(f);
   }
-  void setTargetFrame(const std::string &target_frame) override {
+  void setTargetFrame(const std::string& target_frame) override {
     filter_.setTargetFrame(target_frame);
   }
-  void setTargetFrames(const std::vector<std::string> &target_frames) override {
+  void setTargetFrames(const std::vector<std::string>& target_frames) override {
     filter_.setTargetFrames(target_frames);
   }
   std::string getTargetFramesString() { return filter_.getTargetFramesString(); }
-  void setTolerance(const ros::Duration &tolerance) override { filter_.setTolerance(tolerance); }
+  void setTolerance(const ros::Duration& tolerance) override { filter_.setTolerance(tolerance); }
   void clear() override { filter_.clear(); }
-  void add(const MEvent &event) { filter_.add(event); }
-  void add(const MConstPtr &message) { filter_.add(message); }
+  void add(const MEvent& event) { filter_.add(event); }
+  void add(const MConstPtr& message) { filter_.add(message); }
   void setQueueSize(uint32_t new_queue_size) override { filter_.setQueueSize(new_queue_size); }
   uint32_t getQueueSize() override { return filter_.getQueueSize(); }
-  message_filters::Connection registerFailureCallback(const FailureCallback &callback) {
+  message_filters::Connection registerFailureCallback(const FailureCallback& callback) {
     return filter_.registerFailureCallback(
-        [callback](const MConstPtr &message, tf2_ros::FilterFailureReason reason) {
+        [callback](const MConstPtr& message, tf2_ros::FilterFailureReason reason) {
           callback(message, static_cast<FilterFailureReason>(reason));
         });
   }
 
  private:
-  void ready(const MEvent &event) { this->signalMessage(event); }
+  void ready(const MEvent& event) { this->signalMessage(event); }
 
   std::shared_ptr<tf2_ros::Buffer> buffer_;
   tf2_ros::MessageFilter<M> filter_;

@@ -11,10 +11,10 @@ namespace tf {
 class __attribute__((visibility("default"))) TransformBroadcaster {
  public:
   TransformBroadcaster();
-  void sendTransform(const StampedTransform &transform);
-  void sendTransform(const std::vector<StampedTransform> &transforms);
-  void sendTransform(const geometry_msgs::TransformStamped &transform);
-  void sendTransform(const std::vector<geometry_msgs::TransformStamped> &transforms);
+  void sendTransform(const StampedTransform& transform);
+  void sendTransform(const std::vector<StampedTransform>& transforms);
+  void sendTransform(const geometry_msgs::TransformStamped& transform);
+  void sendTransform(const std::vector<geometry_msgs::TransformStamped>& transforms);
 
  private:
   tf2_ros::TransformBroadcaster tf2_broadcaster_;

@@ -45,39 +45,39 @@ class BufferCore {
   explicit BufferCore(ros::Duration cache_time = ros::Duration(DEFAULT_CACHE_TIME))
       : cache_time_(cache_time), tree_(cache_time.toNSec()) {}
   virtual ~BufferCore() = default;
-  BufferCore(const BufferCore &) = delete;
-  BufferCore &operator=(const BufferCore &) = delete;
+  BufferCore(const BufferCore&) = delete;
+  BufferCore& operator=(const BufferCore&) = delete;
 
   void clear() { tree_.clear(); }
-  bool setTransform(const geometry_msgs::TransformStamped &transform, const std::string &authority,
+  bool setTransform(const geometry_msgs::TransformStamped& transform, const std::string& authority,
                     bool is_static = false);
 
-  geometry_msgs::TransformStamped lookupTransform(const std::string &target_frame,
-                                                  const std::string &source_frame,
-                                                  const ros::Time &time) const;
-  geometry_msgs::TransformStamped lookupTransform(const std::string &target_frame,
-                                                  const ros::Time &target_time,
-                                                  const std::string &source_frame,
-                                                  const ros::Time &source_time,
-                                                  const std::string &fixed_frame) const;
-  bool canTransform(const std::string &target_frame, const std::string &source_frame,
-                    const ros::Time &time, std::string *error_msg = nullptr) const;
-  bool canTransform(const std::string &target_frame, const ros::Time &target_time,
-                    const std::string &source_frame, const ros::Time &source_time,
-                    const std::string &fixed_frame, std::string *error_msg = nullptr) const;
+  geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame,
+                                                  const std::string& source_frame,
+                                                  const ros::Time& time) const;
+  geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame,
+                                                  const ros::Time& target_time,
+                                                  const std::string& source_frame,
+                                                  const ros::Time& source_time,
+                                                  const std::string& fixed_frame) const;
+  bool canTransform(const std::string& target_frame, const std::string& source_frame,
+                    const ros::Time& time, std::string* error_msg = nullptr) const;
+  bool canTransform(const std::string& target_frame, const ros::Time& target_time,
+                    const std::string& source_frame, const ros::Time& source_time,
+                    const std::string& fixed_frame, std::string* error_msg = nullptr) const;
 
   std::string allFramesAsYAML(double current_time) const { return tree_.as_yaml(current_time); }
   std::string allFramesAsYAML() const { return tree_.as_yaml(0.0); }
   std::string allFramesAsString() const { return tree_.as_text(); }
 
   using TransformableCallback = boost::function<void(
-      TransformableRequestHandle request_handle, const std::string &target_frame,
-      const std::string &source_frame, ros::Time time, TransformableResult result)>;
-  TransformableCallbackHandle addTransformableCallback(const TransformableCallback &cb);
+      TransformableRequestHandle request_handle, const std::string& target_frame,
+      const std::string& source_frame, ros::Time time, TransformableResult result)>;
+  TransformableCallbackHandle addTransformableCallback(const TransformableCallback& cb);
   void removeTransformableCallback(TransformableCallbackHandle handle);
   TransformableRequestHandle addTransformableRequest(TransformableCallbackHandle handle,
-                                                     const std::string &target_frame,
-                                                     const std::string &source_frame,
+                                                     const std::string& target_frame,
+                                                     const std::string& source_frame,
                                                      ros::Time time);
   void cancelTransformableRequest(TransformableRequestHandle handle) { tree_.cancel(handle); }
 
@@ -88,30 +88,30 @@ class BufferCore {
     return ChangeConnection(tree_.add_listener([callback] { callback(); }));
   }
   void _removeTransformsChangedListener(ChangeConnection c) { tree_.remove_listener(c.number()); }
-  bool _frameExists(const std::string &frame_id) const { return tree_.exists(frame_id); }
-  bool _getParent(const std::string &frame_id, ros::Time time, std::string &parent) const;
-  void _getFrameStrings(std::vector<std::string> &ids) const { ids = tree_.names(); }
-  CompactFrameID _lookupFrameNumber(const std::string &frame_id) const {
+  bool _frameExists(const std::string& frame_id) const { return tree_.exists(frame_id); }
+  bool _getParent(const std::string& frame_id, ros::Time time, std::string& parent) const;
+  void _getFrameStrings(std::vector<std::string>& ids) const { ids = tree_.names(); }
+  CompactFrameID _lookupFrameNumber(const std::string& frame_id) const {
     return tree_.number(frame_id);
   }
-  CompactFrameID _lookupOrInsertFrameNumber(const std::string &frame_id) {
+  CompactFrameID _lookupOrInsertFrameNumber(const std::string& frame_id) {
     return tree_.number_or_new(frame_id);
   }
   int _getLatestCommonTime(CompactFrameID target_frame, CompactFrameID source_frame,
-                           ros::Time &time, std::string *error_string) const;
-  CompactFrameID _validateFrameId(const char *function_name_arg,
-                                  const std::string &frame_id) const {
+                           ros::Time& time, std::string* error_string) const;
+  CompactFrameID _validateFrameId(const char* function_name_arg,
+                                  const std::string& frame_id) const {
     return tree_.checked_number(function_name_arg, frame_id);
   }
   ros::Duration getCacheLength() { return cache_time_; }
   std::string _allFramesAsDot(double current_time) const { return tree_.as_dot(current_time); }
   std::string _allFramesAsDot() const { return tree_.as_dot(0.0); }
-  void _chainAsVector(const std::string &target_frame, ros::Time target_time,
-                      const std::string &source_frame, ros::Time source_time,
-                      const std::string &fixed_frame, std::vector<std::string> &output) const;
+  void _chainAsVector(const std::string& target_frame, ros::Time target_time,
+                      const std::string& source_frame, ros::Time source_time,
+                      const std::string& fixed_frame, std::vector<std::string>& output) const;
 
   // Of ours: what waits for transforms waits on it.
-  const gazelle::FrameTree &gazelle_tree() const { return tree_; }
+  const gazelle::FrameTree& gazelle_tree() const { return tree_; }
 
  private:
   // A function that is told of transforms. Removing it waits for a call that is under way, so
@@ -131,16 +131,16 @@ class BufferCore {
 
 namespace impl {
 
-inline std::int64_t nanoseconds(const ros::Time &time) {
+inline std::int64_t nanoseconds(const ros::Time& time) {
   return static_cast<std::int64_t>(time.toNSec());
 }
 inline ros::Time time_of(std::int64_t stamp_ns) {
   ros::Time out;
   return out.fromNSec(static_cast<std::uint64_t>(stamp_ns));
 }
-inline geometry_msgs::TransformStamped message_of(const gazelle::FoundTransform &found,
-                                                  const std::string &target,
-                                                  const std::string &source) {
+inline geometry_msgs::TransformStamped message_of(const gazelle::FoundTransform& found,
+                                                  const std::string& target,
+                                                  const std::string& source) {
   geometry_msgs::TransformStamped out;
   out.header.stamp = time_of(found.stamp_ns);
   out.header.frame_id = target;
@@ -157,44 +157,42 @@ inline geometry_msgs::TransformStamped message_of(const gazelle::FoundTransform 
 
 }  // namespace impl
 
-inline bool BufferCore::setTransform(const geometry_msgs::TransformStamped &transform,
-                                     const std::string &authority, bool is_static) {
-  const auto &t = transform.transform.translation;
-  const auto &q = transform.transform.rotation;
+inline bool BufferCore::setTransform(const geometry_msgs::TransformStamped& transform,
+                                     const std::string& authority, bool is_static) {
+  const auto& t = transform.transform.translation;
+  const auto& q = transform.transform.rotation;
   return tree_.set(transform.header.frame_id, transform.child_frame_id,
                    impl::nanoseconds(transform.header.stamp), Vector3(t.x, t.y, t.z),
                    Quaternion(q.x, q.y, q.z, q.w), authority, is_static);
 }
 
-inline geometry_msgs::TransformStamped BufferCore::lookupTransform(
-    const std::string &target_frame, const std::string &source_frame,
-    const ros::Time &time) const {
+inline geometry_msgs::TransformStamped BufferCore::lookupTransform(const std::string& target_frame,
+                                                                   const std::string& source_frame,
+                                                                   const ros::Time& time) const {
   return impl::message_of(tree_.look_up(target_frame, source_frame, impl::nanoseconds(time)),
                           target_frame, source_frame);
 }
 inline geometry_msgs::TransformStamped BufferCore::lookupTransform(
-    const std::string &target_frame, const ros::Time &target_time,
-    const std::string &source_frame, const ros::Time &source_time,
-    const std::string &fixed_frame) const {
+    const std::string& target_frame, const ros::Time& target_time, const std::string& source_frame,
+    const ros::Time& source_time, const std::string& fixed_frame) const {
   return impl::message_of(tree_.look_up(target_frame, impl::nanoseconds(target_time), source_frame,
                                         impl::nanoseconds(source_time), fixed_frame),
                           target_frame, source_frame);
 }
-inline bool BufferCore::canTransform(const std::string &target_frame,
-                                     const std::string &source_frame, const ros::Time &time,
-                                     std::string *error_msg) const {
+inline bool BufferCore::canTransform(const std::string& target_frame,
+                                     const std::string& source_frame, const ros::Time& time,
+                                     std::string* error_msg) const {
   return tree_.can(target_frame, source_frame, impl::nanoseconds(time), error_msg);
 }
-inline bool BufferCore::canTransform(const std::string &target_frame, const ros::Time &target_time,
-                                     const std::string &source_frame,
-                                     const ros::Time &source_time, const std::string &fixed_frame,
-                                     std::string *error_msg) const {
+inline bool BufferCore::canTransform(const std::string& target_frame, const ros::Time& target_time,
+                                     const std::string& source_frame, const ros::Time& source_time,
+                                     const std::string& fixed_frame, std::string* error_msg) const {
   return tree_.can(target_frame, impl::nanoseconds(target_time), source_frame,
                    impl::nanoseconds(source_time), fixed_frame, error_msg);
 }
 
 inline TransformableCallbackHandle BufferCore::addTransformableCallback(
-    const TransformableCallback &cb) {
+    const TransformableCallback& cb) {
   std::lock_guard<std::mutex> hold(told_lock_);
   auto told = std::make_shared<Told>();
   told->function = cb;
@@ -215,8 +213,8 @@ inline void BufferCore::removeTransformableCallback(TransformableCallbackHandle 
   told->function.clear();
 }
 inline TransformableRequestHandle BufferCore::addTransformableRequest(
-    TransformableCallbackHandle handle, const std::string &target_frame,
-    const std::string &source_frame, ros::Time time) {
+    TransformableCallbackHandle handle, const std::string& target_frame,
+    const std::string& source_frame, ros::Time time) {
   std::shared_ptr<Told> told;
   {
     std::lock_guard<std::mutex> hold(told_lock_);
@@ -235,13 +233,13 @@ inline TransformableRequestHandle BufferCore::addTransformableRequest(
   return tree_.request(target_frame, source_frame, impl::nanoseconds(time), done);
 }
 
-inline bool BufferCore::_getParent(const std::string &frame_id, ros::Time time,
-                                   std::string &parent) const {
+inline bool BufferCore::_getParent(const std::string& frame_id, ros::Time time,
+                                   std::string& parent) const {
   return tree_.parent(frame_id, impl::nanoseconds(time), parent);
 }
 inline int BufferCore::_getLatestCommonTime(CompactFrameID target_frame,
-                                            CompactFrameID source_frame, ros::Time &time,
-                                            std::string *error_string) const {
+                                            CompactFrameID source_frame, ros::Time& time,
+                                            std::string* error_string) const {
   std::int64_t stamp_ns = 0;
   const gazelle::FrameFault fault =
       tree_.latest_common_time(target_frame, source_frame, stamp_ns, error_string);
@@ -251,10 +249,10 @@ inline int BufferCore::_getLatestCommonTime(CompactFrameID target_frame,
   return static_cast<int>(fault == gazelle::FrameFault::none ? TF2Error::TF2_NO_ERROR
                                                              : TF2Error::TF2_LOOKUP_ERROR);
 }
-inline void BufferCore::_chainAsVector(const std::string &target_frame, ros::Time target_time,
-                                       const std::string &source_frame, ros::Time source_time,
-                                       const std::string &fixed_frame,
-                                       std::vector<std::string> &output) const {
+inline void BufferCore::_chainAsVector(const std::string& target_frame, ros::Time target_time,
+                                       const std::string& source_frame, ros::Time source_time,
+                                       const std::string& fixed_frame,
+                                       std::vector<std::string>& output) const {
   output = tree_.chain(target_frame, impl::nanoseconds(target_time), source_frame,
                        impl::nanoseconds(source_time), fixed_frame);
 }

@@ -6,7 +6,6 @@
 #include "ros/time.h"
 #include "tf2/LinearMath/Transform.h"
 
-
 namespace tf2 {
 
 using CompactFrameID = std::uint32_t;

@@ -12,8 +12,8 @@
 
 namespace tf2 {
 namespace impl {
-inline const ros::Time &eigen_stamp_of(const ros::Time &stamp) { return stamp; }
-inline const ros::Time &eigen_stamp_for_message(const ros::Time &stamp) { return stamp; }
+inline const ros::Time& eigen_stamp_of(const ros::Time& stamp) { return stamp; }
+inline const ros::Time& eigen_stamp_for_message(const ros::Time& stamp) { return stamp; }
 }  // namespace impl
 }  // namespace tf2
 

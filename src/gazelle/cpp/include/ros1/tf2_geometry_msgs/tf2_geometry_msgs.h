@@ -18,14 +18,14 @@
 
 namespace tf2 {
 namespace impl {
-inline const ros::Time &stamp_of(const ros::Time &stamp) { return stamp; }
-inline const ros::Time &stamp_for_message(const ros::Time &stamp) { return stamp; }
+inline const ros::Time& stamp_of(const ros::Time& stamp) { return stamp; }
+inline const ros::Time& stamp_for_message(const ros::Time& stamp) { return stamp; }
 }  // namespace impl
 }  // namespace tf2
 
 #define GAZELLE_GEOMETRY(Name) ::geometry_msgs::Name
-#define GAZELLE_STAMP const ros::Time &
-#define GAZELLE_FRAME_NAME const std::string &
+#define GAZELLE_STAMP const ros::Time&
+#define GAZELLE_FRAME_NAME const std::string&
 #include "gazelle/tf2_messages.inc"
 #undef GAZELLE_FRAME_NAME
 #undef GAZELLE_STAMP

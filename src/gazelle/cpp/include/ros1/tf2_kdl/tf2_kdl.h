@@ -11,8 +11,8 @@
 
 namespace tf2 {
 namespace impl {
-inline const ros::Time &kdl_stamp_of(const ros::Time &stamp) { return stamp; }
-inline const ros::Time &kdl_stamp_for_message(const ros::Time &stamp) { return stamp; }
+inline const ros::Time& kdl_stamp_of(const ros::Time& stamp) { return stamp; }
+inline const ros::Time& kdl_stamp_for_message(const ros::Time& stamp) { return stamp; }
 }  // namespace impl
 }  // namespace tf2
 

@@ -19,23 +19,23 @@ class __attribute__((visibility("default"))) Buffer : public BufferInterface,
   explicit Buffer(ros::Duration cache_time = ros::Duration(BufferCore::DEFAULT_CACHE_TIME),
                   bool debug = false);
 
-  geometry_msgs::TransformStamped lookupTransform(const std::string &target_frame,
-                                                  const std::string &source_frame,
-                                                  const ros::Time &time,
+  geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame,
+                                                  const std::string& source_frame,
+                                                  const ros::Time& time,
                                                   const ros::Duration timeout) const override;
-  geometry_msgs::TransformStamped lookupTransform(const std::string &target_frame,
-                                                  const ros::Time &target_time,
-                                                  const std::string &source_frame,
-                                                  const ros::Time &source_time,
-                                                  const std::string &fixed_frame,
+  geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame,
+                                                  const ros::Time& target_time,
+                                                  const std::string& source_frame,
+                                                  const ros::Time& source_time,
+                                                  const std::string& fixed_frame,
                                                   const ros::Duration timeout) const override;
-  bool canTransform(const std::string &target_frame, const std::string &source_frame,
-                    const ros::Time &target_time, const ros::Duration timeout,
-                    std::string *errstr = nullptr) const override;
-  bool canTransform(const std::string &target_frame, const ros::Time &target_time,
-                    const std::string &source_frame, const ros::Time &source_time,
-                    const std::string &fixed_frame, const ros::Duration timeout,
-                    std::string *errstr = nullptr) const override;
+  bool canTransform(const std::string& target_frame, const std::string& source_frame,
+                    const ros::Time& target_time, const ros::Duration timeout,
+                    std::string* errstr = nullptr) const override;
+  bool canTransform(const std::string& target_frame, const ros::Time& target_time,
+                    const std::string& source_frame, const ros::Time& source_time,
+                    const std::string& fixed_frame, const ros::Duration timeout,
+                    std::string* errstr = nullptr) const override;
 
  private:
   ros::ServiceServer frames_server_;

@@ -23,7 +23,7 @@ class BufferClient : public BufferInterface {
   }
 
   geometry_msgs::TransformStamped lookupTransform(
-      const std::string &target_frame, const std::string &source_frame, const ros::Time &time,
+      const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
       const ros::Duration timeout = ros::Duration(0.0)) const override {
     tf2_msgs::LookupTransformGoal goal;
     goal.target_frame = target_frame;
@@ -34,9 +34,8 @@ class BufferClient : public BufferInterface {
     return ask(goal);
   }
   geometry_msgs::TransformStamped lookupTransform(
-      const std::string &target_frame, const ros::Time &target_time,
-      const std::string &source_frame, const ros::Time &source_time,
-      const std::string &fixed_frame,
+      const std::string& target_frame, const ros::Time& target_time,
+      const std::string& source_frame, const ros::Time& source_time, const std::string& fixed_frame,
       const ros::Duration timeout = ros::Duration(0.0)) const override {
     tf2_msgs::LookupTransformGoal goal;
     goal.target_frame = target_frame;
@@ -48,16 +47,16 @@ class BufferClient : public BufferInterface {
     goal.advanced = true;
     return ask(goal);
   }
-  bool canTransform(const std::string &target_frame, const std::string &source_frame,
-                    const ros::Time &time, const ros::Duration timeout = ros::Duration(0.0),
-                    std::string *errstr = nullptr) const override {
+  bool canTransform(const std::string& target_frame, const std::string& source_frame,
+                    const ros::Time& time, const ros::Duration timeout = ros::Duration(0.0),
+                    std::string* errstr = nullptr) const override {
     return succeeds([&] { lookupTransform(target_frame, source_frame, time, timeout); }, errstr);
   }
-  bool canTransform(const std::string &target_frame, const ros::Time &target_time,
-                    const std::string &source_frame, const ros::Time &source_time,
-                    const std::string &fixed_frame,
+  bool canTransform(const std::string& target_frame, const ros::Time& target_time,
+                    const std::string& source_frame, const ros::Time& source_time,
+                    const std::string& fixed_frame,
                     const ros::Duration timeout = ros::Duration(0.0),
-                    std::string *errstr = nullptr) const override {
+                    std::string* errstr = nullptr) const override {
     return succeeds(
         [&] {
           lookupTransform(target_frame, target_time, source_frame, source_time, fixed_frame,
@@ -65,22 +64,22 @@ class BufferClient : public BufferInterface {
         },
         errstr);
   }
-  bool waitForServer(const ros::Duration &timeout = ros::Duration(0)) {
+  bool waitForServer(const ros::Duration& timeout = ros::Duration(0)) {
     return client_.waitForServer(timeout);
   }
 
  private:
   template <class Function>
-  static bool succeeds(Function function, std::string *why) {
+  static bool succeeds(Function function, std::string* why) {
     try {
       function();
-    } catch (const tf2::TransformException &error) {
+    } catch (const tf2::TransformException& error) {
       if (why != nullptr) *why = error.what();
       return false;
     }
     return true;
   }
-  geometry_msgs::TransformStamped ask(const tf2_msgs::LookupTransformGoal &goal) const {
+  geometry_msgs::TransformStamped ask(const tf2_msgs::LookupTransformGoal& goal) const {
     client_.sendGoal(goal);
     if (!client_.waitForResult(goal.timeout + timeout_padding_)) {
       client_.cancelGoal();
@@ -93,7 +92,7 @@ class BufferClient : public BufferInterface {
           "The LookupTransform goal sent to the BufferServer did not come back with SUCCEEDED "
           "status. Something is likely wrong with the server.");
     const auto result = client_.getResult();
-    const std::string &text = result->error.error_string;
+    const std::string& text = result->error.error_string;
     switch (result->error.error) {
       case tf2_msgs::TF2Error::NO_ERROR:
         return result->transform;

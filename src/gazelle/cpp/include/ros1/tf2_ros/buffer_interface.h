@@ -14,40 +14,40 @@ class BufferInterface {
  public:
   virtual ~BufferInterface() = default;
 
-  virtual geometry_msgs::TransformStamped lookupTransform(const std::string &target_frame,
-                                                          const std::string &source_frame,
-                                                          const ros::Time &time,
+  virtual geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame,
+                                                          const std::string& source_frame,
+                                                          const ros::Time& time,
                                                           const ros::Duration timeout) const = 0;
-  virtual geometry_msgs::TransformStamped lookupTransform(const std::string &target_frame,
-                                                          const ros::Time &target_time,
-                                                          const std::string &source_frame,
-                                                          const ros::Time &source_time,
-                                                          const std::string &fixed_frame,
+  virtual geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame,
+                                                          const ros::Time& target_time,
+                                                          const std::string& source_frame,
+                                                          const ros::Time& source_time,
+                                                          const std::string& fixed_frame,
                                                           const ros::Duration timeout) const = 0;
-  virtual bool canTransform(const std::string &target_frame, const std::string &source_frame,
-                            const ros::Time &time, const ros::Duration timeout,
-                            std::string *errstr = nullptr) const = 0;
-  virtual bool canTransform(const std::string &target_frame, const ros::Time &target_time,
-                            const std::string &source_frame, const ros::Time &source_time,
-                            const std::string &fixed_frame, const ros::Duration timeout,
-                            std::string *errstr = nullptr) const = 0;
+  virtual bool canTransform(const std::string& target_frame, const std::string& source_frame,
+                            const ros::Time& time, const ros::Duration timeout,
+                            std::string* errstr = nullptr) const = 0;
+  virtual bool canTransform(const std::string& target_frame, const ros::Time& target_time,
+                            const std::string& source_frame, const ros::Time& source_time,
+                            const std::string& fixed_frame, const ros::Duration timeout,
+                            std::string* errstr = nullptr) const = 0;
 
   template <class T>
-  T &transform(const T &in, T &out, const std::string &target_frame,
+  T& transform(const T& in, T& out, const std::string& target_frame,
                ros::Duration timeout = ros::Duration(0.0)) const {
-    tf2::doTransform(in, out,
-                     lookupTransform(target_frame, tf2::getFrameId(in), tf2::getTimestamp(in),
-                                     timeout));
+    tf2::doTransform(
+        in, out,
+        lookupTransform(target_frame, tf2::getFrameId(in), tf2::getTimestamp(in), timeout));
     return out;
   }
   template <class T>
-  T transform(const T &in, const std::string &target_frame,
+  T transform(const T& in, const std::string& target_frame,
               ros::Duration timeout = ros::Duration(0.0)) const {
     T out;
     return transform(in, out, target_frame, timeout);
   }
   template <class A, class B>
-  B &transform(const A &in, B &out, const std::string &target_frame,
+  B& transform(const A& in, B& out, const std::string& target_frame,
                ros::Duration timeout = ros::Duration(0.0)) const {
     tf2::convert(transform(in, target_frame, timeout), out);
     return out;
@@ -55,22 +55,22 @@ class BufferInterface {
 
   // Between two times, by way of a frame that stands still.
   template <class T>
-  T &transform(const T &in, T &out, const std::string &target_frame, const ros::Time &target_time,
-               const std::string &fixed_frame, ros::Duration timeout = ros::Duration(0.0)) const {
+  T& transform(const T& in, T& out, const std::string& target_frame, const ros::Time& target_time,
+               const std::string& fixed_frame, ros::Duration timeout = ros::Duration(0.0)) const {
     tf2::doTransform(in, out,
                      lookupTransform(target_frame, target_time, tf2::getFrameId(in),
                                      tf2::getTimestamp(in), fixed_frame, timeout));
     return out;
   }
   template <class T>
-  T transform(const T &in, const std::string &target_frame, const ros::Time &target_time,
-              const std::string &fixed_frame, ros::Duration timeout = ros::Duration(0.0)) const {
+  T transform(const T& in, const std::string& target_frame, const ros::Time& target_time,
+              const std::string& fixed_frame, ros::Duration timeout = ros::Duration(0.0)) const {
     T out;
     return transform(in, out, target_frame, target_time, fixed_frame, timeout);
   }
   template <class A, class B>
-  B &transform(const A &in, B &out, const std::string &target_frame, const ros::Time &target_time,
-               const std::string &fixed_frame, ros::Duration timeout = ros::Duration(0.0)) const {
+  B& transform(const A& in, B& out, const std::string& target_frame, const ros::Time& target_time,
+               const std::string& fixed_frame, ros::Duration timeout = ros::Duration(0.0)) const {
     tf2::convert(transform(in, target_frame, target_time, fixed_frame, timeout), out);
     return out;
   }

@@ -16,10 +16,11 @@ namespace tf2_ros {
 
 class BufferServer {
  public:
-  BufferServer(const Buffer &buffer, const std::string &ns, bool auto_start = true,
+  BufferServer(const Buffer& buffer, const std::string& ns, bool auto_start = true,
                ros::Duration check_period = ros::Duration(0.01))
       : buffer_(buffer),
-        server_(ros::NodeHandle(), ns, boost::bind(&BufferServer::asked, this, boost::placeholders::_1),
+        server_(ros::NodeHandle(), ns,
+                boost::bind(&BufferServer::asked, this, boost::placeholders::_1),
                 boost::bind(&BufferServer::cancelled, this, boost::placeholders::_1), auto_start) {
     ros::NodeHandle node;
     timer_ = node.createTimer(check_period, &BufferServer::look, this);
@@ -41,32 +42,32 @@ class BufferServer {
   }
   void cancelled(GoalHandle goal) {
     std::lock_guard<std::mutex> hold(lock_);
-    goals_.remove_if([&](Asked &one) {
+    goals_.remove_if([&](Asked& one) {
       if (!(one.handle == goal)) return false;
       one.handle.setCanceled();
       return true;
     });
   }
-  void look(const ros::TimerEvent &) {
+  void look(const ros::TimerEvent&) {
     std::lock_guard<std::mutex> hold(lock_);
-    goals_.remove_if([this](Asked &one) {
+    goals_.remove_if([this](Asked& one) {
       if (!can(one.handle) && ros::Time::now() < one.end) return false;
       answer(one.handle);
       return true;
     });
   }
-  bool can(GoalHandle &goal) const {
+  bool can(GoalHandle& goal) const {
     const auto asked = goal.getGoal();
     if (!asked->advanced)
       return buffer_.canTransform(asked->target_frame, asked->source_frame, asked->source_time);
     return buffer_.canTransform(asked->target_frame, asked->target_time, asked->source_frame,
                                 asked->source_time, asked->fixed_frame);
   }
-  void answer(GoalHandle &goal) const {
+  void answer(GoalHandle& goal) const {
     using Error = tf2_msgs::TF2Error;
     tf2_msgs::LookupTransformResult result;
     const auto asked = goal.getGoal();
-    const auto failed = [&](int code, const std::exception &error) {
+    const auto failed = [&](int code, const std::exception& error) {
       result.error.error = static_cast<uint8_t>(code);
       result.error.error_string = error.what();
     };
@@ -74,25 +75,24 @@ class BufferServer {
       result.transform =
           asked->advanced
               ? buffer_.lookupTransform(asked->target_frame, asked->target_time,
-                                        asked->source_frame, asked->source_time,
-                                        asked->fixed_frame)
+                                        asked->source_frame, asked->source_time, asked->fixed_frame)
               : buffer_.lookupTransform(asked->target_frame, asked->source_frame,
                                         asked->source_time);
-    } catch (const tf2::ConnectivityException &error) {
+    } catch (const tf2::ConnectivityException& error) {
       failed(Error::CONNECTIVITY_ERROR, error);
-    } catch (const tf2::LookupException &error) {
+    } catch (const tf2::LookupException& error) {
       failed(Error::LOOKUP_ERROR, error);
-    } catch (const tf2::ExtrapolationException &error) {
+    } catch (const tf2::ExtrapolationException& error) {
       failed(Error::EXTRAPOLATION_ERROR, error);
-    } catch (const tf2::InvalidArgumentException &error) {
+    } catch (const tf2::InvalidArgumentException& error) {
       failed(Error::INVALID_ARGUMENT_ERROR, error);
-    } catch (const tf2::TransformException &error) {
+    } catch (const tf2::TransformException& error) {
       failed(Error::TRANSFORM_ERROR, error);
     }
     goal.setSucceeded(result);
   }
 
-  const Buffer &buffer_;
+  const Buffer& buffer_;
   Server server_;
   std::mutex lock_;
   std::list<Asked> goals_;

@@ -38,9 +38,9 @@ class MessageFilterBase {
 
   virtual ~MessageFilterBase() = default;
   virtual void clear() = 0;
-  virtual void setTargetFrame(const std::string &target_frame) = 0;
-  virtual void setTargetFrames(const V_string &target_frames) = 0;
-  virtual void setTolerance(const ros::Duration &tolerance) = 0;
+  virtual void setTargetFrame(const std::string& target_frame) = 0;
+  virtual void setTargetFrames(const V_string& target_frames) = 0;
+  virtual void setTolerance(const ros::Duration& tolerance) = 0;
 };
 
 template <class M>
@@ -48,25 +48,25 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
  public:
   typedef boost::shared_ptr<M const> MConstPtr;
   typedef ros::MessageEvent<M const> MEvent;
-  typedef boost::function<void(const MConstPtr &, FilterFailureReason)> FailureCallback;
+  typedef boost::function<void(const MConstPtr&, FilterFailureReason)> FailureCallback;
 
   // A queue size of 0 keeps any number. Callbacks run in the queue, or at once where it is null.
-  MessageFilter(tf2::BufferCore &bc, const std::string &target_frame, uint32_t queue_size,
-                const ros::NodeHandle &nh)
+  MessageFilter(tf2::BufferCore& bc, const std::string& target_frame, uint32_t queue_size,
+                const ros::NodeHandle& nh)
       : MessageFilter(bc, target_frame, queue_size, nh.getCallbackQueue()) {}
   template <class F>
-  MessageFilter(F &f, tf2::BufferCore &bc, const std::string &target_frame, uint32_t queue_size,
-                const ros::NodeHandle &nh)
+  MessageFilter(F& f, tf2::BufferCore& bc, const std::string& target_frame, uint32_t queue_size,
+                const ros::NodeHandle& nh)
       : MessageFilter(f, bc, target_frame, queue_size, nh.getCallbackQueue()) {}
-  MessageFilter(tf2::BufferCore &bc, const std::string &target_frame, uint32_t queue_size,
-                ros::CallbackQueueInterface *cbqueue)
+  MessageFilter(tf2::BufferCore& bc, const std::string& target_frame, uint32_t queue_size,
+                ros::CallbackQueueInterface* cbqueue)
       : buffer_(bc), queue_size_(queue_size), queue_(cbqueue) {
     ask();
     setTargetFrame(target_frame);
   }
   template <class F>
-  MessageFilter(F &f, tf2::BufferCore &bc, const std::string &target_frame, uint32_t queue_size,
-                ros::CallbackQueueInterface *cbqueue)
+  MessageFilter(F& f, tf2::BufferCore& bc, const std::string& target_frame, uint32_t queue_size,
+                ros::CallbackQueueInterface* cbqueue)
       : MessageFilter(bc, target_frame, queue_size, cbqueue) {
     connectInput(f);
   }
@@ -74,31 +74,31 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     input_.disconnect();
     forget();
   }
-  MessageFilter(const MessageFilter &) = delete;
-  MessageFilter &operator=(const MessageFilter &) = delete;
+  MessageFilter(const MessageFilter&) = delete;
+  MessageFilter& operator=(const MessageFilter&) = delete;
 
   template <class F>
-  void connectInput(F &f) {
+  void connectInput(F& f) {
     input_.disconnect();
     input_ = f.registerCallback(&MessageFilter::add_event, this);
   }
 
-  void setTargetFrame(const std::string &target_frame) override {
+  void setTargetFrame(const std::string& target_frame) override {
     setTargetFrames(V_string{target_frame});
   }
-  void setTargetFrames(const V_string &target_frames) override {
+  void setTargetFrames(const V_string& target_frames) override {
     std::lock_guard<std::mutex> hold(lock_);
     frames_.clear();
-    for (const std::string &one : target_frames) frames_.push_back(without_slash(one));
+    for (const std::string& one : target_frames) frames_.push_back(without_slash(one));
   }
   std::string getTargetFramesString() {
     std::lock_guard<std::mutex> hold(lock_);
     std::string out;
-    for (const std::string &one : frames_) out += one + " ";
+    for (const std::string& one : frames_) out += one + " ";
     return out;
   }
   // Transforms are wanted for the stamp and for so much later, too.
-  void setTolerance(const ros::Duration &tolerance) override {
+  void setTolerance(const ros::Duration& tolerance) override {
     std::lock_guard<std::mutex> hold(lock_);
     tolerance_ = tolerance;
   }
@@ -109,9 +109,9 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
   virtual void setQueueSize(uint32_t new_queue_size) { queue_size_ = new_queue_size; }
   virtual uint32_t getQueueSize() { return queue_size_; }
 
-  void add(const MEvent &event) {
+  void add(const MEvent& event) {
     namespace mt = ros::message_traits;
-    const MConstPtr &message = event.getConstMessage();
+    const MConstPtr& message = event.getConstMessage();
     auto waits = std::make_shared<Waiting>();
     waits->event = event;
     waits->frame = without_slash(mt::FrameId<M>::value(*message));
@@ -138,8 +138,8 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
       waits->left = frames.size() * stamps.size();
       waiting_.push_back(waits);
     }
-    for (const std::string &target : frames) {
-      for (const ros::Time &stamp : stamps) {
+    for (const std::string& target : frames) {
+      for (const ros::Time& stamp : stamps) {
         const tf2::TransformableRequestHandle handle =
             buffer_.addTransformableRequest(handle_, target, waits->frame, stamp);
         if (handle == gazelle::FrameTree::never) {
@@ -154,7 +154,7 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
         {
           std::lock_guard<std::mutex> hold(lock_);
           const auto early = std::find_if(early_.begin(), early_.end(),
-                                          [&](const auto &one) { return one.first == handle; });
+                                          [&](const auto& one) { return one.first == handle; });
           came_before = early != early_.end();
           if (came_before) {
             is_available = early->second;
@@ -177,7 +177,7 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     }
     if (is_full) give_up(oldest, filter_failure_reasons::Unknown);
   }
-  void add(const MConstPtr &message) {
+  void add(const MConstPtr& message) {
     boost::shared_ptr<std::map<std::string, std::string>> header(
         new std::map<std::string, std::string>);
     (*header)["callerid"] = "unknown";
@@ -185,7 +185,7 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     add(MEvent(message, header, ros::Time(now.sec, now.nsec)));
   }
 
-  message_filters::Connection registerFailureCallback(const FailureCallback &callback) {
+  message_filters::Connection registerFailureCallback(const FailureCallback& callback) {
     std::lock_guard<std::mutex> hold(lock_);
     auto told = std::make_shared<FailureCallback>(callback);
     failed_.push_back(told);
@@ -213,36 +213,35 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     boost::function<void()> function;
   };
 
-  static std::string without_slash(const std::string &frame) {
+  static std::string without_slash(const std::string& frame) {
     return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
   }
 
   void ask() {
-    handle_ = buffer_.addTransformableCallback(
-        [this](tf2::TransformableRequestHandle request, const std::string &, const std::string &,
-               ros::Time, tf2::TransformableResult result) {
-          std::shared_ptr<Waiting> found;
-          const bool is_available = result == tf2::TransformAvailable;
-          {
-            std::lock_guard<std::mutex> hold(lock_);
-            for (const auto &one : waiting_) {
-              if (std::find(one->handles.begin(), one->handles.end(), request) !=
-                  one->handles.end())
-                found = one;
-            }
-            if (!found) {
-              early_.emplace_back(request, is_available);
-              if (early_.size() > 100) early_.pop_front();
-            }
-          }
-          if (found) arrived(found, is_available);
-        });
+    handle_ = buffer_.addTransformableCallback([this](tf2::TransformableRequestHandle request,
+                                                      const std::string&, const std::string&,
+                                                      ros::Time, tf2::TransformableResult result) {
+      std::shared_ptr<Waiting> found;
+      const bool is_available = result == tf2::TransformAvailable;
+      {
+        std::lock_guard<std::mutex> hold(lock_);
+        for (const auto& one : waiting_) {
+          if (std::find(one->handles.begin(), one->handles.end(), request) != one->handles.end())
+            found = one;
+        }
+        if (!found) {
+          early_.emplace_back(request, is_available);
+          if (early_.size() > 100) early_.pop_front();
+        }
+      }
+      if (found) arrived(found, is_available);
+    });
   }
 
   void forget() {
     buffer_.removeTransformableCallback(handle_);
     std::lock_guard<std::mutex> hold(lock_);
-    for (const auto &one : waiting_) {
+    for (const auto& one : waiting_) {
       for (const auto handle : one->handles) buffer_.cancelTransformableRequest(handle);
     }
     waiting_.clear();
@@ -251,7 +250,7 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
   }
 
   // False where it is not waiting any more.
-  bool take_out(const std::shared_ptr<Waiting> &waits) {
+  bool take_out(const std::shared_ptr<Waiting>& waits) {
     std::lock_guard<std::mutex> hold(lock_);
     const auto place = std::find(waiting_.begin(), waiting_.end(), waits);
     if (place == waiting_.end()) return false;
@@ -259,7 +258,7 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     return true;
   }
 
-  void arrived(const std::shared_ptr<Waiting> &waits, bool is_available) {
+  void arrived(const std::shared_ptr<Waiting>& waits, bool is_available) {
     {
       std::lock_guard<std::mutex> hold(lock_);
       if (is_available && --waits->left > 0) return;
@@ -273,14 +272,14 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     later([this, event] { this->signalMessage(event); });
   }
 
-  void give_up(const MEvent &event, FilterFailureReason reason) {
+  void give_up(const MEvent& event, FilterFailureReason reason) {
     later([this, event, reason] {
       std::list<std::shared_ptr<FailureCallback>> told;
       {
         std::lock_guard<std::mutex> hold(lock_);
         told = failed_;
       }
-      for (const auto &one : told) (*one)(event.getConstMessage(), reason);
+      for (const auto& one : told) (*one)(event.getConstMessage(), reason);
     });
   }
 
@@ -293,11 +292,11 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
                         reinterpret_cast<uint64_t>(this));
   }
 
-  void add_event(const MEvent &event) { add(event); }
+  void add_event(const MEvent& event) { add(event); }
 
-  tf2::BufferCore &buffer_;
+  tf2::BufferCore& buffer_;
   std::atomic<uint32_t> queue_size_;
-  ros::CallbackQueueInterface *queue_;
+  ros::CallbackQueueInterface* queue_;
   tf2::TransformableCallbackHandle handle_ = 0;
   std::mutex lock_;
   V_string frames_;

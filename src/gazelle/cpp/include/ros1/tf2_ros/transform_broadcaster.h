@@ -11,8 +11,8 @@ namespace tf2_ros {
 class __attribute__((visibility("default"))) TransformBroadcaster {
  public:
   TransformBroadcaster();
-  void sendTransform(const geometry_msgs::TransformStamped &transform);
-  void sendTransform(const std::vector<geometry_msgs::TransformStamped> &transforms);
+  void sendTransform(const geometry_msgs::TransformStamped& transform);
+  void sendTransform(const std::vector<geometry_msgs::TransformStamped>& transforms);
 
  private:
   ros::NodeHandle node_;

@@ -15,19 +15,19 @@ namespace tf2_ros {
 
 class __attribute__((visibility("default"))) TransformListener {
  public:
-  explicit TransformListener(tf2::BufferCore &buffer, bool spin_thread = true,
+  explicit TransformListener(tf2::BufferCore& buffer, bool spin_thread = true,
                              ros::TransportHints transport_hints = ros::TransportHints());
-  TransformListener(tf2::BufferCore &buffer, const ros::NodeHandle &nh, bool spin_thread = true,
+  TransformListener(tf2::BufferCore& buffer, const ros::NodeHandle& nh, bool spin_thread = true,
                     ros::TransportHints transport_hints = ros::TransportHints());
   ~TransformListener();
-  TransformListener(const TransformListener &) = delete;
-  TransformListener &operator=(const TransformListener &) = delete;
+  TransformListener(const TransformListener&) = delete;
+  TransformListener& operator=(const TransformListener&) = delete;
 
  private:
-  void listen(bool spin_thread, const ros::TransportHints &hints);
-  void take(const ros::MessageEvent<tf2_msgs::TFMessage const> &event, bool is_static);
+  void listen(bool spin_thread, const ros::TransportHints& hints);
+  void take(const ros::MessageEvent<tf2_msgs::TFMessage const>& event, bool is_static);
 
-  tf2::BufferCore &buffer_;
+  tf2::BufferCore& buffer_;
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   ros::Subscriber moving_;

@@ -16,31 +16,31 @@ namespace channel_option = gazelle::laser_channel;
 
 class LaserProjection {
  public:
-  void projectLaser(const sensor_msgs::msg::LaserScan &scan_in,
-                    sensor_msgs::msg::PointCloud2 &cloud_out, double range_cutoff = -1.0,
+  void projectLaser(const sensor_msgs::msg::LaserScan& scan_in,
+                    sensor_msgs::msg::PointCloud2& cloud_out, double range_cutoff = -1.0,
                     int channel_options = channel_option::Default) {
     gazelle::laser_cloud2(scan_in, gazelle::laser_points(scan_in, range_cutoff), channel_options,
                           cloud_out);
   }
 
-  void transformLaserScanToPointCloud(const std::string &target_frame,
-                                      const sensor_msgs::msg::LaserScan &scan_in,
-                                      sensor_msgs::msg::PointCloud2 &cloud_out,
-                                      tf2::BufferCore &tf, double range_cutoff = -1.0,
+  void transformLaserScanToPointCloud(const std::string& target_frame,
+                                      const sensor_msgs::msg::LaserScan& scan_in,
+                                      sensor_msgs::msg::PointCloud2& cloud_out, tf2::BufferCore& tf,
+                                      double range_cutoff = -1.0,
                                       int channel_options = channel_option::Default) {
-    const std::string &source = scan_in.header.frame_id;
+    const std::string& source = scan_in.header.frame_id;
     finish(target_frame, scan_in, cloud_out, range_cutoff, channel_options,
            tf.lookupTransform(target_frame, source, start_of(scan_in)),
            tf.lookupTransform(target_frame, source, end_of(scan_in)));
   }
   // By way of a frame that stands still while the sensor and the target move.
-  void transformLaserScanToPointCloud(const std::string &target_frame,
-                                      const sensor_msgs::msg::LaserScan &scan_in,
-                                      sensor_msgs::msg::PointCloud2 &cloud_out,
-                                      const std::string &fixed_frame, tf2::BufferCore &tf,
+  void transformLaserScanToPointCloud(const std::string& target_frame,
+                                      const sensor_msgs::msg::LaserScan& scan_in,
+                                      sensor_msgs::msg::PointCloud2& cloud_out,
+                                      const std::string& fixed_frame, tf2::BufferCore& tf,
                                       double range_cutoff = -1.0,
                                       int channel_options = channel_option::Default) {
-    const std::string &source = scan_in.header.frame_id;
+    const std::string& source = scan_in.header.frame_id;
     const tf2::TimePoint start = start_of(scan_in), end = end_of(scan_in);
     finish(target_frame, scan_in, cloud_out, range_cutoff, channel_options,
            tf.lookupTransform(target_frame, start, source, start, fixed_frame),
@@ -48,18 +48,18 @@ class LaserProjection {
   }
 
  private:
-  static tf2::TimePoint start_of(const sensor_msgs::msg::LaserScan &scan) {
+  static tf2::TimePoint start_of(const sensor_msgs::msg::LaserScan& scan) {
     return tf2_ros::fromMsg(scan.header.stamp);
   }
-  static tf2::TimePoint end_of(const sensor_msgs::msg::LaserScan &scan) {
+  static tf2::TimePoint end_of(const sensor_msgs::msg::LaserScan& scan) {
     if (scan.ranges.empty()) return start_of(scan);
     return start_of(scan) + tf2::durationFromSec(static_cast<double>(scan.ranges.size() - 1) *
                                                  static_cast<double>(scan.time_increment));
   }
-  static void finish(const std::string &target, const sensor_msgs::msg::LaserScan &scan,
-                     sensor_msgs::msg::PointCloud2 &cloud, double range_cutoff, int channels,
-                     const geometry_msgs::msg::TransformStamped &first,
-                     const geometry_msgs::msg::TransformStamped &last) {
+  static void finish(const std::string& target, const sensor_msgs::msg::LaserScan& scan,
+                     sensor_msgs::msg::PointCloud2& cloud, double range_cutoff, int channels,
+                     const geometry_msgs::msg::TransformStamped& first,
+                     const geometry_msgs::msg::TransformStamped& last) {
     std::vector<gazelle::LaserPoint> points = gazelle::laser_points(scan, range_cutoff);
     const auto &p = first.transform.translation, &r = last.transform.translation;
     const auto &q = first.transform.rotation, &s = last.transform.rotation;

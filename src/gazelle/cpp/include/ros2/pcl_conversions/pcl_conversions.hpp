@@ -18,15 +18,15 @@
 namespace pcl_conversions {
 namespace impl {
 
-inline std::uint64_t microseconds(const rclcpp::Time &stamp) {
+inline std::uint64_t microseconds(const rclcpp::Time& stamp) {
   return static_cast<std::uint64_t>(stamp.nanoseconds() / 1000);
 }
 inline rclcpp::Time stamp_of(std::uint64_t us) {
   return rclcpp::Time(static_cast<std::int64_t>(us) * 1000);
 }
 // Headers of ROS 2 have no number.
-inline std::uint32_t sequence(const std_msgs::msg::Header &) { return 0; }
-inline void set_sequence(std_msgs::msg::Header &, std::uint32_t) {}
+inline std::uint32_t sequence(const std_msgs::msg::Header&) { return 0; }
+inline void set_sequence(std_msgs::msg::Header&, std::uint32_t) {}
 
 }  // namespace impl
 }  // namespace pcl_conversions

@@ -32,56 +32,58 @@ class BufferCore : public BufferCoreInterface {
 
   explicit BufferCore(Duration cache_time = BUFFER_CORE_DEFAULT_CACHE_TIME)
       : tree_(cache_time.count(), gazelle::FrameTree::Words::ros2) {}
-  BufferCore(const BufferCore &) = delete;
-  BufferCore &operator=(const BufferCore &) = delete;
+  BufferCore(const BufferCore&) = delete;
+  BufferCore& operator=(const BufferCore&) = delete;
 
   void clear() override { tree_.clear(); }
-  bool setTransform(const geometry_msgs::msg::TransformStamped &transform,
-                    const std::string &authority, bool is_static = false) {
-    const auto &t = transform.transform.translation;
-    const auto &q = transform.transform.rotation;
-    const std::int64_t stamp_ns = std::int64_t{transform.header.stamp.sec} * 1000000000 +
-                                  transform.header.stamp.nanosec;
+  bool setTransform(const geometry_msgs::msg::TransformStamped& transform,
+                    const std::string& authority, bool is_static = false) {
+    const auto& t = transform.transform.translation;
+    const auto& q = transform.transform.rotation;
+    const std::int64_t stamp_ns =
+        std::int64_t{transform.header.stamp.sec} * 1000000000 + transform.header.stamp.nanosec;
     return tree_.set(transform.header.frame_id, transform.child_frame_id, stamp_ns,
                      Vector3(t.x, t.y, t.z), Quaternion(q.x, q.y, q.z, q.w), authority, is_static);
   }
 
-  geometry_msgs::msg::TransformStamped lookupTransform(const std::string &target_frame,
-                                                       const std::string &source_frame,
-                                                       const TimePoint &time) const override {
+  geometry_msgs::msg::TransformStamped lookupTransform(const std::string& target_frame,
+                                                       const std::string& source_frame,
+                                                       const TimePoint& time) const override {
     return message_of(tree_.look_up(target_frame, source_frame, ns(time)), target_frame,
                       source_frame);
   }
   geometry_msgs::msg::TransformStamped lookupTransform(
-      const std::string &target_frame, const TimePoint &target_time,
-      const std::string &source_frame, const TimePoint &source_time,
-      const std::string &fixed_frame) const override {
+      const std::string& target_frame, const TimePoint& target_time,
+      const std::string& source_frame, const TimePoint& source_time,
+      const std::string& fixed_frame) const override {
     return message_of(
         tree_.look_up(target_frame, ns(target_time), source_frame, ns(source_time), fixed_frame),
         target_frame, source_frame);
   }
   // The velocity of one frame seen from another, over an interval about a time.
-  geometry_msgs::msg::VelocityStamped lookupVelocity(const std::string &tracking_frame,
-                                                     const std::string &observation_frame,
-                                                     const TimePoint &time,
-                                                     const Duration &averaging_interval) const {
+  geometry_msgs::msg::VelocityStamped lookupVelocity(const std::string& tracking_frame,
+                                                     const std::string& observation_frame,
+                                                     const TimePoint& time,
+                                                     const Duration& averaging_interval) const {
     return lookupVelocity(tracking_frame, observation_frame, observation_frame,
                           Vector3(0.0, 0.0, 0.0), tracking_frame, time, averaging_interval);
   }
-  geometry_msgs::msg::VelocityStamped lookupVelocity(
-      const std::string &tracking_frame, const std::string &observation_frame,
-      const std::string &reference_frame, const Vector3 &reference_point,
-      const std::string &reference_point_frame, const TimePoint &time,
-      const Duration &duration) const;
+  geometry_msgs::msg::VelocityStamped lookupVelocity(const std::string& tracking_frame,
+                                                     const std::string& observation_frame,
+                                                     const std::string& reference_frame,
+                                                     const Vector3& reference_point,
+                                                     const std::string& reference_point_frame,
+                                                     const TimePoint& time,
+                                                     const Duration& duration) const;
 
-  bool canTransform(const std::string &target_frame, const std::string &source_frame,
-                    const TimePoint &time, std::string *error_msg = nullptr) const override {
+  bool canTransform(const std::string& target_frame, const std::string& source_frame,
+                    const TimePoint& time, std::string* error_msg = nullptr) const override {
     return tree_.can(target_frame, source_frame, ns(time), error_msg);
   }
-  bool canTransform(const std::string &target_frame, const TimePoint &target_time,
-                    const std::string &source_frame, const TimePoint &source_time,
-                    const std::string &fixed_frame,
-                    std::string *error_msg = nullptr) const override {
+  bool canTransform(const std::string& target_frame, const TimePoint& target_time,
+                    const std::string& source_frame, const TimePoint& source_time,
+                    const std::string& fixed_frame,
+                    std::string* error_msg = nullptr) const override {
     return tree_.can(target_frame, ns(target_time), source_frame, ns(source_time), fixed_frame,
                      error_msg);
   }
@@ -94,12 +96,12 @@ class BufferCore : public BufferCoreInterface {
   std::string allFramesAsString() const { return tree_.as_text(); }
 
   using TransformableCallback = std::function<void(
-      TransformableRequestHandle request_handle, const std::string &target_frame,
-      const std::string &source_frame, TimePoint time, TransformableResult result)>;
+      TransformableRequestHandle request_handle, const std::string& target_frame,
+      const std::string& source_frame, TimePoint time, TransformableResult result)>;
   // 0: it is there already; 0xffffffffffffffff: it never will be.
-  TransformableRequestHandle addTransformableRequest(const TransformableCallback &cb,
-                                                     const std::string &target_frame,
-                                                     const std::string &source_frame,
+  TransformableRequestHandle addTransformableRequest(const TransformableCallback& cb,
+                                                     const std::string& target_frame,
+                                                     const std::string& source_frame,
                                                      TimePoint time) {
     return tree_.request(target_frame, source_frame, ns(time),
                          [=](TransformableRequestHandle handle, bool is_available) {
@@ -112,29 +114,27 @@ class BufferCore : public BufferCoreInterface {
   void setUsingDedicatedThread(bool value) { using_dedicated_thread_ = value; }
   bool isUsingDedicatedThread() const { return using_dedicated_thread_; }
 
-  bool _frameExists(const std::string &frame_id) const { return tree_.exists(frame_id); }
-  bool _getParent(const std::string &frame_id, TimePoint time, std::string &parent) const {
+  bool _frameExists(const std::string& frame_id) const { return tree_.exists(frame_id); }
+  bool _getParent(const std::string& frame_id, TimePoint time, std::string& parent) const {
     return tree_.parent(frame_id, ns(time), parent);
   }
-  void _getFrameStrings(std::vector<std::string> &ids) const { ids = tree_.names(); }
-  CompactFrameID _lookupFrameNumber(const std::string &frame_id) const {
+  void _getFrameStrings(std::vector<std::string>& ids) const { ids = tree_.names(); }
+  CompactFrameID _lookupFrameNumber(const std::string& frame_id) const {
     return tree_.number(frame_id);
   }
-  CompactFrameID _lookupOrInsertFrameNumber(const std::string &frame_id) {
+  CompactFrameID _lookupOrInsertFrameNumber(const std::string& frame_id) {
     return tree_.number_or_new(frame_id);
   }
   TF2Error _getLatestCommonTime(CompactFrameID target_frame, CompactFrameID source_frame,
-                                TimePoint &time, std::string *error_string) const {
+                                TimePoint& time, std::string* error_string) const {
     std::int64_t stamp_ns = 0;
-    const auto fault =
-        tree_.latest_common_time(target_frame, source_frame, stamp_ns, error_string);
+    const auto fault = tree_.latest_common_time(target_frame, source_frame, stamp_ns, error_string);
     time = TimePoint(Duration(stamp_ns));
     if (fault == gazelle::FrameFault::connectivity) return TF2Error::TF2_CONNECTIVITY_ERROR;
-    return fault == gazelle::FrameFault::none ? TF2Error::TF2_NO_ERROR
-                                              : TF2Error::TF2_LOOKUP_ERROR;
+    return fault == gazelle::FrameFault::none ? TF2Error::TF2_NO_ERROR : TF2Error::TF2_LOOKUP_ERROR;
   }
-  CompactFrameID _validateFrameId(const char *function_name_arg,
-                                  const std::string &frame_id) const {
+  CompactFrameID _validateFrameId(const char* function_name_arg,
+                                  const std::string& frame_id) const {
     return tree_.checked_number(function_name_arg, frame_id);
   }
   Duration getCacheLength() { return Duration(tree_.cache_ns()); }
@@ -142,21 +142,21 @@ class BufferCore : public BufferCoreInterface {
     return tree_.as_dot(timeToSec(current_time));
   }
   std::string _allFramesAsDot() const { return tree_.as_dot(0.0); }
-  void _chainAsVector(const std::string &target_frame, TimePoint target_time,
-                      const std::string &source_frame, TimePoint source_time,
-                      const std::string &fixed_frame, std::vector<std::string> &output) const {
+  void _chainAsVector(const std::string& target_frame, TimePoint target_time,
+                      const std::string& source_frame, TimePoint source_time,
+                      const std::string& fixed_frame, std::vector<std::string>& output) const {
     output = tree_.chain(target_frame, ns(target_time), source_frame, ns(source_time), fixed_frame);
   }
 
   // Of ours: what waits for transforms waits on it.
-  const gazelle::FrameTree &gazelle_tree() const { return tree_; }
-  gazelle::FrameTree &gazelle_tree() { return tree_; }
+  const gazelle::FrameTree& gazelle_tree() const { return tree_; }
+  gazelle::FrameTree& gazelle_tree() { return tree_; }
 
  private:
-  static std::int64_t ns(const TimePoint &time) { return time.time_since_epoch().count(); }
-  static geometry_msgs::msg::TransformStamped message_of(const gazelle::FoundTransform &found,
-                                                         const std::string &target,
-                                                         const std::string &source) {
+  static std::int64_t ns(const TimePoint& time) { return time.time_since_epoch().count(); }
+  static geometry_msgs::msg::TransformStamped message_of(const gazelle::FoundTransform& found,
+                                                         const std::string& target,
+                                                         const std::string& source) {
     geometry_msgs::msg::TransformStamped out;
     out.header.stamp.sec = static_cast<std::int32_t>(found.stamp_ns / 1000000000);
     out.header.stamp.nanosec = static_cast<std::uint32_t>(found.stamp_ns % 1000000000);
@@ -177,10 +177,10 @@ class BufferCore : public BufferCoreInterface {
 };
 
 inline geometry_msgs::msg::VelocityStamped BufferCore::lookupVelocity(
-    const std::string &tracking_frame, const std::string &observation_frame,
-    const std::string &reference_frame, const Vector3 &reference_point,
-    const std::string &reference_point_frame, const TimePoint &time,
-    const Duration &duration) const {
+    const std::string& tracking_frame, const std::string& observation_frame,
+    const std::string& reference_frame, const Vector3& reference_point,
+    const std::string& reference_point_frame, const TimePoint& time,
+    const Duration& duration) const {
   const CompactFrameID tracked =
       tree_.checked_number("lookupTransform argument target_frame", tracking_frame);
   const CompactFrameID observer =
@@ -195,8 +195,7 @@ inline geometry_msgs::msg::VelocityStamped BufferCore::lookupVelocity(
   if (latest != 0 && end > latest) end = latest;
   const std::int64_t start = std::max<std::int64_t>(end - duration.count(), 0);
   const double length_s = static_cast<double>(end - start) / 1e9;
-  if (length_s <= 0.0)
-    throw ExtrapolationException("Velocity wants an interval of some length");
+  if (length_s <= 0.0) throw ExtrapolationException("Velocity wants an interval of some length");
   const auto first = tree_.look_up(observation_frame, tracking_frame, start);
   const auto last = tree_.look_up(observation_frame, tracking_frame, end);
   Quaternion turned = last.rotation * first.rotation.inverse();

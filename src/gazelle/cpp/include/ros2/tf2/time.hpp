@@ -23,14 +23,14 @@ inline Duration durationFromSec(double t_sec) {
          Duration(static_cast<std::int64_t>(std::round((t_sec - whole) * 1e9)));
 }
 inline TimePoint timeFromSec(double t_sec) { return TimePoint(durationFromSec(t_sec)); }
-inline double durationToSec(const Duration &input) {
+inline double durationToSec(const Duration& input) {
   const std::int64_t whole = input.count() / 1000000000;
   return static_cast<double>(whole) + 1e-9 * static_cast<double>(input.count() % 1000000000);
 }
-inline double timeToSec(const TimePoint &timepoint) {
+inline double timeToSec(const TimePoint& timepoint) {
   return durationToSec(timepoint.time_since_epoch());
 }
-inline std::string displayTimePoint(const TimePoint &stamp) {
+inline std::string displayTimePoint(const TimePoint& stamp) {
   return std::to_string(timeToSec(stamp));
 }
 

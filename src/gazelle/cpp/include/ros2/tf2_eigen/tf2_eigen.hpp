@@ -13,10 +13,10 @@
 
 namespace tf2 {
 namespace impl {
-inline TimePoint eigen_stamp_of(const builtin_interfaces::msg::Time &stamp) {
+inline TimePoint eigen_stamp_of(const builtin_interfaces::msg::Time& stamp) {
   return tf2_ros::fromMsg(stamp);
 }
-inline builtin_interfaces::msg::Time eigen_stamp_for_message(const TimePoint &stamp) {
+inline builtin_interfaces::msg::Time eigen_stamp_for_message(const TimePoint& stamp) {
   return tf2_ros::toMsg(stamp);
 }
 }  // namespace impl

@@ -19,10 +19,10 @@
 
 namespace tf2 {
 namespace impl {
-inline TimePoint stamp_of(const builtin_interfaces::msg::Time &stamp) {
+inline TimePoint stamp_of(const builtin_interfaces::msg::Time& stamp) {
   return tf2_ros::fromMsg(stamp);
 }
-inline builtin_interfaces::msg::Time stamp_for_message(const TimePoint &stamp) {
+inline builtin_interfaces::msg::Time stamp_for_message(const TimePoint& stamp) {
   return tf2_ros::toMsg(stamp);
 }
 }  // namespace impl
@@ -40,25 +40,25 @@ namespace tf2 {
 
 template <>
 inline std::array<std::array<double, 6>, 6> getCovarianceMatrix(
-    const geometry_msgs::msg::PoseWithCovariance &t) {
+    const geometry_msgs::msg::PoseWithCovariance& t) {
   return covarianceRowMajorToNested(t.covariance);
 }
 template <>
 inline std::array<std::array<double, 6>, 6> getCovarianceMatrix(
-    const geometry_msgs::msg::PoseWithCovarianceStamped &t) {
+    const geometry_msgs::msg::PoseWithCovarianceStamped& t) {
   return covarianceRowMajorToNested(t.pose.covariance);
 }
 inline geometry_msgs::msg::PoseWithCovarianceStamped toMsg(
-    const WithCovarianceStamped<Transform> &in) {
+    const WithCovarianceStamped<Transform>& in) {
   geometry_msgs::msg::PoseWithCovarianceStamped out;
   out.header.stamp = tf2_ros::toMsg(in.stamp_);
   out.header.frame_id = in.frame_id_;
-  toMsg(static_cast<const Transform &>(in), out.pose.pose);
+  toMsg(static_cast<const Transform&>(in), out.pose.pose);
   out.pose.covariance = covarianceNestedToRowMajor(in.cov_mat_);
   return out;
 }
-inline void fromMsg(const geometry_msgs::msg::PoseWithCovarianceStamped &in,
-                    WithCovarianceStamped<Transform> &out) {
+inline void fromMsg(const geometry_msgs::msg::PoseWithCovarianceStamped& in,
+                    WithCovarianceStamped<Transform>& out) {
   impl::header_from_message(in, out);
   out.cov_mat_ = covarianceRowMajorToNested(in.pose.covariance);
   Transform pose;
@@ -67,9 +67,9 @@ inline void fromMsg(const geometry_msgs::msg::PoseWithCovarianceStamped &in,
 }
 // The velocity of the same body, in other axes and for the other frame's origin.
 template <>
-inline void doTransform(const geometry_msgs::msg::VelocityStamped &t_in,
-                        geometry_msgs::msg::VelocityStamped &t_out,
-                        const geometry_msgs::msg::TransformStamped &transform) {
+inline void doTransform(const geometry_msgs::msg::VelocityStamped& t_in,
+                        geometry_msgs::msg::VelocityStamped& t_out,
+                        const geometry_msgs::msg::TransformStamped& transform) {
   const Transform outer = impl::transform_of(transform);
   Vector3 linear, angular;
   fromMsg(t_in.velocity.linear, linear);

@@ -12,10 +12,10 @@
 
 namespace tf2 {
 namespace impl {
-inline TimePoint kdl_stamp_of(const builtin_interfaces::msg::Time &stamp) {
+inline TimePoint kdl_stamp_of(const builtin_interfaces::msg::Time& stamp) {
   return tf2_ros::fromMsg(stamp);
 }
-inline builtin_interfaces::msg::Time kdl_stamp_for_message(const TimePoint &stamp) {
+inline builtin_interfaces::msg::Time kdl_stamp_for_message(const TimePoint& stamp) {
   return tf2_ros::toMsg(stamp);
 }
 }  // namespace impl

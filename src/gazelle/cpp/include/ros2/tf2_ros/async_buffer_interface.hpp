@@ -18,7 +18,7 @@ class TransformStampedFuture : public std::shared_future<geometry_msgs::msg::Tra
 
  public:
   TransformStampedFuture() noexcept = default;
-  explicit TransformStampedFuture(Future &&future) noexcept : Future(std::move(future)) {}
+  explicit TransformStampedFuture(Future&& future) noexcept : Future(std::move(future)) {}
   void setHandle(const tf2::TransformableRequestHandle handle) { handle_ = handle; }
   tf2::TransformableRequestHandle getHandle() const { return handle_; }
 
@@ -26,17 +26,17 @@ class TransformStampedFuture : public std::shared_future<geometry_msgs::msg::Tra
   tf2::TransformableRequestHandle handle_ = 0;
 };
 
-using TransformReadyCallback = std::function<void(const TransformStampedFuture &)>;
+using TransformReadyCallback = std::function<void(const TransformStampedFuture&)>;
 
 class AsyncBufferInterface {
  public:
   virtual ~AsyncBufferInterface() = default;
-  virtual TransformStampedFuture waitForTransform(const std::string &target_frame,
-                                                  const std::string &source_frame,
-                                                  const tf2::TimePoint &time,
-                                                  const tf2::Duration &timeout,
+  virtual TransformStampedFuture waitForTransform(const std::string& target_frame,
+                                                  const std::string& source_frame,
+                                                  const tf2::TimePoint& time,
+                                                  const tf2::Duration& timeout,
                                                   TransformReadyCallback callback) = 0;
-  virtual void cancel(const TransformStampedFuture &ts_future) = 0;
+  virtual void cancel(const TransformStampedFuture& ts_future) = 0;
 };
 
 }  // namespace tf2_ros

@@ -37,7 +37,7 @@ class TF2_ROS_PUBLIC Buffer : public BufferInterface,
   template <typename NodeT = rclcpp::Node::SharedPtr>
   Buffer(rclcpp::Clock::SharedPtr clock,
          tf2::Duration cache_time = tf2::Duration(tf2::BUFFER_CORE_DEFAULT_CACHE_TIME),
-         NodeT &&node = NodeT(), const rclcpp::QoS &qos = rclcpp::ServicesQoS())
+         NodeT&& node = NodeT(), const rclcpp::QoS& qos = rclcpp::ServicesQoS())
       : BufferCore(cache_time), clock_(std::move(clock)) {
     begin();
     if (!node) return;
@@ -49,67 +49,65 @@ class TF2_ROS_PUBLIC Buffer : public BufferInterface,
                       std::shared_ptr<Graph::Response> response) {
           response->frame_yaml = allFramesAsYAML();
         };
-    frames_server_ = rclcpp::create_service<Graph>(
-        interfaces::get_node_base_interface(node), interfaces::get_node_services_interface(node),
-        "tf2_frames", std::move(tell), qos, nullptr);
+    frames_server_ = rclcpp::create_service<Graph>(interfaces::get_node_base_interface(node),
+                                                   interfaces::get_node_services_interface(node),
+                                                   "tf2_frames", std::move(tell), qos, nullptr);
   }
   ~Buffer() override;
 
-  TransformStamped lookupTransform(const std::string &target_frame,
-                                   const std::string &source_frame, const tf2::TimePoint &time,
+  TransformStamped lookupTransform(const std::string& target_frame, const std::string& source_frame,
+                                   const tf2::TimePoint& time,
                                    const tf2::Duration timeout) const override;
-  TransformStamped lookupTransform(const std::string &target_frame,
-                                   const tf2::TimePoint &target_time,
-                                   const std::string &source_frame,
-                                   const tf2::TimePoint &source_time,
-                                   const std::string &fixed_frame,
+  TransformStamped lookupTransform(const std::string& target_frame,
+                                   const tf2::TimePoint& target_time,
+                                   const std::string& source_frame,
+                                   const tf2::TimePoint& source_time,
+                                   const std::string& fixed_frame,
                                    const tf2::Duration timeout) const override;
-  bool canTransform(const std::string &target_frame, const std::string &source_frame,
-                    const tf2::TimePoint &target_time, const tf2::Duration timeout,
-                    std::string *errstr = nullptr) const override;
-  bool canTransform(const std::string &target_frame, const tf2::TimePoint &target_time,
-                    const std::string &source_frame, const tf2::TimePoint &source_time,
-                    const std::string &fixed_frame, const tf2::Duration timeout,
-                    std::string *errstr = nullptr) const override;
-  TransformStampedFuture waitForTransform(const std::string &target_frame,
-                                          const std::string &source_frame,
-                                          const tf2::TimePoint &time,
-                                          const tf2::Duration &timeout,
+  bool canTransform(const std::string& target_frame, const std::string& source_frame,
+                    const tf2::TimePoint& target_time, const tf2::Duration timeout,
+                    std::string* errstr = nullptr) const override;
+  bool canTransform(const std::string& target_frame, const tf2::TimePoint& target_time,
+                    const std::string& source_frame, const tf2::TimePoint& source_time,
+                    const std::string& fixed_frame, const tf2::Duration timeout,
+                    std::string* errstr = nullptr) const override;
+  TransformStampedFuture waitForTransform(const std::string& target_frame,
+                                          const std::string& source_frame,
+                                          const tf2::TimePoint& time, const tf2::Duration& timeout,
                                           TransformReadyCallback callback) override;
-  void cancel(const TransformStampedFuture &ts_future) override;
+  void cancel(const TransformStampedFuture& ts_future) override;
 
   // The same with rclcpp's times.
   TransformStamped lookupTransform(
-      const std::string &target_frame, const std::string &source_frame, const rclcpp::Time &time,
+      const std::string& target_frame, const std::string& source_frame, const rclcpp::Time& time,
       const rclcpp::Duration timeout = rclcpp::Duration::from_nanoseconds(0)) const {
     return lookupTransform(target_frame, source_frame, fromRclcpp(time), fromRclcpp(timeout));
   }
   TransformStamped lookupTransform(
-      const std::string &target_frame, const rclcpp::Time &target_time,
-      const std::string &source_frame, const rclcpp::Time &source_time,
-      const std::string &fixed_frame,
+      const std::string& target_frame, const rclcpp::Time& target_time,
+      const std::string& source_frame, const rclcpp::Time& source_time,
+      const std::string& fixed_frame,
       const rclcpp::Duration timeout = rclcpp::Duration::from_nanoseconds(0)) const {
     return lookupTransform(target_frame, fromRclcpp(target_time), source_frame,
                            fromRclcpp(source_time), fixed_frame, fromRclcpp(timeout));
   }
-  bool canTransform(const std::string &target_frame, const std::string &source_frame,
-                    const rclcpp::Time &time,
+  bool canTransform(const std::string& target_frame, const std::string& source_frame,
+                    const rclcpp::Time& time,
                     const rclcpp::Duration timeout = rclcpp::Duration::from_nanoseconds(0),
-                    std::string *errstr = nullptr) const {
+                    std::string* errstr = nullptr) const {
     return canTransform(target_frame, source_frame, fromRclcpp(time), fromRclcpp(timeout), errstr);
   }
-  bool canTransform(const std::string &target_frame, const rclcpp::Time &target_time,
-                    const std::string &source_frame, const rclcpp::Time &source_time,
-                    const std::string &fixed_frame,
+  bool canTransform(const std::string& target_frame, const rclcpp::Time& target_time,
+                    const std::string& source_frame, const rclcpp::Time& source_time,
+                    const std::string& fixed_frame,
                     const rclcpp::Duration timeout = rclcpp::Duration::from_nanoseconds(0),
-                    std::string *errstr = nullptr) const {
+                    std::string* errstr = nullptr) const {
     return canTransform(target_frame, fromRclcpp(target_time), source_frame,
                         fromRclcpp(source_time), fixed_frame, fromRclcpp(timeout), errstr);
   }
-  TransformStampedFuture waitForTransform(const std::string &target_frame,
-                                          const std::string &source_frame,
-                                          const rclcpp::Time &time,
-                                          const rclcpp::Duration &timeout,
+  TransformStampedFuture waitForTransform(const std::string& target_frame,
+                                          const std::string& source_frame, const rclcpp::Time& time,
+                                          const rclcpp::Duration& timeout,
                                           TransformReadyCallback callback) {
     return waitForTransform(target_frame, source_frame, fromRclcpp(time), fromRclcpp(timeout),
                             std::move(callback));
@@ -123,9 +121,9 @@ class TF2_ROS_PUBLIC Buffer : public BufferInterface,
   struct Wait;
 
   void begin();
-  bool has_thread(std::string *errstr) const;
+  bool has_thread(std::string* errstr) const;
   // `why` empty: it came.
-  void end_waiting(const std::shared_ptr<Wait> &wait, const std::string &why);
+  void end_waiting(const std::shared_ptr<Wait>& wait, const std::string& why);
   rclcpp::Logger logger() const;
 
   rclcpp::Service<tf2_msgs::srv::FrameGraph>::SharedPtr frames_server_;

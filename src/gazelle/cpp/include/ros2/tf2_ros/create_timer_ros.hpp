@@ -17,14 +17,14 @@ class TF2_ROS_PUBLIC CreateTimerROS : public CreateTimerInterface {
                  rclcpp::CallbackGroup::SharedPtr callback_group = nullptr);
   ~CreateTimerROS() override = default;
 
-  TimerHandle createTimer(rclcpp::Clock::SharedPtr clock, const tf2::Duration &period,
+  TimerHandle createTimer(rclcpp::Clock::SharedPtr clock, const tf2::Duration& period,
                           TimerCallbackType callback) override;
-  void cancel(const TimerHandle &timer_handle) override;
-  void reset(const TimerHandle &timer_handle) override;
-  void remove(const TimerHandle &timer_handle) override;
+  void cancel(const TimerHandle& timer_handle) override;
+  void reset(const TimerHandle& timer_handle) override;
+  void remove(const TimerHandle& timer_handle) override;
 
  private:
-  rclcpp::TimerBase::SharedPtr timer_of(const TimerHandle &timer_handle);
+  rclcpp::TimerBase::SharedPtr timer_of(const TimerHandle& timer_handle);
 
   rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base_;
   rclcpp::node_interfaces::NodeTimersInterface::SharedPtr node_timers_;

@@ -58,9 +58,9 @@ class MessageFilterBase {
 
   virtual ~MessageFilterBase() = default;
   virtual void clear() = 0;
-  virtual void setTargetFrame(const std::string &target_frame) = 0;
-  virtual void setTargetFrames(const V_string &target_frames) = 0;
-  virtual void setTolerance(const rclcpp::Duration &tolerance) = 0;
+  virtual void setTargetFrame(const std::string& target_frame) = 0;
+  virtual void setTargetFrames(const V_string& target_frames) = 0;
+  virtual void setTolerance(const rclcpp::Duration& tolerance) = 0;
 };
 
 template <class M, class BufferT = tf2_ros::Buffer>
@@ -68,21 +68,21 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
  public:
   using MConstPtr = std::shared_ptr<M const>;
   using MEvent = message_filters::MessageEvent<M const>;
-  using FailureCallback = std::function<void(const MConstPtr &, FilterFailureReason)>;
+  using FailureCallback = std::function<void(const MConstPtr&, FilterFailureReason)>;
   using Logging = rclcpp::node_interfaces::NodeLoggingInterface::SharedPtr;
   using Clock = rclcpp::node_interfaces::NodeClockInterface::SharedPtr;
 
   // A queue size of 0 keeps any number.
   template <typename TimeRepT = int64_t, typename TimeT = std::nano>
-  MessageFilter(BufferT &buffer, const std::string &target_frame, uint32_t queue_size,
-                const rclcpp::Node::SharedPtr &node,
+  MessageFilter(BufferT& buffer, const std::string& target_frame, uint32_t queue_size,
+                const rclcpp::Node::SharedPtr& node,
                 std::chrono::duration<TimeRepT, TimeT> buffer_timeout =
                     std::chrono::duration<TimeRepT, TimeT>::max())
       : MessageFilter(buffer, target_frame, queue_size, node->get_node_logging_interface(),
                       node->get_node_clock_interface(), buffer_timeout) {}
   template <typename TimeRepT = int64_t, typename TimeT = std::nano>
-  MessageFilter(BufferT &buffer, const std::string &target_frame, uint32_t queue_size,
-                const Logging &node_logging, const Clock &node_clock,
+  MessageFilter(BufferT& buffer, const std::string& target_frame, uint32_t queue_size,
+                const Logging& node_logging, const Clock& node_clock,
                 std::chrono::duration<TimeRepT, TimeT> buffer_timeout =
                     std::chrono::duration<TimeRepT, TimeT>::max())
       : logging_(node_logging),
@@ -98,16 +98,16 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     setTargetFrame(target_frame);
   }
   template <class F, typename TimeRepT = int64_t, typename TimeT = std::nano>
-  MessageFilter(F &f, BufferT &buffer, const std::string &target_frame, uint32_t queue_size,
-                const rclcpp::Node::SharedPtr &node,
+  MessageFilter(F& f, BufferT& buffer, const std::string& target_frame, uint32_t queue_size,
+                const rclcpp::Node::SharedPtr& node,
                 std::chrono::duration<TimeRepT, TimeT> buffer_timeout =
                     std::chrono::duration<TimeRepT, TimeT>::max())
       : MessageFilter(buffer, target_frame, queue_size, node, buffer_timeout) {
     connectInput(f);
   }
   template <class F, typename TimeRepT = int64_t, typename TimeT = std::nano>
-  MessageFilter(F &f, BufferT &buffer, const std::string &target_frame, uint32_t queue_size,
-                const Logging &node_logging, const Clock &node_clock,
+  MessageFilter(F& f, BufferT& buffer, const std::string& target_frame, uint32_t queue_size,
+                const Logging& node_logging, const Clock& node_clock,
                 std::chrono::duration<TimeRepT, TimeT> buffer_timeout =
                     std::chrono::duration<TimeRepT, TimeT>::max())
       : MessageFilter(buffer, target_frame, queue_size, node_logging, node_clock, buffer_timeout) {
@@ -120,31 +120,31 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     std::lock_guard<std::recursive_mutex> hold(alive_->lock);
     alive_->is_alive = false;
   }
-  MessageFilter(const MessageFilter &) = delete;
-  MessageFilter &operator=(const MessageFilter &) = delete;
+  MessageFilter(const MessageFilter&) = delete;
+  MessageFilter& operator=(const MessageFilter&) = delete;
 
   template <class F>
-  void connectInput(F &f) {
+  void connectInput(F& f) {
     input_.disconnect();
     input_ = f.registerCallback(&MessageFilter::add_event, this);
   }
 
-  void setTargetFrame(const std::string &target_frame) override {
+  void setTargetFrame(const std::string& target_frame) override {
     setTargetFrames(V_string{target_frame});
   }
-  void setTargetFrames(const V_string &target_frames) override {
+  void setTargetFrames(const V_string& target_frames) override {
     std::lock_guard<std::mutex> hold(lock_);
     frames_.clear();
-    for (const std::string &one : target_frames) frames_.push_back(without_slash(one));
+    for (const std::string& one : target_frames) frames_.push_back(without_slash(one));
   }
   std::string getTargetFramesString() {
     std::lock_guard<std::mutex> hold(lock_);
     std::string out;
-    for (const std::string &one : frames_) out += one + " ";
+    for (const std::string& one : frames_) out += one + " ";
     return out;
   }
   // Transforms are wanted for the stamp and for so much later, too.
-  void setTolerance(const rclcpp::Duration &tolerance) override {
+  void setTolerance(const rclcpp::Duration& tolerance) override {
     std::lock_guard<std::mutex> hold(lock_);
     tolerance_ = tolerance;
   }
@@ -154,14 +154,14 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
       std::lock_guard<std::mutex> hold(lock_);
       given_up.swap(waiting_);
     }
-    for (const auto &one : given_up) cancel(*one);
+    for (const auto& one : given_up) cancel(*one);
   }
   virtual void setQueueSize(uint32_t new_queue_size) { queue_size_ = new_queue_size; }
   virtual uint32_t getQueueSize() { return queue_size_; }
 
-  void add(const MEvent &event) {
+  void add(const MEvent& event) {
     namespace mt = message_filters::message_traits;
-    const MConstPtr &message = event.getMessage();
+    const MConstPtr& message = event.getMessage();
     auto waits = std::make_shared<Waiting>();
     waits->event = event;
     const std::string frame = without_slash(mt::FrameId<M>::value(*message));
@@ -194,15 +194,15 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
       cancel(*oldest);
       give_up(oldest->event, filter_failure_reasons::QueueFull);
     }
-    for (const std::string &target : frames) {
-      for (const rclcpp::Time &one : stamps) {
+    for (const std::string& target : frames) {
+      for (const rclcpp::Time& one : stamps) {
         const auto alive = alive_;
-        TransformStampedFuture future = buffer_.waitForTransform(
-            target, frame, fromRclcpp(one), timeout_,
-            [this, alive, waits](const TransformStampedFuture &answer) {
-              std::lock_guard<std::recursive_mutex> hold(alive->lock);
-              if (alive->is_alive) arrived(waits, answer);
-            });
+        TransformStampedFuture future =
+            buffer_.waitForTransform(target, frame, fromRclcpp(one), timeout_,
+                                     [this, alive, waits](const TransformStampedFuture& answer) {
+                                       std::lock_guard<std::recursive_mutex> hold(alive->lock);
+                                       if (alive->is_alive) arrived(waits, answer);
+                                     });
         const auto handle = future.getHandle();
         if (handle == 0 || handle == gazelle::FrameTree::never) continue;
         std::lock_guard<std::mutex> hold(lock_);
@@ -210,9 +210,9 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
       }
     }
   }
-  void add(const MConstPtr &message) { add(MEvent(message, clock_->get_clock()->now())); }
+  void add(const MConstPtr& message) { add(MEvent(message, clock_->get_clock()->now())); }
 
-  message_filters::Connection registerFailureCallback(const FailureCallback &callback) {
+  message_filters::Connection registerFailureCallback(const FailureCallback& callback) {
     std::lock_guard<std::mutex> hold(lock_);
     auto told = std::make_shared<FailureCallback>(callback);
     failed_.push_back(told);
@@ -239,30 +239,30 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     if (Longest(length) > Longest(tf2::Duration::max())) return tf2::Duration::max();
     return std::chrono::duration_cast<tf2::Duration>(length);
   }
-  static std::string without_slash(const std::string &frame) {
+  static std::string without_slash(const std::string& frame) {
     return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
   }
 
-  void add_event(const MEvent &event) { add(event); }
+  void add_event(const MEvent& event) { add(event); }
 
-  void cancel(Waiting &waits) {
+  void cancel(Waiting& waits) {
     std::list<TransformStampedFuture> futures;
     {
       std::lock_guard<std::mutex> hold(lock_);
       futures.swap(waits.futures);
     }
-    for (const auto &one : futures) buffer_.cancel(one);
+    for (const auto& one : futures) buffer_.cancel(one);
   }
 
-  void arrived(const std::shared_ptr<Waiting> &waits, const TransformStampedFuture &answer) {
+  void arrived(const std::shared_ptr<Waiting>& waits, const TransformStampedFuture& answer) {
     FilterFailureReason reason = filter_failure_reasons::Unknown;
     bool is_available = true;
     try {
       answer.get();
-    } catch (const tf2::TimeoutException &) {
+    } catch (const tf2::TimeoutException&) {
       is_available = false;
       reason = filter_failure_reasons::NoTransformFound;
-    } catch (const std::exception &) {
+    } catch (const std::exception&) {
       is_available = false;
       reason = filter_failure_reasons::OutTheBack;
     }
@@ -281,9 +281,9 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
     }
   }
 
-  void give_up(const MEvent &event, FilterFailureReason reason) {
+  void give_up(const MEvent& event, FilterFailureReason reason) {
     namespace mt = message_filters::message_traits;
-    const MConstPtr &message = event.getMessage();
+    const MConstPtr& message = event.getMessage();
     const rclcpp::Time stamp = mt::TimeStamp<M>::value(*message);
     RCLCPP_INFO(logging_->get_logger(),
                 "Message Filter dropping message: frame '%s' at time %.3f for reason '%s'",
@@ -294,12 +294,12 @@ class MessageFilter : public MessageFilterBase, public message_filters::SimpleFi
       std::lock_guard<std::mutex> hold(lock_);
       told = failed_;
     }
-    for (const auto &one : told) (*one)(message, reason);
+    for (const auto& one : told) (*one)(message, reason);
   }
 
   const Logging logging_;
   const Clock clock_;
-  BufferT &buffer_;
+  BufferT& buffer_;
   std::atomic<uint32_t> queue_size_;
   const tf2::Duration timeout_;
   std::shared_ptr<Alive> alive_;

@@ -11,8 +11,8 @@ class TF2_ROS_PUBLIC StaticTransformBroadcaster {
  public:
   template <class NodeT, class AllocatorT = std::allocator<void>>
   explicit StaticTransformBroadcaster(
-      NodeT &&node, const rclcpp::QoS &qos = StaticBroadcasterQoS(),
-      const rclcpp::PublisherOptionsWithAllocator<AllocatorT> &options =
+      NodeT&& node, const rclcpp::QoS& qos = StaticBroadcasterQoS(),
+      const rclcpp::PublisherOptionsWithAllocator<AllocatorT>& options =
           detail::overridable_publisher<AllocatorT>(false))
       : StaticTransformBroadcaster(rclcpp::node_interfaces::get_node_parameters_interface(node),
                                    rclcpp::node_interfaces::get_node_topics_interface(node), qos,
@@ -21,14 +21,14 @@ class TF2_ROS_PUBLIC StaticTransformBroadcaster {
   StaticTransformBroadcaster(
       rclcpp::node_interfaces::NodeParametersInterface::SharedPtr node_parameters,
       rclcpp::node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
-      const rclcpp::QoS &qos = StaticBroadcasterQoS(),
-      const rclcpp::PublisherOptionsWithAllocator<AllocatorT> &options =
+      const rclcpp::QoS& qos = StaticBroadcasterQoS(),
+      const rclcpp::PublisherOptionsWithAllocator<AllocatorT>& options =
           detail::overridable_publisher<AllocatorT>(false))
       : publisher_(rclcpp::create_publisher<tf2_msgs::msg::TFMessage>(
             node_parameters, node_topics, "/tf_static", qos, options)) {}
 
-  void sendTransform(const geometry_msgs::msg::TransformStamped &transform);
-  void sendTransform(const std::vector<geometry_msgs::msg::TransformStamped> &transforms);
+  void sendTransform(const geometry_msgs::msg::TransformStamped& transform);
+  void sendTransform(const std::vector<geometry_msgs::msg::TransformStamped>& transforms);
 
  private:
   rclcpp::Publisher<tf2_msgs::msg::TFMessage>::SharedPtr publisher_;

@@ -21,8 +21,8 @@ rclcpp::PublisherOptionsWithAllocator<AllocatorT> overridable_publisher(bool dur
   using Kind = rclcpp::QosPolicyKind;
   rclcpp::PublisherOptionsWithAllocator<AllocatorT> options;
   if (durability) {
-    options.qos_overriding_options = rclcpp::QosOverridingOptions{
-        Kind::Depth, Kind::Durability, Kind::History, Kind::Reliability};
+    options.qos_overriding_options = rclcpp::QosOverridingOptions{Kind::Depth, Kind::Durability,
+                                                                  Kind::History, Kind::Reliability};
   } else {
     options.qos_overriding_options =
         rclcpp::QosOverridingOptions{Kind::Depth, Kind::History, Kind::Reliability};
@@ -35,24 +35,23 @@ rclcpp::PublisherOptionsWithAllocator<AllocatorT> overridable_publisher(bool dur
 class TF2_ROS_PUBLIC TransformBroadcaster {
  public:
   template <class NodeT, class AllocatorT = std::allocator<void>>
-  explicit TransformBroadcaster(
-      NodeT &&node, const rclcpp::QoS &qos = DynamicBroadcasterQoS(),
-      const rclcpp::PublisherOptionsWithAllocator<AllocatorT> &options =
-          detail::overridable_publisher<AllocatorT>(true))
+  explicit TransformBroadcaster(NodeT&& node, const rclcpp::QoS& qos = DynamicBroadcasterQoS(),
+                                const rclcpp::PublisherOptionsWithAllocator<AllocatorT>& options =
+                                    detail::overridable_publisher<AllocatorT>(true))
       : TransformBroadcaster(rclcpp::node_interfaces::get_node_parameters_interface(node),
                              rclcpp::node_interfaces::get_node_topics_interface(node), qos,
                              options) {}
   template <class AllocatorT = std::allocator<void>>
   TransformBroadcaster(rclcpp::node_interfaces::NodeParametersInterface::SharedPtr node_parameters,
                        rclcpp::node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
-                       const rclcpp::QoS &qos = DynamicBroadcasterQoS(),
-                       const rclcpp::PublisherOptionsWithAllocator<AllocatorT> &options =
+                       const rclcpp::QoS& qos = DynamicBroadcasterQoS(),
+                       const rclcpp::PublisherOptionsWithAllocator<AllocatorT>& options =
                            detail::overridable_publisher<AllocatorT>(true))
-      : publisher_(rclcpp::create_publisher<tf2_msgs::msg::TFMessage>(
-            node_parameters, node_topics, "/tf", qos, options)) {}
+      : publisher_(rclcpp::create_publisher<tf2_msgs::msg::TFMessage>(node_parameters, node_topics,
+                                                                      "/tf", qos, options)) {}
 
-  void sendTransform(const geometry_msgs::msg::TransformStamped &transform);
-  void sendTransform(const std::vector<geometry_msgs::msg::TransformStamped> &transforms);
+  void sendTransform(const geometry_msgs::msg::TransformStamped& transform);
+  void sendTransform(const std::vector<geometry_msgs::msg::TransformStamped>& transforms);
 
  private:
   rclcpp::Publisher<tf2_msgs::msg::TFMessage>::SharedPtr publisher_;

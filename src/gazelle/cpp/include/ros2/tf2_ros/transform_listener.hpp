@@ -21,8 +21,8 @@ template <class AllocatorT = std::allocator<void>>
 rclcpp::SubscriptionOptionsWithAllocator<AllocatorT> get_default_transform_listener_sub_options() {
   using Kind = rclcpp::QosPolicyKind;
   rclcpp::SubscriptionOptionsWithAllocator<AllocatorT> options;
-  options.qos_overriding_options = rclcpp::QosOverridingOptions{
-      Kind::Depth, Kind::Durability, Kind::History, Kind::Reliability};
+  options.qos_overriding_options =
+      rclcpp::QosOverridingOptions{Kind::Depth, Kind::Durability, Kind::History, Kind::Reliability};
   return options;
 }
 template <class AllocatorT = std::allocator<void>>
@@ -40,42 +40,41 @@ get_default_transform_listener_static_sub_options() {
 class TF2_ROS_PUBLIC TransformListener {
  public:
   // With a node of its own.
-  explicit TransformListener(tf2::BufferCore &buffer, bool spin_thread = true,
+  explicit TransformListener(tf2::BufferCore& buffer, bool spin_thread = true,
                              bool static_only = false);
 
   template <class NodeT, class AllocatorT = std::allocator<void>>
-  TransformListener(tf2::BufferCore &buffer, NodeT &&node, bool spin_thread = true,
-                    const rclcpp::QoS &qos = DynamicListenerQoS(),
-                    const rclcpp::QoS &static_qos = StaticListenerQoS(),
-                    const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT> &options =
+  TransformListener(tf2::BufferCore& buffer, NodeT&& node, bool spin_thread = true,
+                    const rclcpp::QoS& qos = DynamicListenerQoS(),
+                    const rclcpp::QoS& static_qos = StaticListenerQoS(),
+                    const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT>& options =
                         detail::get_default_transform_listener_sub_options<AllocatorT>(),
-                    const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT> &static_options =
+                    const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT>& static_options =
                         detail::get_default_transform_listener_static_sub_options<AllocatorT>(),
                     bool static_only = false)
       : TransformListener(buffer, node->get_node_base_interface(),
-                          node->get_node_logging_interface(),
-                          node->get_node_parameters_interface(),
+                          node->get_node_logging_interface(), node->get_node_parameters_interface(),
                           node->get_node_topics_interface(), spin_thread, qos, static_qos, options,
                           static_options, static_only) {}
 
   template <class AllocatorT = std::allocator<void>>
-  TransformListener(
-      tf2::BufferCore &buffer, rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base,
-      rclcpp::node_interfaces::NodeLoggingInterface::SharedPtr node_logging,
-      rclcpp::node_interfaces::NodeParametersInterface::SharedPtr node_parameters,
-      rclcpp::node_interfaces::NodeTopicsInterface::SharedPtr node_topics, bool spin_thread = true,
-      const rclcpp::QoS &qos = DynamicListenerQoS(),
-      const rclcpp::QoS &static_qos = StaticListenerQoS(),
-      const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT> &options =
-          detail::get_default_transform_listener_sub_options<AllocatorT>(),
-      const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT> &static_options =
-          detail::get_default_transform_listener_static_sub_options<AllocatorT>(),
-      bool static_only = false)
+  TransformListener(tf2::BufferCore& buffer,
+                    rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base,
+                    rclcpp::node_interfaces::NodeLoggingInterface::SharedPtr node_logging,
+                    rclcpp::node_interfaces::NodeParametersInterface::SharedPtr node_parameters,
+                    rclcpp::node_interfaces::NodeTopicsInterface::SharedPtr node_topics,
+                    bool spin_thread = true, const rclcpp::QoS& qos = DynamicListenerQoS(),
+                    const rclcpp::QoS& static_qos = StaticListenerQoS(),
+                    const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT>& options =
+                        detail::get_default_transform_listener_sub_options<AllocatorT>(),
+                    const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT>& static_options =
+                        detail::get_default_transform_listener_static_sub_options<AllocatorT>(),
+                    bool static_only = false)
       : buffer_(buffer), node_base_(node_base), node_logging_(node_logging) {
     rclcpp::SubscriptionOptionsWithAllocator<AllocatorT> moving = options, still = static_options;
     if (spin_thread) {
-      group_ = node_base->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive,
-                                                false);
+      group_ =
+          node_base->create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive, false);
       moving.callback_group = group_;
       still.callback_group = group_;
     }
@@ -89,11 +88,10 @@ class TF2_ROS_PUBLIC TransformListener {
   }
 
   virtual ~TransformListener();
-  TransformListener(const TransformListener &) = delete;
-  TransformListener &operator=(const TransformListener &) = delete;
+  TransformListener(const TransformListener&) = delete;
+  TransformListener& operator=(const TransformListener&) = delete;
 
-  virtual void subscription_callback(tf2_msgs::msg::TFMessage::ConstSharedPtr msg,
-                                     bool is_static);
+  virtual void subscription_callback(tf2_msgs::msg::TFMessage::ConstSharedPtr msg, bool is_static);
 
  private:
   using Taker = std::function<void(tf2_msgs::msg::TFMessage::ConstSharedPtr)>;
@@ -101,7 +99,7 @@ class TF2_ROS_PUBLIC TransformListener {
   Taker taker(bool is_static);
   void spin();
 
-  tf2::BufferCore &buffer_;
+  tf2::BufferCore& buffer_;
   rclcpp::Node::SharedPtr own_node_;
   rclcpp::node_interfaces::NodeBaseInterface::SharedPtr node_base_;
   rclcpp::node_interfaces::NodeLoggingInterface::SharedPtr node_logging_;
@@ -115,13 +113,13 @@ class TF2_ROS_PUBLIC TransformListener {
 // Hears of frames that never move only.
 class TF2_ROS_PUBLIC StaticTransformListener : public TransformListener {
  public:
-  explicit StaticTransformListener(tf2::BufferCore &buffer, bool spin_thread = true)
+  explicit StaticTransformListener(tf2::BufferCore& buffer, bool spin_thread = true)
       : TransformListener(buffer, spin_thread, true) {}
   template <class NodeT, class AllocatorT = std::allocator<void>>
   StaticTransformListener(
-      tf2::BufferCore &buffer, NodeT &&node, bool spin_thread = true,
-      const rclcpp::QoS &static_qos = StaticListenerQoS(),
-      const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT> &static_options =
+      tf2::BufferCore& buffer, NodeT&& node, bool spin_thread = true,
+      const rclcpp::QoS& static_qos = StaticListenerQoS(),
+      const rclcpp::SubscriptionOptionsWithAllocator<AllocatorT>& static_options =
           detail::get_default_transform_listener_static_sub_options<AllocatorT>())
       : TransformListener(buffer, node, spin_thread, rclcpp::QoS(1), static_qos,
                           rclcpp::SubscriptionOptionsWithAllocator<AllocatorT>(), static_options,

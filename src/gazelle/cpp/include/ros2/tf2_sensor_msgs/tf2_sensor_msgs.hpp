@@ -10,7 +10,7 @@
 
 namespace tf2 {
 namespace impl {
-inline TimePoint cloud_stamp_of(const builtin_interfaces::msg::Time &stamp) {
+inline TimePoint cloud_stamp_of(const builtin_interfaces::msg::Time& stamp) {
   return tf2_ros::fromMsg(stamp);
 }
 }  // namespace impl
