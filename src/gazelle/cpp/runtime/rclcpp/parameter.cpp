@@ -231,8 +231,9 @@ ParameterMap parameter_map_from_yaml_file(const std::string& yaml_filename, cons
   ParameterMap map;
   gazelle::Json found;
   try {
-    found =
-        gazelle::call("rclcpp/parameter_file", gazelle::Json::object({{"path", yaml_filename}}));
+    const std::string node = node_fqn ? node_fqn : "/**";
+    found = gazelle::call("rclcpp/parameter_file",
+                          gazelle::Json::object({{"path", yaml_filename}, {"node", node}}));
   } catch (const gazelle::Error& error) {
     throw exceptions::InvalidParametersException(error.what());
   }
