@@ -123,17 +123,17 @@ CPP = (
         (
             Step("gazelle.launch.cpp_nodes", "finds all programs of C++ that are about to start"),
             Step("gazelle.cpp.interfaces", "makes headers of messages, services, actions, .cfg"),
-            Step("gazelle.cpp.build_cmake", "lets CMake read CMakeLists.txt; ROS is Gazelle's"),
-            Step("gazelle.cpp.build_runtime", "compiles the libraries behind the headers, once"),
-            Step("gazelle.cpp.build", "lets ninja compile on all cores what has changed"),
+            Step("gazelle.cpp.building.cmake", "lets CMake read CMakeLists.txt; ROS is Gazelle's"),
+            Step("gazelle.cpp.building.runtime", "compiles the libraries behind the headers, once"),
+            Step("gazelle.cpp.building.build", "lets ninja compile on all cores what has changed"),
         ),
     ),
     Lane(
         "node",
         (
             Step("gazelle.cpp.host", "loads the program and runs its main() in this process"),
-            Step("gazelle.cpp.host_table", "functions of C by which C++ asks for what is outside"),
-            Step("gazelle.cpp.host_topics", "publishes and subscribes as nodes in Python do"),
+            Step("gazelle.cpp.host.table", "functions of C by which C++ asks for what is outside"),
+            Step("gazelle.cpp.host.topics", "publishes and subscribes as nodes in Python do"),
             Step("gazelle.graph.publisher", "puts it on the graph, over Zenoh's local link"),
         ),
     ),

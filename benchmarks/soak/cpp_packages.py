@@ -22,7 +22,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
-from gazelle.cpp.build import build_package as compile_package
+from gazelle.cpp.building.build import build_package as compile_package
 from gazelle.cpp.lookup import host_command, is_node_file
 from gazelle.diagnostics import Diagnostics
 from gazelle.workspace.building.build import (

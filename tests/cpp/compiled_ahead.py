@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from gazelle.cpp.build import ensure_built, ensure_library_built
-from gazelle.cpp.build_runtime import ensure_runtime, libraries_for
+from gazelle.cpp.building.build import ensure_built, ensure_library_built
+from gazelle.cpp.building.runtime import ensure_runtime, libraries_for
 from gazelle.diagnostics import Diagnostics, render_text
 from gazelle.workspace import Workspace
 

@@ -36,9 +36,9 @@ class FakeBuild:
     def instead_of_compiling(cls, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Self:
         """Take the place of what compiles while a test runs; scripts go to a folder."""
         fake = cls(folder)
-        module = ModuleType("gazelle.cpp.build")
+        module = ModuleType("gazelle.cpp.building.build")
         module.ensure_all_built = fake.ensure_all_built  # type: ignore[attr-defined]
-        monkeypatch.setitem(sys.modules, "gazelle.cpp.build", module)
+        monkeypatch.setitem(sys.modules, "gazelle.cpp.building.build", module)
         for user in (node_commands, cpp_nodes):
             monkeypatch.setattr(user, "host_command", lambda path: (str(path),))
         return fake

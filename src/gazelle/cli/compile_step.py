@@ -34,7 +34,7 @@ def compile_step_for(
     """
     if not any(needs_compiler(package, definitions) for package in packages):
         return None
-    from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
+    from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 
     try:
         find_toolchain()
@@ -43,7 +43,7 @@ def compile_step_for(
         return None
 
     def compiled(request: CompileRequest) -> Compiled:
-        from gazelle.cpp.build import build_package
+        from gazelle.cpp.building.build import build_package
 
         return build_package(replace(request, jobs=jobs), said=said)
 

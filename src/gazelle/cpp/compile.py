@@ -10,10 +10,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-from gazelle.cpp.build_errors import CppBuildError
-from gazelle.cpp.build_node import node_objects
-from gazelle.cpp.build_runtime import ensure_runtime, roots_of
-from gazelle.cpp.toolchain import find_toolchain
+from gazelle.cpp.building.errors import CppBuildError
+from gazelle.cpp.building.node_file import node_objects
+from gazelle.cpp.building.runtime import ensure_runtime, roots_of
+from gazelle.cpp.building.toolchain import find_toolchain
 from gazelle.errors import GazelleError
 
 __all__ = ["main"]

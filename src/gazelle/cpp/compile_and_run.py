@@ -45,7 +45,7 @@ def main(argv: list[str]) -> int:
 
 
 def _program(argv: list[str]) -> Path | None:
-    from gazelle.cpp.build import ensure_built
+    from gazelle.cpp.building.build import ensure_built
     from gazelle.workspace import Workspace
 
     folder, name, executable = argv[:_WORDS]

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from gazelle.cpp.build_runtime import ensure_runtime
-from gazelle.cpp.host_context import HostContext
-from gazelle.cpp.host_table import Core
+from gazelle.cpp.building.runtime import ensure_runtime
+from gazelle.cpp.host.context import HostContext
+from gazelle.cpp.host.table import Core
 from gazelle.errors import GazelleError
 from gazelle.graph import Graph
 from gazelle.interfaces.codec import to_cdr

@@ -64,7 +64,7 @@ def registered_components(
     """
     prefixes = list(_prefixes(package))
     if package.prefix is None and not package.is_builtin:
-        from gazelle.cpp.build import ensure_installed
+        from gazelle.cpp.building.build import ensure_installed
 
         made = ensure_installed(
             package, workspace=workspace, diagnostics=diagnostics, environ=environ

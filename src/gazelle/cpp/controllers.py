@@ -13,8 +13,8 @@ from typing import Any, ClassVar, NamedTuple
 from gazelle.control.controller_parameters import ControllerTable
 from gazelle.control.controllers.controller import Controller, ControllerContext
 from gazelle.control.errors import ControllerError
-from gazelle.cpp.build_runtime import libraries_for
-from gazelle.cpp.embedded_host import EmbeddedHost, EmbeddingWorld, embedded_host
+from gazelle.cpp.building.runtime import libraries_for
+from gazelle.cpp.host.embedded import EmbeddedHost, EmbeddingWorld, embedded_host
 from gazelle.cpp.plugins import PluginClass, declared_plugins, library_file
 from gazelle.diagnostics import Diagnostics
 from gazelle.errors import GazelleError

@@ -179,7 +179,7 @@ def library_file(
             package.prefix / "lib" / package.name / f"lib{name}.so",
         )
         return next((place for place in places if place.is_file()), None)
-    from gazelle.cpp.build import ensure_library_built
+    from gazelle.cpp.building.build import ensure_library_built
 
     return ensure_library_built(
         package, library_name(written), workspace=workspace, diagnostics=diagnostics, span=span

@@ -43,8 +43,8 @@ def ensure_program(program: ProvidedProgram) -> Path:
         GazelleError: it cannot be compiled, there is no compiler, or no place for it.
     """
     # Only here: whoever looks for a name builds nothing.
-    from gazelle.cpp.build_runtime import ensure_runtime
-    from gazelle.cpp.toolchain import find_toolchain
+    from gazelle.cpp.building.runtime import ensure_runtime
+    from gazelle.cpp.building.toolchain import find_toolchain
 
     runtime = ensure_runtime([program.library], program.generation, find_toolchain())
     return runtime.libraries[program.library]

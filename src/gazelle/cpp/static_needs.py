@@ -223,7 +223,7 @@ class _Headers:
 @cache
 def _system_roots() -> tuple[Path, ...]:
     """Return folders of the system's headers, Eigen, OpenCV and PCL's own ones included."""
-    from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
+    from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 
     found = [Path(top) for top in _SYSTEM]
     for top in _SYSTEM:
@@ -339,7 +339,7 @@ def _missing_packages(
 
 def _toolchain_has(name: str) -> bool:
     """Tell whether the headers of a library come with the compiler, from a wheel or the system."""
-    from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
+    from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 
     try:
         toolchain = find_toolchain()
@@ -371,7 +371,7 @@ def _cmake_modules() -> tuple[Path, ...]:
     """Return the folders of modules of the CMake that builds: a wheel's, or the system's."""
     from importlib.util import find_spec
 
-    from gazelle.cpp.toolchain import find_program
+    from gazelle.cpp.building.toolchain import find_program
 
     tops: set[Path] = set()
     program = find_program("cmake")

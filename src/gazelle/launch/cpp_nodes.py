@@ -47,7 +47,7 @@ def compiled_ahead(
     if not programs:
         return list(found)
     # Only here: who starts no C++ has nothing of compilers loaded.
-    from gazelle.cpp.build import ensure_all_built
+    from gazelle.cpp.building.build import ensure_all_built
 
     wanted = [(one.package, one.executable, one.span) for one in dict.fromkeys(programs)]
     files = ensure_all_built(wanted, workspace=workspace, diagnostics=diagnostics, environ=environ)
@@ -81,8 +81,8 @@ def _with_provided(
 
 
 def _compiled_program(program: ProvidedProgram, diagnostics: Diagnostics) -> Path | None:
+    from gazelle.cpp.building.toolchain import NoToolchainError
     from gazelle.cpp.provided_programs import ensure_program
-    from gazelle.cpp.toolchain import NoToolchainError
 
     try:
         return ensure_program(program)

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.cpp import build_settings
-from gazelle.cpp.build_runtime import Runtime
+from gazelle.cpp.building import settings as build_settings
+from gazelle.cpp.building.runtime import Runtime
+from gazelle.cpp.building.toolchain import Toolchain, find_toolchain
 from gazelle.cpp.runtime_libraries import with_needs
-from gazelle.cpp.toolchain import Toolchain, find_toolchain
 
 needs_compiler = pytest.mark.skipif(
     shutil.which("c++") is None or shutil.which("cmake") is None or shutil.which("ninja") is None,
@@ -43,8 +43,8 @@ def stub_runtime(stubs: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -
         return Runtime(chosen, generation, found)
 
     monkeypatch.setattr(build_settings, "ensure_runtime", ensure)
-    monkeypatch.setattr("gazelle.cpp.build.cache_top", lambda: tmp_path / "cache")
-    monkeypatch.setattr("gazelle.cpp.build_cmake.precompiled_table", lambda *_: None)
+    monkeypatch.setattr("gazelle.cpp.building.build.cache_top", lambda: tmp_path / "cache")
+    monkeypatch.setattr("gazelle.cpp.building.cmake.precompiled_table", lambda *_: None)
 
 
 Packages = Callable[[Mapping[str, str]], Path]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from tests.cpp.building.conftest import Packages, manifest, needs_compiler
 
-from gazelle.cpp.build import build_package, ensure_built, ensure_installed
+from gazelle.cpp.building.build import build_package, ensure_built, ensure_installed
 from gazelle.cpp.elf_file import is_node_file
 from gazelle.diagnostics import Diagnostics
 from gazelle.workspace import Workspace

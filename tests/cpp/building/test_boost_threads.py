@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from tests.cpp.building.conftest import needs_compiler
 
-from gazelle.cpp.build_runtime import ensure_runtime
-from gazelle.cpp.toolchain import find_toolchain
+from gazelle.cpp.building.runtime import ensure_runtime
+from gazelle.cpp.building.toolchain import find_toolchain
 
 pytestmark = [needs_compiler, pytest.mark.slow(40)]
 

@@ -11,8 +11,14 @@ from pathlib import Path
 import pytest
 from tests.patience import eventually
 
-from gazelle.cpp import build_cache
-from gazelle.cpp.build_cache import cache_top, digest_of_file, make_whole, only_one, stat_signature
+from gazelle.cpp.building import cache as build_cache
+from gazelle.cpp.building.cache import (
+    cache_top,
+    digest_of_file,
+    make_whole,
+    only_one,
+    stat_signature,
+)
 
 
 def test_a_folder_gets_its_name_when_it_is_whole(tmp_path: Path) -> None:
@@ -79,7 +85,7 @@ def test_a_second_process_waits_and_says_so(
 ) -> None:
     code = (
         "import sys; from pathlib import Path\n"
-        "from gazelle.cpp.build_cache import only_one\n"
+        "from gazelle.cpp.building.cache import only_one\n"
         "with only_one(Path(sys.argv[1]), 'making a thing'): print('in', flush=True)"
     )
     with only_one(tmp_path / "lock", "making a thing"):
@@ -134,7 +140,7 @@ def test_without_any_cache_other_processes_get_this_ones(
 def test_the_lock_of_a_killed_process_is_free(tmp_path: Path) -> None:
     code = (
         "import os, sys; from pathlib import Path\n"
-        "from gazelle.cpp.build_cache import only_one\n"
+        "from gazelle.cpp.building.cache import only_one\n"
         "with only_one(Path(sys.argv[1]), 'x'):\n"
         "    print('in', flush=True); sys.stdin.read()"
     )

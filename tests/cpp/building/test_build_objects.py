@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from tests.cpp.building.conftest import needs_compiler
 
-from gazelle.cpp.build_errors import CppBuildError
-from gazelle.cpp.build_objects import Job, compiled
-from gazelle.cpp.toolchain import Toolchain, find_toolchain
+from gazelle.cpp.building.errors import CppBuildError
+from gazelle.cpp.building.objects import Job, compiled
+from gazelle.cpp.building.toolchain import Toolchain, find_toolchain
 
 pytestmark = needs_compiler
 

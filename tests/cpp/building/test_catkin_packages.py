@@ -8,7 +8,12 @@ from pathlib import Path
 import pytest
 from tests.cpp.building.conftest import Packages, manifest, needs_compiler
 
-from gazelle.cpp.build import build_package, ensure_all_built, ensure_built, ensure_library_built
+from gazelle.cpp.building.build import (
+    build_package,
+    ensure_all_built,
+    ensure_built,
+    ensure_library_built,
+)
 from gazelle.cpp.elf_file import is_node_file, needed_libraries
 from gazelle.diagnostics import Diagnostics
 from gazelle.workspace import Workspace
@@ -288,7 +293,7 @@ def test_sources_that_change_while_they_are_compiled_are_compiled_again(
 def test_without_a_compiler_the_extra_is_named(
     packages: Packages, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gazelle.cpp import toolchain
+    from gazelle.cpp.building import toolchain
 
     monkeypatch.setattr(toolchain, "_zig", lambda: None)
     workspace, found = opened(packages(WORDS)), Diagnostics()
@@ -330,7 +335,7 @@ def test_a_full_disk_of_the_cache_is_named(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("gazelle.cpp.build_cmake.write_settings", full)
+    monkeypatch.setattr("gazelle.cpp.building.cmake.write_settings", full)
     workspace, found = opened(packages(WORDS)), Diagnostics()
     library = ensure_library_built(
         workspace.package("words"), "words", workspace=workspace, diagnostics=found

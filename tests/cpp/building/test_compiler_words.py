@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from tests.cpp.building.conftest import needs_compiler
 
-from gazelle.cpp.build_tools import launcher
-from gazelle.cpp.toolchain import find_toolchain
+from gazelle.cpp.building.programs import launcher
+from gazelle.cpp.building.toolchain import find_toolchain
 
 pytestmark = needs_compiler
 

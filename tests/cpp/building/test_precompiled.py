@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.cpp import build_precompiled
-from gazelle.cpp.build_precompiled import precompiled_table
-from gazelle.cpp.build_settings import Unit
-from gazelle.cpp.toolchain import Toolchain
+from gazelle.cpp.building import precompiled as build_precompiled
+from gazelle.cpp.building.precompiled import precompiled_table
+from gazelle.cpp.building.settings import Unit
+from gazelle.cpp.building.toolchain import Toolchain
 
 GCC = Toolchain("gcc", ("g++",), ("gcc",), "g++ 12", None, None, None, "key")
 USUAL = "g++ -std=gnu++17 -O2 -g1 -DROS_BUILD_SHARED_LIBS=1 {flags} -fPIC -o x.o -c {source}"

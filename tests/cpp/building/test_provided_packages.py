@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.cpp.build_settings import CMAKE
+from gazelle.cpp.building.settings import CMAKE
 from gazelle.cpp.provided_packages import PROVIDED, REFUSED, provided, refusal
 from gazelle.cpp.runtime_libraries import LIBRARIES, with_needs
 

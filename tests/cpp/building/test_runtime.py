@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from tests.cpp.building.conftest import needs_compiler
 
-from gazelle.cpp import build_runtime
-from gazelle.cpp.build_cache import forget_unused
-from gazelle.cpp.build_runtime import Runtime, libraries_for
-from gazelle.cpp.toolchain import find_toolchain
+from gazelle.cpp.building import runtime as build_runtime
+from gazelle.cpp.building.cache import forget_unused
+from gazelle.cpp.building.runtime import Runtime, libraries_for
+from gazelle.cpp.building.toolchain import find_toolchain
 
 pytestmark = needs_compiler
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.cpp import toolchain as module
-from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
+from gazelle.cpp.building import toolchain as module
+from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 
 
 def fake(folder: Path, name: str, version: str = "c++ (Debian) 12.2.0") -> Path:

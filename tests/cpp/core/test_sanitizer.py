@@ -28,7 +28,7 @@ _FLAGS = (
 _RUN = """\
 import sys
 from pathlib import Path
-from gazelle.cpp.host import run_node_file
+from gazelle.cpp.host.__main__ import run_node_file
 from gazelle.process_lifetime import end_at_interrupts
 end_at_interrupts()
 run_node_file(Path(sys.argv[2]), sys.argv[2:], [Path(sys.argv[1])])

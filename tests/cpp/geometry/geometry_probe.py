@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from gazelle.cpp.build_runtime import ensure_runtime
-from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
+from gazelle.cpp.building.runtime import ensure_runtime
+from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 
 __all__ = ["CppTree", "GeometryProbe"]
 

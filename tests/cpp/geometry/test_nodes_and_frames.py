@@ -13,7 +13,7 @@ import pytest
 from tests.conftest import Launched, Run
 from tests.patience import eventually
 
-from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
+from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 from gazelle.geometry import Pose
 from gazelle.graph import Graph
 from gazelle.graph.tf import (

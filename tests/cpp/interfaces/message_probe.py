@@ -12,11 +12,11 @@ from typing import Any
 
 import pytest
 
-from gazelle.cpp.build_runtime import ensure_runtime
+from gazelle.cpp.building.runtime import ensure_runtime
+from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 from gazelle.cpp.interfaces import known_messages, package_messages
 from gazelle.cpp.interfaces.header_names import class_name, header_path
 from gazelle.cpp.runtime_libraries import HERE
-from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
 from gazelle.interfaces import RosVersion, TypeStore
 from gazelle.interfaces.definition import FORMATS, Array, FieldType, attribute_name
 from gazelle.interfaces.ros1_time import Duration, Time

@@ -11,8 +11,8 @@ import pytest
 from tests.conftest import Run
 from tests.patience import PATIENCE_S, eventually, stretched
 
+from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 from gazelle.cpp.interfaces import config_header
-from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
 from gazelle.graph import Graph
 from gazelle.graph.dynamic_reconfigure import ReconfigureClient
 

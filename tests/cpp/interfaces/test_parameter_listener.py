@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from tests.conftest import Run
 
+from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 from gazelle.cpp.interfaces import parameter_header
-from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
 
 _HERE = Path(__file__).parent
 _PROGRAM = _HERE / "programs" / "parameterized.cpp"

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from tests.conftest import Launched, Run
 
-from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
+from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 from gazelle.graph import Graph
 
 Probe = Callable[..., Launched]

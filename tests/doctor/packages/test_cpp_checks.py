@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.cpp import toolchain
+from gazelle.cpp.building import toolchain
 from gazelle.diagnostics import Diagnostic, Diagnostics
 from gazelle.doctor.report import Section
 

@@ -8,7 +8,7 @@ from gazelle.cpp.verbs import verb
 from gazelle.workspace import ament_index
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
 
 __all__ = ["packages", "prefix", "resource", "resources", "search_paths", "share"]
 

@@ -8,7 +8,7 @@ from gazelle.cpp.verbs import verb
 from gazelle.errors import GazelleError
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
 
 __all__ = ["CalibrationError"]
 

@@ -12,7 +12,7 @@ from gazelle.cpp.verbs.package import workspace_of
 from gazelle.errors import GazelleError
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
 
 __all__ = ["prepare", "resources"]
 
@@ -29,7 +29,7 @@ def resources(host: HostContext, request: dict[str, Any]) -> list[list[str]]:
         GazelleError: there is no such package, or it cannot be compiled.
     """
     from gazelle.cpp.component_libraries import registered_components
-    from gazelle.cpp.signal_mask import signals_for_children
+    from gazelle.cpp.host.signal_mask import signals_for_children
     from gazelle.diagnostics import Diagnostics, render_text
 
     name, workspace, diagnostics = request["package"], workspace_of(host), Diagnostics()
@@ -49,8 +49,8 @@ def resources(host: HostContext, request: dict[str, Any]) -> list[list[str]]:
 @verb("component/prepare")
 def prepare(host: HostContext, request: dict[str, Any]) -> None:
     """Load what a library needs of Gazelle's own, which nothing else would find."""
-    from gazelle.cpp.build_runtime import libraries_for
-    from gazelle.cpp.signal_mask import signals_for_children
+    from gazelle.cpp.building.runtime import libraries_for
+    from gazelle.cpp.host.signal_mask import signals_for_children
 
     del host
     with signals_for_children():

@@ -9,7 +9,7 @@ from gazelle.description.urdfdom_emulation.model import urdfdom_verdict
 from gazelle.description.urdfdom_emulation.tinyxml import Element, parse_tinyxml
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
 
 __all__ = ["read_urdf"]
 

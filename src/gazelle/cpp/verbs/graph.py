@@ -8,7 +8,7 @@ from gazelle.cpp.verbs import verb
 from gazelle.graph.key_expressions import ANY_TYPE, Entity, Kind, entity_gid, token
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
 
 __all__: list[str] = []
 

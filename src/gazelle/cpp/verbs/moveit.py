@@ -13,7 +13,7 @@ from gazelle.errors import GazelleError
 from gazelle.geometry import Pose
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
     from gazelle.motion.model import JointGroup, RobotModel
 
 __all__ = ["fk", "ik", "model", "random_positions"]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gazelle.cpp.host_context import HostNode
+from gazelle.cpp.host.context import HostNode
 from gazelle.cpp.verbs import verb
 from gazelle.graph.names import anonymous_name, parse_command_line, resolve, split
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
     from gazelle.graph import Node
     from gazelle.graph.ros2_arguments import RosArguments
 

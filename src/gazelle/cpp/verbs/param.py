@@ -15,7 +15,7 @@ from gazelle.graph.names import join, namespace_of
 from gazelle.graph.parameter_tree import from_json, to_json
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
 
 __all__: list[str] = []
 

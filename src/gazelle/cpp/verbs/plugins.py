@@ -11,7 +11,7 @@ from gazelle.cpp.verbs.package import workspace_of
 from gazelle.errors import GazelleError
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
 
 __all__ = ["declared", "library"]
 
@@ -65,9 +65,9 @@ def library(host: HostContext, request: dict[str, Any]) -> dict[str, str]:
     Raises:
         GazelleError: it cannot be compiled; the message has the compiler's words.
     """
-    from gazelle.cpp.build_runtime import libraries_for
+    from gazelle.cpp.building.runtime import libraries_for
+    from gazelle.cpp.host.signal_mask import signals_for_children
     from gazelle.cpp.plugins import library_file
-    from gazelle.cpp.signal_mask import signals_for_children
     from gazelle.diagnostics import Diagnostics, SourceSpan, render_text
 
     workspace, diagnostics = workspace_of(host), Diagnostics()

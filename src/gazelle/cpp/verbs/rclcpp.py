@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.cpp.verbs import verb
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
 
 __all__ = ["parameter_file"]
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gazelle.cpp.host_services import HostClient, HostServer
+from gazelle.cpp.host.services import HostClient, HostServer
 from gazelle.cpp.verbs import verb
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
 
 __all__: list[str] = []
 

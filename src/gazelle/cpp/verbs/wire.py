@@ -18,7 +18,7 @@ from gazelle.cpp.verbs import verb
 from gazelle.errors import InterfaceError, NotFoundError
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_context import HostContext
+    from gazelle.cpp.host.context import HostContext
     from gazelle.interfaces import TypeStore
     from gazelle.interfaces.wire_layout import Layout, Slot
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from gazelle.cpp.building.toolchain import NoToolchainError, find_toolchain
 from gazelle.cpp.requirements import header_advice, package_advice
 from gazelle.cpp.static_needs import MissingHeader, needs_of
-from gazelle.cpp.toolchain import NoToolchainError, find_toolchain
 from gazelle.diagnostics import Diagnostics
 from gazelle.doctor.packages.source import SourcePackage
 from gazelle.workspace import Workspace

@@ -29,7 +29,7 @@ def compiled_controllers(
         if workspace is None:
             return None
         from gazelle.cpp.controllers import ControllerHost, find_compiled_controller
-        from gazelle.cpp.embedded_host import EmbeddingWorld
+        from gazelle.cpp.host.embedded import EmbeddingWorld
 
         world = EmbeddingWorld(host.node, host.commands.call, workspace)
         surroundings = ControllerHost(

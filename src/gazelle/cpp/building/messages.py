@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 
-from gazelle.cpp.build_cache import (
+from gazelle.cpp.building.cache import (
     cache_top,
     digest_of_text,
     make_whole,

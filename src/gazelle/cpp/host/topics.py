@@ -6,14 +6,14 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
-from gazelle.cpp.raw_messages import RawMessageBase, know_type, raw_message_type
+from gazelle.cpp.host.raw_messages import RawMessageBase, know_type, raw_message_type
 from gazelle.errors import GraphError
 from gazelle.graph import Qos
 from gazelle.graph.key_expressions import Kind
 from gazelle.graph.type_support import decode, encode, resolve_type
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_table import Core
+    from gazelle.cpp.host.table import Core
     from gazelle.graph import MessageInfo, RawMessage
     from gazelle.graph.key_expressions import Entity
 

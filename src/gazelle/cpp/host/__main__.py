@@ -55,8 +55,8 @@ def run_node_file(path: Path, argv: list[str], runtime: Sequence[Path] = ()) -> 
     Raises:
         GazelleError: it, or a library that it needs, cannot be loaded.
     """
-    from gazelle.cpp.host_context import HostContext
-    from gazelle.cpp.host_table import Core
+    from gazelle.cpp.host.context import HostContext
+    from gazelle.cpp.host.table import Core
 
     core_path, *libraries = runtime or _linked_with(path)
     core = Core(_checked(core_path.resolve()))
@@ -80,7 +80,7 @@ def run_node_file(path: Path, argv: list[str], runtime: Sequence[Path] = ()) -> 
 
 
 def _linked_with(path: Path) -> Sequence[Path]:
-    from gazelle.cpp.build_runtime import libraries_for
+    from gazelle.cpp.building.runtime import libraries_for
 
     return libraries_for(path)
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.announcements import announce
-from gazelle.cpp.build_cache import (
+from gazelle.cpp.building.cache import (
     cache_top,
     digest_of_file,
     digest_of_text,
@@ -25,9 +25,10 @@ from gazelle.cpp.build_cache import (
     stat_signature,
     touch,
 )
-from gazelle.cpp.build_errors import CppBuildError
-from gazelle.cpp.build_messages import known_messages
-from gazelle.cpp.build_objects import Job, compiled, is_kept, link
+from gazelle.cpp.building.errors import CppBuildError
+from gazelle.cpp.building.messages import known_messages
+from gazelle.cpp.building.objects import Job, compiled, is_kept, link
+from gazelle.cpp.building.toolchain import NoToolchainError, Toolchain, find_toolchain
 from gazelle.cpp.runtime_libraries import (
     HERE,
     LIBRARIES,
@@ -35,7 +36,6 @@ from gazelle.cpp.runtime_libraries import (
     include_roots,
     with_needs,
 )
-from gazelle.cpp.toolchain import NoToolchainError, Toolchain, find_toolchain
 
 __all__ = ["Runtime", "ensure_runtime", "headers_key", "libraries_for", "roots_of"]
 
@@ -203,7 +203,7 @@ def headers_key(generation: int) -> str:
 
 def _build(rows: Sequence[RuntimeLibrary], toolchain: Toolchain, top: Path) -> dict[str, Path]:
     if not toolchain.has_boost:
-        from gazelle.cpp.toolchain import INSTALL_HINT
+        from gazelle.cpp.building.toolchain import INSTALL_HINT
 
         raise CppBuildError(f"there are no headers of Boost here\n  fix: {INSTALL_HINT}")
     jobs: dict[str, list[Job]] = {}

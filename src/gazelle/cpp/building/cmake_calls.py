@@ -1,4 +1,4 @@
-"""What our CMake files ask Python for: ``python -m gazelle.cpp.cmake_calls WHAT SETTINGS …``."""
+"""What our CMake files ask Python for: ``python -m gazelle.cpp.building.cmake_calls …``."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ def _parameters(settings: Path, memory: dict[str, Any], words: Sequence[str]) ->
 
 
 def _libraries(settings: Path, memory: dict[str, Any], words: Sequence[str]) -> int:
-    from gazelle.cpp.build_runtime import ensure_runtime
-    from gazelle.cpp.build_settings import library_rows, quoted, write_if_changed
+    from gazelle.cpp.building.runtime import ensure_runtime
+    from gazelle.cpp.building.settings import library_rows, quoted, write_if_changed
 
     runtime = ensure_runtime([*memory["libraries"], *words], memory["generation"])
     memory["libraries"] = sorted({*memory["libraries"], *words})

@@ -6,11 +6,11 @@ import platform
 import sys
 from pathlib import Path
 
-from gazelle.cpp.build_cache import cache_top
-from gazelle.cpp.build_objects import Job, compiled
-from gazelle.cpp.build_tools import tool
+from gazelle.cpp.building.cache import cache_top
+from gazelle.cpp.building.objects import Job, compiled
+from gazelle.cpp.building.programs import tool
+from gazelle.cpp.building.toolchain import Toolchain
 from gazelle.cpp.runtime_libraries import HERE
-from gazelle.cpp.toolchain import Toolchain
 
 __all__ = ["node_objects"]
 

@@ -8,7 +8,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from gazelle.cpp.raw_messages import raw_service_type
+from gazelle.cpp.host.raw_messages import raw_service_type
 from gazelle.errors import GazelleError
 from gazelle.graph.errors import (
     ServiceRefusedError,
@@ -19,7 +19,7 @@ from gazelle.graph.type_support import decode, encode, request_type, response_ty
 from gazelle.process_lifetime import start_deaf_thread
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_table import Core
+    from gazelle.cpp.host.table import Core
 
 __all__ = ["Calls", "HostClient", "HostServer"]
 

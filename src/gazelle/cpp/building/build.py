@@ -16,8 +16,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gazelle.announcements import announce
-from gazelle.cpp.build_cache import cache_top, digest_of_text, only_one, touch
-from gazelle.cpp.build_cmake import (
+from gazelle.cpp.building.cache import cache_top, digest_of_text, only_one, touch
+from gazelle.cpp.building.cmake import (
     CMakeRun,
     Target,
     configure,
@@ -26,12 +26,12 @@ from gazelle.cpp.build_cmake import (
     run_ninja,
     targets_of,
 )
-from gazelle.cpp.build_errors import CppBuildError
-from gazelle.cpp.build_findings import report_failures
-from gazelle.cpp.build_settings import Unit
+from gazelle.cpp.building.errors import CppBuildError
+from gazelle.cpp.building.findings import report_failures
+from gazelle.cpp.building.settings import Unit
+from gazelle.cpp.building.toolchain import NoToolchainError, Toolchain, find_toolchain
+from gazelle.cpp.host.signal_mask import signals_for_children
 from gazelle.cpp.runtime_libraries import HERE
-from gazelle.cpp.signal_mask import signals_for_children
-from gazelle.cpp.toolchain import NoToolchainError, Toolchain, find_toolchain
 from gazelle.diagnostics import Diagnostics, SourceSpan, did_you_mean, render_text
 from gazelle.workspace import Package, Workspace
 from gazelle.workspace.building.build import takes_part_in_cpp

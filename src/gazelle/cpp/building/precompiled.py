@@ -16,13 +16,13 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from gazelle.announcements import announce
-from gazelle.cpp.build_cache import cache_top
-from gazelle.cpp.build_errors import CppBuildError
-from gazelle.cpp.build_objects import Job, compiled, is_kept
-from gazelle.cpp.build_runtime import roots_of
-from gazelle.cpp.build_settings import Unit, write_if_changed
+from gazelle.cpp.building.cache import cache_top
+from gazelle.cpp.building.errors import CppBuildError
+from gazelle.cpp.building.objects import Job, compiled, is_kept
+from gazelle.cpp.building.runtime import roots_of
+from gazelle.cpp.building.settings import Unit, write_if_changed
+from gazelle.cpp.building.toolchain import Toolchain
 from gazelle.cpp.runtime_libraries import HERE
-from gazelle.cpp.toolchain import Toolchain
 
 __all__ = ["precompiled_header", "precompiled_table"]
 

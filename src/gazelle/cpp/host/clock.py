@@ -6,7 +6,7 @@ import threading
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from gazelle.cpp.host_table import Core
+    from gazelle.cpp.host.table import Core
     from gazelle.graph.clock import Clock
 
 __all__ = ["ClockTeller"]

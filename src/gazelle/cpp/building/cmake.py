@@ -12,11 +12,11 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gazelle.cpp.build_precompiled import precompiled_table
-from gazelle.cpp.build_settings import CMAKE, Unit, write_if_changed, write_settings
+from gazelle.cpp.building.precompiled import precompiled_table
+from gazelle.cpp.building.settings import CMAKE, Unit, write_if_changed, write_settings
+from gazelle.cpp.building.toolchain import INSTALL_HINT, NoToolchainError, Toolchain, find_program
 from gazelle.cpp.provided_packages import provided
 from gazelle.cpp.runtime_libraries import HERE, LIBRARIES
-from gazelle.cpp.toolchain import INSTALL_HINT, NoToolchainError, Toolchain, find_program
 
 __all__ = [
     "CMakeRun",

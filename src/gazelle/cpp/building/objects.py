@@ -18,9 +18,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from gazelle.cpp.build_cache import digest_of_file, digest_of_text, make_whole, only_one
-from gazelle.cpp.build_errors import compiler_failure
-from gazelle.cpp.toolchain import Toolchain
+from gazelle.cpp.building.cache import digest_of_file, digest_of_text, make_whole, only_one
+from gazelle.cpp.building.errors import compiler_failure
+from gazelle.cpp.building.toolchain import Toolchain
 
 __all__ = ["Job", "Roots", "compiled", "is_kept", "link"]
 

@@ -13,10 +13,10 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
-from gazelle.cpp.host_clock import ClockTeller
-from gazelle.cpp.host_services import Calls, HostClient, HostServer
-from gazelle.cpp.host_table import Core, LeftError
-from gazelle.cpp.host_topics import HostPublisher, HostSubscription
+from gazelle.cpp.host.clock import ClockTeller
+from gazelle.cpp.host.services import Calls, HostClient, HostServer
+from gazelle.cpp.host.table import Core, LeftError
+from gazelle.cpp.host.topics import HostPublisher, HostSubscription
 from gazelle.cpp.verbs import verb_named
 from gazelle.errors import GazelleError, GraphError
 from gazelle.graph.console import Level, LogRecord, print_record

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from gazelle.cpp.build_cmake import CMakeRun
-from gazelle.cpp.build_settings import Unit
+from gazelle.cpp.building.cmake import CMakeRun
+from gazelle.cpp.building.settings import Unit
 from gazelle.cpp.requirements import header_advice, library_advice, package_advice
 from gazelle.diagnostics import Diagnostics, SourceSpan
 

@@ -14,10 +14,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gazelle.cpp.build_messages import known_messages
-from gazelle.cpp.build_node import node_objects
-from gazelle.cpp.build_runtime import Runtime, ensure_runtime, roots_of
-from gazelle.cpp.build_tools import launcher, programs
+from gazelle.cpp.building.messages import known_messages
+from gazelle.cpp.building.node_file import node_objects
+from gazelle.cpp.building.programs import launcher, programs
+from gazelle.cpp.building.runtime import Runtime, ensure_runtime, roots_of
+from gazelle.cpp.building.toolchain import Toolchain
 from gazelle.cpp.provided_packages import (
     REFUSED,
     REFUSED_BEGINNINGS,
@@ -25,7 +26,6 @@ from gazelle.cpp.provided_packages import (
     provided,
 )
 from gazelle.cpp.runtime_libraries import HERE, LIBRARIES, with_needs
-from gazelle.cpp.toolchain import Toolchain
 
 __all__ = ["Unit", "library_rows", "quoted", "write_if_changed", "write_settings"]
 
@@ -190,7 +190,7 @@ def _of_package(unit: Unit) -> dict[str, Iterable[str] | str]:
         "GAZELLE_BUILDTOOL_DEPENDS": unit.buildtool_depends,
         "GAZELLE_RUN_DEPENDS": unit.run_depends,
         "GAZELLE_PYTHON": sys.executable,
-        "GAZELLE_PYTHON_COMMAND": [sys.executable, "-m", "gazelle.cpp.cmake_calls"],
+        "GAZELLE_PYTHON_COMMAND": [sys.executable, "-m", "gazelle.cpp.building.cmake_calls"],
         "GAZELLE_SITE_PACKAGES": f"lib/python{info.major}.{info.minor}/site-packages",
         "GAZELLE_EMPTY_SOURCE": str(CMAKE / "left_out.cpp"),
         "GAZELLE_CATKIN_LIBRARIES": (),

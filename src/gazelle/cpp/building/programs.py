@@ -5,10 +5,10 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
-from gazelle.cpp.build_cache import cache_top, digest_of_file, digest_of_text, make_whole
-from gazelle.cpp.build_errors import compiler_failure
+from gazelle.cpp.building.cache import cache_top, digest_of_file, digest_of_text, make_whole
+from gazelle.cpp.building.errors import compiler_failure
+from gazelle.cpp.building.toolchain import ZIG_FLAGS, Toolchain
 from gazelle.cpp.runtime_libraries import HERE
-from gazelle.cpp.toolchain import ZIG_FLAGS, Toolchain
 
 __all__ = ["launcher", "programs", "tool"]
 

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
-from gazelle.cpp.build_runtime import ensure_runtime
-from gazelle.cpp.host_table import Core
+from gazelle.cpp.building.runtime import ensure_runtime
+from gazelle.cpp.host.table import Core
 from gazelle.cpp.verbs import verb_named
 from gazelle.errors import GazelleError
 from gazelle.interfaces import message_type, service_type
@@ -71,7 +71,7 @@ class EmbeddingWorld:
 
 
 class EmbeddedHost:
-    """What `gazelle.cpp.host_table.Core` serves C++ with, over the node of a world.
+    """What `gazelle.cpp.host.table.Core` serves C++ with, over the node of a world.
 
     Attributes:
         core: the runtime.

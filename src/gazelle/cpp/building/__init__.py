@@ -1,0 +1,1 @@
+"""Compiling C++ of packages on this machine: compilers, CMake, runtime libraries, what is kept."""
