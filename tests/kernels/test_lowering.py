@@ -165,6 +165,25 @@ def _of_tuple(a, b):
     return total, seen
 
 
+@kernel
+def _over_arrays(row, matrix):
+    total = 0.0
+    for one in row:
+        if one < 0:
+            break
+        total += one
+    for part in matrix:
+        total += part[0] * part.size
+    return total
+
+
+@given(st.lists(st.integers(-1, 9), max_size=5))
+def test_a_loop_goes_over_the_rows_of_an_array(numbers: list[int]) -> None:
+    row = np.array(numbers, float)
+    for layout in (row, np.repeat(row, 2)[::2], row[::-1]):
+        assert_as_in_python(_over_arrays, layout, np.arange(6.0).reshape(3, 2).T)
+
+
 @given(st.floats(-5, 5), st.floats(-5, 5))
 def test_a_loop_goes_over_a_tuple_of_numbers(a: float, b: float) -> None:
     assert_as_in_python(_of_tuple, a, b)
@@ -793,6 +812,13 @@ def _number_apart(n):
     return a + b
 
 
+def _counted_number(n):
+    total = 0
+    for one in n:
+        total += one
+    return total
+
+
 def _sum_of_tuples(n):
     return (n, 1) + (n, 2)  # noqa: RUF005
 
@@ -928,6 +954,10 @@ def _row_in_place(n):
         (_float_range, 1, 5, "a whole number is needed here"),
         (_three_for_two, 1, 5, "3 values for 2 names"),
         (_number_apart, 1, 5, "only a tuple can be taken apart"),
+        (
+            _counted_number, 2, 5,
+            "kernels count through ranges, arrays and tuples of numbers only",
+        ),
         (_sum_of_tuples, 1, 5, "a number is needed here"),
         (_two_sides, 1, 5, "both sides of an 'if' have different types"),
         (

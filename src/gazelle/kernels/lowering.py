@@ -78,6 +78,7 @@ __all__ = ["Compiled", "Functions", "called", "lowered"]
 
 _MOST_ROUNDS = 60
 _UNSET = object()
+_COUNTED = "kernels count through ranges, arrays and tuples of numbers only"
 
 
 class Compiled(NamedTuple):
@@ -458,9 +459,13 @@ class _Lowering:
             case ast.Call(func=ast.Name(id="range"), args=args):
                 self._for_range(statement, [self._whole(self._value(one)) for one in args])
                 return
-        numbers = self._items(self._value(statement.iter))
-        if not all(isinstance(number, Number) for number in numbers):
-            raise TypeError("kernels count through ranges and tuples of numbers only")
+        counted = self._value(statement.iter)
+        if isinstance(counted, ArrayValue):
+            self._for_elements(statement, counted)
+            return
+        numbers = counted.items if isinstance(counted, TupleValue) else ()
+        if not numbers or not all(isinstance(number, Number) for number in numbers):
+            raise TypeError(_COUNTED)
         kind: KernelType | None = type_of_value(numbers[0])
         for number in numbers:
             kind = joined(kind, type_of_value(number)) if kind is not None else None
@@ -479,6 +484,12 @@ class _Lowering:
             self._assign(statement.target, number._replace(is_natural=is_natural))
 
         self._counted(statement, constant(0), shape[0], constant(1), bind)
+
+    def _for_elements(self, statement: ast.For, row: ArrayValue) -> None:
+        def bind(place: Number) -> None:
+            self._assign(statement.target, self._element(row, [place]))
+
+        self._counted(statement, constant(0), row.shape[0], constant(1), bind)
 
     def _for_range(self, statement: ast.For, ends: list[Number]) -> None:
         first, step = constant(0), constant(1)

@@ -66,6 +66,7 @@ class StepNode:
 
     def __init__(self) -> None:
         self.clock = Clock()
+        self.closed = False
         self.sent: dict[str, list[Any]] = {}
         self.said: list[str] = []
         self._heard: dict[str, list[tuple[Callable[..., None], bool]]] = {}
