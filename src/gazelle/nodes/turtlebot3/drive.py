@@ -80,7 +80,8 @@ class Wanderer:
         if self._state is _State.FORWARD:
             self._state = _State.LOOK
             return _LINEAR_M_S, 0.0
-        if abs(math.remainder(self._from_rad - self.yaw_rad, math.tau)) >= _ESCAPE_RAD:
+        # As the original, which ends a turn where the heading goes from π to −π.
+        if abs(self._from_rad - self.yaw_rad) >= _ESCAPE_RAD:
             self._state = _State.LOOK
             return None
         return 0.0, _ANGULAR_RAD_S if self._state is _State.LEFT else -_ANGULAR_RAD_S

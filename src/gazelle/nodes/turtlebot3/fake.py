@@ -139,6 +139,8 @@ class _Setup:
         joints: left and right.
         joints_frame, frames: of joint states; ends of the transform.
         covariance: of pose and twist.
+        takes_after: commands are taken after an update, as by roscpp's ``spinOnce()``; else as they
+            come.
     """
 
     period_ns: int
@@ -146,6 +148,7 @@ class _Setup:
     joints_frame: str
     frames: tuple[str, str]
     covariance: list[float]
+    takes_after: bool
 
 
 def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
@@ -158,6 +161,7 @@ def run(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> int:
             beside.text("joint_states_frame"),
             (beside.text("odom_frame"), beside.text("base_frame")),
             _COVARIANCE,
+            takes_after=True,
         )
         model = beside.text("tb3_model")
     _drive(node, FakeBase(_separation(node, model)), setup, stop)
@@ -194,6 +198,7 @@ def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
         values["joint_states_frame"],
         (values["odom_frame"], values["base_frame"]),
         [0.0] * 36,
+        takes_after=False,
     )
     _drive(node, FakeBase(separation, radius), setup, stop)
     return 0
@@ -201,7 +206,13 @@ def run_ros2(arguments: NodeArguments, graph: Graph, stop: threading.Event) -> i
 
 def _drive(node: Node, base: FakeBase, setup: _Setup, stop: threading.Event) -> None:
     lock = threading.Lock()
+    waiting: list[tuple[float, float]] = []
     publish = _publishing(node, base, setup)
+
+    def take() -> None:
+        for linear, angular in waiting:
+            base.command(linear, angular, node.clock.now_ns())
+        waiting.clear()
 
     def on_twist(twist: Any) -> None:
         linear, angular = twist.linear.x, twist.angular.z
@@ -209,7 +220,9 @@ def _drive(node: Node, base: FakeBase, setup: _Setup, stop: threading.Event) -> 
             node.log("warn", f"a command that is no number is left out: {linear}, {angular}")
             return
         with lock:
-            base.command(linear, angular, node.clock.now_ns())
+            waiting.append((linear, angular))
+            if not setup.takes_after:
+                take()
 
     twist_type = message_type("geometry_msgs/msg/Twist")
     node.create_subscription("cmd_vel", twist_type, on_twist, queue_size=100)
@@ -219,6 +232,8 @@ def _drive(node: Node, base: FakeBase, setup: _Setup, stop: threading.Event) -> 
             # Time that went back starts anew.
             base.move(now_ns, max(0, now_ns - last_ns))
         publish(now_ns)
+        with lock:
+            take()
         last_ns = now_ns
     node.shutdown()
 
