@@ -29,6 +29,7 @@ from tests.garbage import pytest_collection_finish, pytest_configure  # noqa: F4
 from tests.patience import PATIENCE_S, await_change, eventually, stretched
 
 SHARED = Path(__file__).parents[2] / "shared"
+_CPP_CACHE = Path(__file__).parents[1] / ".pytest_cache" / "cpp"
 _OWN_FOLDERS = ("HOME", "ROS_HOME", "USERPROFILE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME")
 _OWN_FOLDERS += ("XDG_STATE_HOME",)
 # What programs that tests need find by the true home.
@@ -66,6 +67,8 @@ def own_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
                 patch.setenv(variable, str(found))
         for variable in _OWN_FOLDERS:
             patch.setenv(variable, str(tmp_path_factory.mktemp(variable.lower())))
+        # Compiled C++ is kept beside what pytest keeps: to make it anew takes minutes.
+        patch.setenv("GAZELLE_CPP_CACHE", str(_CPP_CACHE))
         yield
 
 

@@ -9,10 +9,13 @@ defined there:
         BagError
         BodyError
         BuildError
+        CalibrationError
         CodedError
             MoveGroupError
             PlanningError
+        ComponentError
         ControllerError
+        CppBuildError
         EmbreeError
         EngineError
             SimulationDivergedError

@@ -31,7 +31,7 @@ UNREAD: dict[str, tuple[str, str]] = {
     ),
     "diagnostic_updater/tasks.py DiagnosticTaskVector.addedTaskCallback": ("task", _HOOK),
     "dynamic_reconfigure/parameter_generator.py ParameterGenerator.generate": (
-        "pkgname nodename",
+        "nodename",
         "the module is found in the package that the file is in",
     ),
     "genpy_message.py strify_message": ("current_time", _SAME),

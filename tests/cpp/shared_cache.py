@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
 from pathlib import Path
 
 import pytest
 
 __all__ = ["shared_cpp_cache"]
 
-_FOLDER = Path(__file__).parents[2] / ".pytest_cache" / "cache_home"
-
 
 @pytest.fixture(scope="session", autouse=True)
-def shared_cpp_cache(own_folders: None) -> Iterator[Path]:
-    """The cache lies beside pytest's own, not in the folders that the session throws away."""
-    _FOLDER.mkdir(parents=True, exist_ok=True)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_CACHE_HOME", str(_FOLDER))
-        yield _FOLDER
+def shared_cpp_cache(own_folders: None) -> Path:
+    """Where it lies; variables of the environment name it in every test."""
+    del own_folders
+    return Path(os.environ["GAZELLE_CPP_CACHE"])

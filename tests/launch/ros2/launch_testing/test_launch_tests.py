@@ -163,7 +163,7 @@ class Beside(unittest.TestCase):
 """
 
 
-def test_a_node_that_is_compiled_code_is_not_waited_for(
+def test_a_node_that_does_not_compile_is_not_waited_for(
     launch_test: Callable[..., Finished], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "demo").mkdir()
@@ -173,7 +173,7 @@ def test_a_node_that_is_compiled_code_is_not_waited_for(
     )
     (tmp_path / "demo/CMakeLists.txt").write_text("add_executable(speak src/speak.cpp)\n")
     (tmp_path / "demo/src").mkdir()
-    (tmp_path / "demo/src/speak.cpp").write_text("int main() {}\n")
+    (tmp_path / "demo/src/speak.cpp").write_text("int main() { return nowhere; }\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
     ran = launch_test(_COMPILED)
     assert ran.returncode == 0, ran.stdout + ran.stderr
