@@ -394,7 +394,8 @@ def commands(folder: Path, graph_port: int) -> Iterator[Run]:
     ) -> Launched:
         clean = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "GAZELLE_"))}
         own = {"GAZELLE_PORT": str(port), "ROS_HOME": str(folder / "ros_home")}
-        own |= {"GAZELLE_STUDIO": "0", _RUN_MARK: mark, **environ}
+        own |= {"GAZELLE_CPP_CACHE": str(_CPP_CACHE), "GAZELLE_STUDIO": "0"}
+        own |= {_RUN_MARK: mark, **environ}
         command = [sys.executable, "-m", module, *words]
         running.append(Launched(command, port=port, cwd=cwd, environ={**clean, **own}, stdin=stdin))
         return running[-1]

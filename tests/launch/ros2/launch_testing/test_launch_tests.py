@@ -14,6 +14,7 @@ import pytest
 from tests.patience import stretched
 
 from gazelle.launch.environment import drop_in_folder
+from gazelle.launch.ros2.launch_ros.launch_graph import drop_graph
 from gazelle.launch.ros2.launch_testing.launch_test import main
 from gazelle.workspace.ament_index import known_workspace
 
@@ -164,8 +165,14 @@ class Beside(unittest.TestCase):
 
 
 def test_a_node_that_does_not_compile_is_not_waited_for(
-    launch_test: Callable[..., Finished], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    launch_test: Callable[..., Finished],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    request: pytest.FixtureRequest,
+    free_port: int,
 ) -> None:
+    monkeypatch.setenv("GAZELLE_PORT", str(free_port))
+    request.addfinalizer(drop_graph)
     (tmp_path / "demo").mkdir()
     (tmp_path / "demo/package.xml").write_text(
         "<package format='3'><name>demo</name><version>1.0.0</version><description>d</description>"
