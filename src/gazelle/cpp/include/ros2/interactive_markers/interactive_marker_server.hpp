@@ -44,16 +44,14 @@ class InteractiveMarkerServer {
                           const rclcpp::QoS& feedback_sub_qos = rclcpp::QoS(1))
       : InteractiveMarkerServer(
             topic_namespace, node->get_node_base_interface(), node->get_node_clock_interface(),
-            node->get_node_logging_interface(), node->get_node_timers_interface(),
-            node->get_node_topics_interface(), node->get_node_services_interface(), update_pub_qos,
-            feedback_sub_qos) {}
+            node->get_node_logging_interface(), node->get_node_topics_interface(),
+            node->get_node_services_interface(), update_pub_qos, feedback_sub_qos) {}
 
   InteractiveMarkerServer(
       const std::string& topic_namespace,
       rclcpp::node_interfaces::NodeBaseInterface::SharedPtr base_interface,
       rclcpp::node_interfaces::NodeClockInterface::SharedPtr clock_interface,
       rclcpp::node_interfaces::NodeLoggingInterface::SharedPtr /*logging_interface*/,
-      rclcpp::node_interfaces::NodeTimersInterface::SharedPtr timers_interface,
       rclcpp::node_interfaces::NodeTopicsInterface::SharedPtr topics_interface,
       rclcpp::node_interfaces::NodeServicesInterface::SharedPtr services_interface,
       const rclcpp::QoS& update_pub_qos = rclcpp::QoS(100),
@@ -77,8 +75,6 @@ class InteractiveMarkerServer {
           core_.all(response->markers);
         },
         rclcpp::ServicesQoS(), base_interface->get_default_callback_group());
-    // Nobody is told that the server is alive where nothing changes: clients see its topic.
-    (void)timers_interface;
   }
   ~InteractiveMarkerServer() {
     if (!rclcpp::ok(context_)) return;

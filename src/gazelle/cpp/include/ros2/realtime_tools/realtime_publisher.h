@@ -1,0 +1,3 @@
+#pragma once
+
+#include "realtime_tools/realtime_publisher.hpp"
