@@ -49,6 +49,8 @@ SignalsBlocked::SignalsBlocked() {
   for (int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS}) {
     sigdelset(&all, number);
   }
+  // What Python starts meanwhile inherits the mask, and would never hear of its own children's end.
+  sigdelset(&all, SIGCHLD);
   pthread_sigmask(SIG_BLOCK, &all, &before_);
 }
 
